@@ -1,0 +1,36 @@
+"""Everything that must hold, as one command: `python -m tests`.
+
+Formatter, linter, layers, types, then the tests with branch coverage. Words
+after the command go to pytest: `python -m tests -k history` runs less.
+"""
+
+import subprocess
+import sys
+from pathlib import Path
+
+PYTHON = [sys.executable, "-m"]
+COVERAGE = ["--cov", "--cov-report=term", "--cov-fail-under=90"]
+
+CHECKS = [
+    [*PYTHON, "ruff", "format", "--check", "."],
+    [*PYTHON, "ruff", "check", "."],
+    [str(Path(sys.executable).with_name("lint-imports"))],
+    [*PYTHON, "mypy"],
+]
+
+
+def main(words: list[str]) -> int:
+    """Run every check, tests last; stop at the first that fails."""
+    root = Path(__file__).resolve().parent.parent
+    # A part of the tests covers a part of the code, so only the whole is judged.
+    tests = [*PYTHON, "pytest", *(words or COVERAGE)]
+    for command in [*CHECKS, tests]:
+        print("$", *command, flush=True)  # noqa: T201
+        status = subprocess.run(command, cwd=root, check=False).returncode
+        if status:
+            return status
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main(sys.argv[1:]))

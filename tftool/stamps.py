@@ -1,0 +1,50 @@
+"""Moments and durations: whole nanoseconds, as tf2 keeps them.
+
+A stamp is an `int`. In every question 0 is not a moment but means "latest".
+"""
+
+import math
+from typing import TypeAlias
+
+Stamp: TypeAlias = int
+"""A moment in nanoseconds since the clock's epoch; 0 in a question means latest."""
+
+Duration: TypeAlias = int
+"""A length of time in nanoseconds."""
+
+LATEST: Stamp = 0
+"""In a question: the latest time for which every link of the chain has data."""
+
+NANOSECONDS = 1_000_000_000
+"""Nanoseconds in a second."""
+
+
+def seconds(value: float) -> int:
+    """Turn seconds into nanoseconds, rounding half away from zero as tf2 does.
+
+    Args:
+        value: Seconds, finite.
+
+    Returns:
+        Whole nanoseconds.
+
+    Raises:
+        ValueError: If `value` is NaN or infinite.
+    """
+    if not math.isfinite(value):
+        raise ValueError(f"{value!r} is not a finite number of seconds")
+    whole = math.floor(value)
+    # The fraction is never negative, so half away from zero is half up.
+    return whole * NANOSECONDS + math.floor((value - whole) * 1e9 + 0.5)
+
+
+def as_seconds(stamp: int) -> float:
+    """Turn nanoseconds into seconds, split toward zero as tf2 does before adding."""
+    whole, rest = divmod(abs(stamp), NANOSECONDS)
+    value = float(whole) + 1e-9 * float(rest)
+    return -value if stamp < 0 else value
+
+
+def display(stamp: int) -> str:
+    """Write a stamp as tf2 does in its messages: seconds with six decimals."""
+    return f"{as_seconds(stamp):.6f}"
