@@ -1,0 +1,331 @@
+"""Where time comes from: simulated or real, one interface for both.
+
+Nobody else touches `time` or `asyncio.sleep`. A waiter names the moment it wants
+and its place within that moment: (stamp, phase, rank, order of asking). Both
+clocks wake waiters in exactly that order, because asyncio itself breaks ties
+between timers of one instant unpredictably.
+
+On the simulated clock the event loop lives in virtual time too: when every task
+sleeps, time jumps to whatever is due next, so asyncio's own timeouts mean
+simulated time and ten minutes pass in a second.
+"""
+
+import asyncio
+import heapq
+import math
+import selectors
+import signal
+import threading
+import time
+from abc import ABC, abstractmethod
+from collections.abc import Coroutine, Mapping
+from enum import IntEnum
+from typing import Any, TypeVar
+
+from tftool.errors import TftoolError
+from tftool.stamps import NANOSECONDS, Duration, Stamp, seconds
+
+T = TypeVar("T")
+
+
+class Phase(IntEnum):
+    """The order of wake-ups within one instant."""
+
+    SIMULATE = 0
+    BROADCAST = 1
+    CONSUME = 2
+    WATCH = 3
+    END = 4
+
+
+class Clock(ABC):
+    """A source of stamps that can be waited on.
+
+    Attributes:
+        epoch: The moment the clock was made. Never 0, which means "latest".
+        rate: How many of the clock's seconds pass in a real one; infinite when simulated.
+    """
+
+    epoch: Stamp
+    rate: float
+
+    def __init__(self, epoch: Stamp, rate: float) -> None:
+        self.epoch = epoch
+        self.rate = rate
+        self._waiters: list[tuple[Stamp, int, int, int, asyncio.Future[None]]] = []
+        self._asked = 0
+
+    @abstractmethod
+    def now(self) -> Stamp:
+        """The moment it is, in nanoseconds."""
+
+    @abstractmethod
+    def new_loop(self) -> asyncio.AbstractEventLoop:
+        """Make an event loop whose time is this clock's."""
+
+    def elapsed(self) -> Duration:
+        """How long ago the clock's epoch was, in nanoseconds."""
+        return self.now() - self.epoch
+
+    def timer(
+        self, stamp: Stamp, phase: Phase = Phase.CONSUME, rank: int = 0
+    ) -> "asyncio.Future[None]":
+        """A future that is done at `stamp` (at once, in turn, if that has passed).
+
+        Cancel it to give it up.
+        """
+        future: asyncio.Future[None] = asyncio.get_running_loop().create_future()
+        self._asked += 1
+        due = max(stamp, self.now())
+        heapq.heappush(self._waiters, (due, phase, rank, self._asked, future))
+        return future
+
+    async def sleep_until(self, stamp: Stamp, phase: Phase = Phase.CONSUME, rank: int = 0) -> None:
+        """Wait for a moment; one that has passed still waits for its turn."""
+        await self.timer(stamp, phase, rank)
+
+    async def sleep(self, duration: Duration, phase: Phase = Phase.CONSUME, rank: int = 0) -> None:
+        """Wait for a while, in nanoseconds of this clock."""
+        await self.timer(self.now() + duration, phase, rank)
+
+    def _next_due(self) -> Stamp | None:
+        """When the next waiter that still waits is due; given-up ones are dropped."""
+        while self._waiters:
+            if not self._waiters[0][4].done():
+                return self._waiters[0][0]
+            heapq.heappop(self._waiters)
+        return None
+
+
+class SimClock(Clock):
+    """Simulated time: stands still while anything runs, jumps when everything waits.
+
+    Two runs are the same run. One waiter is woken at a time, and everything it
+    sets off comes to rest before the next one of the same instant is woken.
+    """
+
+    def __init__(self, epoch: Stamp = seconds(1000)) -> None:
+        """Start at `epoch`.
+
+        Raises:
+            ValueError: If `epoch` is not after 0; 0 means "latest" in every question.
+        """
+        if epoch <= 0:
+            raise ValueError("a simulated clock starts after 0, which means 'latest'")
+        super().__init__(epoch, math.inf)
+        self._now = epoch
+
+    def now(self) -> Stamp:
+        """The simulated moment, in nanoseconds."""
+        return self._now
+
+    def new_loop(self) -> asyncio.AbstractEventLoop:
+        """Make an event loop that lives in this clock's time."""
+        return _VirtualLoop(self)
+
+    def advance(self, loop_timer: float | None) -> bool:
+        """Jump to what is due next and wake it; False when nothing is due, ever.
+
+        Called by the clock's own event loop when every task waits.
+
+        Args:
+            loop_timer: Seconds until asyncio's own next timer, None without one.
+        """
+        due = self._next_due()
+        timer = None if loop_timer is None else self._now + math.ceil(loop_timer * NANOSECONDS)
+        if due is None and timer is None:
+            return False
+        # At a tie our waiters go first: data that arrives in time beats its timeout.
+        if timer is not None and (due is None or timer < due):
+            self._now = timer
+            return True
+        stamp, _, _, _, future = heapq.heappop(self._waiters)
+        self._now = stamp
+        future.set_result(None)
+        return True
+
+
+class WallClock(Clock):
+    """Real time since the Unix epoch, optionally running faster or slower.
+
+    Steps of the system's clock do not reach it: it is read once, then a
+    monotonic clock counts on.
+    """
+
+    def __init__(self, rate: float = 1.0) -> None:
+        """Start now, at `rate` times real time.
+
+        Raises:
+            ValueError: If `rate` is not a positive finite number.
+        """
+        if not (math.isfinite(rate) and rate > 0):
+            raise ValueError(f"a rate must be a positive number, not {rate!r}")
+        super().__init__(time.time_ns(), rate)
+        self._started = time.monotonic_ns()
+        self._alarm: asyncio.TimerHandle | None = None
+
+    def now(self) -> Stamp:
+        """The moment it is, in nanoseconds since the Unix epoch (at rate 1)."""
+        passed = time.monotonic_ns() - self._started
+        return self.epoch + (passed if self.rate == 1.0 else round(passed * self.rate))
+
+    def new_loop(self) -> asyncio.AbstractEventLoop:
+        """Make an ordinary event loop."""
+        return asyncio.new_event_loop()
+
+    def timer(
+        self, stamp: Stamp, phase: Phase = Phase.CONSUME, rank: int = 0
+    ) -> "asyncio.Future[None]":
+        """A future that is done at `stamp`; the alarm is set anew if that is the earliest."""
+        future = super().timer(stamp, phase, rank)
+        if self._waiters[0][4] is future:
+            self._set_alarm()
+        return future
+
+    def _set_alarm(self) -> None:
+        if self._alarm is not None:
+            self._alarm.cancel()
+            self._alarm = None
+        due = self._next_due()
+        if due is not None:
+            delay = max(0, due - self.now()) / (NANOSECONDS * self.rate)
+            self._alarm = asyncio.get_running_loop().call_later(delay, self._wake)
+
+    def _wake(self) -> None:
+        if self._alarm is not None:
+            self._alarm.cancel()
+            self._alarm = None
+        due = self._next_due()
+        if due is None or due > self.now():
+            self._set_alarm()
+            return
+        heapq.heappop(self._waiters)[4].set_result(None)
+        # The woken task takes its step before the next waiter of the instant is woken.
+        asyncio.get_running_loop().call_soon(self._wake)
+
+
+class _VirtualLoop(asyncio.SelectorEventLoop):
+    """An event loop whose time is a simulated clock's."""
+
+    def __init__(self, clock: SimClock) -> None:
+        self.clock = clock
+        super().__init__(_VirtualSelector(self))
+
+    def time(self) -> float:
+        """The clock's moment in seconds, for asyncio's own timers."""
+        return self.clock.now() / NANOSECONDS
+
+    def is_forsaken(self) -> bool:
+        """Whether nothing from outside can wake this loop any more."""
+        selector: Any = getattr(self, "_selector", None)
+        # The one file that is always there is the loop's own wake-up pipe.
+        files = 0 if selector is None else len(selector.get_map())
+        return files <= 1 and getattr(self, "_default_executor", None) is None
+
+
+class _VirtualSelector(selectors.DefaultSelector):
+    """Where a virtual loop would wait for files, it lets its clock jump instead."""
+
+    POLL_EVERY = 64
+
+    def __init__(self, loop: _VirtualLoop) -> None:
+        super().__init__()
+        self._loop = loop
+        self._calls = 0
+
+    def select(self, timeout: float | None = None) -> Any:
+        """Poll now and then for signals and threads; jump when the loop has nothing to run."""
+        self._calls += 1
+        if self._calls % self.POLL_EVERY == 0 or self.has_files():
+            events = super().select(0)
+            if events:
+                return events
+        if timeout is not None and timeout <= 0:
+            return []
+        if self._loop.clock.advance(timeout):
+            return []
+        if self._loop.is_forsaken():
+            raise TftoolError(
+                "nothing is due and every task waits: this run would never end. "
+                "Give it an end (until), or something that wakes it."
+            )
+        return super().select(None)
+
+    def has_files(self) -> bool:
+        """Whether anything besides the loop's own pipe is watched."""
+        return len(self.get_map()) > 1
+
+
+def run(clock: Clock, main: Coroutine[Any, Any, T]) -> T:
+    """Run a coroutine to its end on the loop that belongs to `clock`.
+
+    SIGINT and SIGTERM cancel it, so that every `finally` runs; a second one
+    ends the process the hard way.
+
+    Returns:
+        What the coroutine returns.
+
+    Raises:
+        KeyboardInterrupt: If a signal ended it.
+        Exception: What the coroutine raises.
+    """
+    loop = clock.new_loop()
+    try:
+        asyncio.set_event_loop(loop)
+        task = loop.create_task(main)
+        signals = _Signals(loop, task)
+        try:
+            result = loop.run_until_complete(task)
+            if signals.caught:
+                raise KeyboardInterrupt
+            return result
+        except asyncio.CancelledError:
+            if signals.caught:
+                raise KeyboardInterrupt from None
+            raise
+        finally:
+            _cancel_leftovers(loop)
+            signals.restore()
+            loop.run_until_complete(loop.shutdown_asyncgens())
+    finally:
+        asyncio.set_event_loop(None)
+        loop.close()
+
+
+class _Signals:
+    """Turns the first SIGINT or SIGTERM into a cancellation, where the platform lets us."""
+
+    def __init__(self, loop: asyncio.AbstractEventLoop, task: "asyncio.Task[Any]") -> None:
+        self.caught = False
+        self._loop = loop
+        self._task = task
+        self._before: dict[signal.Signals, Any] = {}
+        if threading.current_thread() is not threading.main_thread():
+            return
+        for number in (signal.SIGINT, signal.SIGTERM):
+            before = signal.getsignal(number)
+            try:
+                loop.add_signal_handler(number, self._catch)
+            except NotImplementedError:  # Windows: KeyboardInterrupt comes by itself
+                return
+            self._before[number] = before
+
+    def _catch(self) -> None:
+        self.caught = True
+        self._task.cancel()
+        self.restore(dict.fromkeys(self._before, signal.SIG_DFL))
+
+    def restore(self, handlers: Mapping[signal.Signals, Any] | None = None) -> None:
+        """Give the signals back to whoever had them, or to `handlers`."""
+        for number, before in (handlers or self._before).items():
+            self._loop.remove_signal_handler(number)
+            if before is not None:
+                signal.signal(number, before)
+
+
+def _cancel_leftovers(loop: asyncio.AbstractEventLoop) -> None:
+    leftovers = asyncio.all_tasks(loop)
+    for task in leftovers:
+        task.cancel()
+    if leftovers:
+        loop.run_until_complete(asyncio.gather(*leftovers, return_exceptions=True))

@@ -1,0 +1,68 @@
+"""What nodes have to say, kept for screens and handed to whoever listens."""
+
+from collections import deque
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import Literal
+
+from tftool.stamps import Stamp
+
+Level = Literal["DEBUG", "INFO", "WARN", "ERROR"]
+
+
+@dataclass(frozen=True, slots=True)
+class LogRecord:
+    """One line of a log.
+
+    Attributes:
+        stamp: When it was said, by the world's clock.
+        level: How much it matters.
+        node: Who said it.
+        text: What was said. It may hold strangers' names: escape it where it is shown.
+    """
+
+    stamp: Stamp
+    level: Level
+    node: str
+    text: str
+
+
+class Log:
+    """The last thousand lines, and those who want each as it comes."""
+
+    def __init__(self, now: Callable[[], Stamp], keep: int = 1000) -> None:
+        self.records: deque[LogRecord] = deque(maxlen=keep)
+        self._now = now
+        self._listeners: tuple[Callable[[LogRecord], object], ...] = ()
+
+    def listen(self, callback: Callable[[LogRecord], object]) -> Callable[[], None]:
+        """Have `callback` called with every line to come; call what is returned to stop."""
+        self._listeners = (*self._listeners, callback)
+
+        def stop() -> None:
+            self._listeners = tuple(one for one in self._listeners if one is not callback)
+
+        return stop
+
+    def debug(self, node: str, text: str) -> None:
+        """Say something for whoever looks for a fault."""
+        self.add("DEBUG", node, text)
+
+    def info(self, node: str, text: str) -> None:
+        """Say what happens."""
+        self.add("INFO", node, text)
+
+    def warn(self, node: str, text: str) -> None:
+        """Say what is odd."""
+        self.add("WARN", node, text)
+
+    def error(self, node: str, text: str) -> None:
+        """Say what went wrong."""
+        self.add("ERROR", node, text)
+
+    def add(self, level: Level, node: str, text: str) -> None:
+        """Keep a line and hand it on."""
+        record = LogRecord(self._now(), level, node, text)
+        self.records.append(record)
+        for listener in self._listeners:
+            listener(record)

@@ -1,0 +1,160 @@
+"""A node: one coroutine, `run`, in a world, waiting only through the world's clock."""
+
+from collections.abc import AsyncIterator, Callable
+from typing import Any, ClassVar, TypeVar
+
+from tftool.frames.buffer import Buffer
+from tftool.frames.sample import TransformStamped
+from tftool.runtime.clock import Clock, Phase
+from tftool.runtime.parameters import Parameters, Value
+from tftool.runtime.world import World
+from tftool.stamps import Duration, Stamp, as_seconds
+
+T = TypeVar("T")
+
+CATCH_UP = 5
+"""How many late ticks of a timer are made up for before it slips."""
+
+
+class Node:
+    """Override `run`, and wait by `every` or the clock.
+
+    Attributes:
+        world: Where it lives.
+        name: Who it is, in logs and as the authority of what it broadcasts.
+        rank: Its place among the nodes of the world: who joined first goes first.
+        phase: Its place within an instant.
+    """
+
+    phase: ClassVar[Phase] = Phase.CONSUME
+
+    def __init__(self, world: World, name: str) -> None:
+        """Join `world` as `name`.
+
+        Raises:
+            TftoolError: If a node of that name is there.
+        """
+        self.world = world
+        self.name = name
+        self.rank = 0
+        self.parameters = Parameters(name)
+        self._stops: list[Callable[[], None]] = []
+        world.add(self)
+
+    @property
+    def clock(self) -> Clock:
+        """The world's clock."""
+        return self.world.clock
+
+    @property
+    def buffer(self) -> Buffer:
+        """The world's buffer."""
+        return self.world.buffer
+
+    async def run(self) -> None:
+        """What the node does; it ends when this returns."""
+
+    async def every(self, period: Duration, *, immediately: bool = False) -> AsyncIterator[Stamp]:
+        """The moments of a timer, on an integer grid from now on.
+
+        The first is one period from now, as a ROS timer's. On the wall clock a late
+        node gets a few missed ticks made up for, then the grid slips and it is said.
+
+        Args:
+            period: Nanoseconds between two moments.
+            immediately: Whether the first moment is now.
+
+        Raises:
+            ValueError: If the period is not positive.
+        """
+        if period <= 0:
+            raise ValueError(f"a timer's period must be positive, not {period} ns")
+        due = self.clock.now() if immediately else self.clock.now() + period
+        slipped = False
+        while True:
+            await self.clock.sleep_until(due, self.phase, self.rank)
+            missed = (self.clock.now() - due) // period
+            if missed > CATCH_UP:
+                due += missed * period
+                if not slipped:
+                    slipped = True
+                    self.warn(
+                        f"timer of {as_seconds(period):g} s is {missed} ticks late; "
+                        "it skips them, and will do so silently from now on"
+                    )
+            yield due
+            due += period
+
+    # Talking
+
+    def publish(self, topic: str, value: Any) -> None:
+        """Publish on a topic, made with the value's type if it is new."""
+        self.world.topic(topic, type(value)).publish(value)
+
+    def subscribe(
+        self, topic: str, kind: type[T], callback: Callable[[T], object]
+    ) -> Callable[[], None]:
+        """Have `callback` called with every value; if it raises, this node has failed."""
+
+        def guarded(value: T) -> None:
+            try:
+                callback(value)
+            except Exception as error:
+                self.world.fail(self, error)
+
+        return self._until_end(self.world.topic(topic, kind).subscribe(guarded))
+
+    def serve(self, name: str, handler: Callable[[Any], Any]) -> Callable[[], None]:
+        """Answer a service until this node ends."""
+        return self._until_end(self.world.serve(name, handler))
+
+    def serve_action(self, name: str, accept: Callable[[Any], None]) -> Callable[[], None]:
+        """Take an action's goals until this node ends."""
+        return self._until_end(self.world.serve_action(name, accept))
+
+    async def call(self, service: str, request: Any) -> Any:
+        """Ask a service and wait for its answer."""
+        return await self.world.call(service, request)
+
+    def broadcast(self, *transforms: TransformStamped) -> None:
+        """Put transforms into the buffer, under this node's name."""
+        self.world.broadcast(transforms, self.name)
+
+    def broadcast_static(self, *transforms: TransformStamped) -> None:
+        """Put transforms that hold for all time into the buffer, under this node's name."""
+        self.world.broadcast(transforms, self.name, static=True)
+
+    def info(self, text: str) -> None:
+        """Log what happens."""
+        self.world.log.info(self.name, text)
+
+    def warn(self, text: str) -> None:
+        """Log what is odd."""
+        self.world.log.warn(self.name, text)
+
+    def error(self, text: str) -> None:
+        """Log what went wrong."""
+        self.world.log.error(self.name, text)
+
+    # Settings
+
+    def declare_parameter(self, name: str, default: Value) -> Value:
+        """Make a setting known with its default."""
+        return self.parameters.declare(name, default)
+
+    def get_parameter(self, name: str) -> Value:
+        """A setting as it stands."""
+        return self.parameters[name]
+
+    def set_parameter(self, name: str, value: Value) -> None:
+        """Change a setting; see `Parameters.set`."""
+        self.parameters.set(name, value)
+
+    def close(self) -> None:
+        """Withdraw every subscription and service; the supervisor calls it at the end."""
+        while self._stops:
+            self._stops.pop()()
+
+    def _until_end(self, stop: Callable[[], None]) -> Callable[[], None]:
+        self._stops.append(stop)
+        return stop

@@ -1,0 +1,154 @@
+"""Typed streams inside one process, and the questions that want an answer.
+
+Delivery is a direct call: whoever publishes has told every subscriber, in the
+order they subscribed, before `publish` returns.
+"""
+
+import asyncio
+from collections import deque
+from collections.abc import AsyncIterator, Awaitable, Callable
+from dataclasses import dataclass
+from typing import Any, Generic, Literal, TypeVar
+
+T = TypeVar("T")
+
+Status = Literal["succeeded", "aborted", "canceled"]
+
+
+class Topic(Generic[T]):
+    """A named stream of values of one type that keeps its latest value.
+
+    Attributes:
+        name: The topic's name, without a leading slash.
+        kind: The type every value has.
+        latest: The value published last, None before the first.
+        count: How many values were published.
+    """
+
+    __slots__ = ("_subscribers", "count", "kind", "latest", "name")
+
+    def __init__(self, name: str, kind: type[T]) -> None:
+        self.name = name
+        self.kind = kind
+        self.latest: T | None = None
+        self.count = 0
+        self._subscribers: tuple[Callable[[T], object], ...] = ()
+
+    def publish(self, value: T) -> None:
+        """Keep `value` and tell every subscriber at once.
+
+        Raises:
+            TypeError: If `value` is not of the topic's kind.
+        """
+        if not isinstance(value, self.kind):
+            raise TypeError(
+                f"topic '{self.name}' carries {self.kind.__name__}, not {type(value).__name__}"
+            )
+        self.latest = value
+        self.count += 1
+        for subscriber in self._subscribers:
+            subscriber(value)
+
+    def subscribe(self, callback: Callable[[T], object]) -> Callable[[], None]:
+        """Have `callback` called with every value to come; call what is returned to stop."""
+        # A list that changes while it is walked would skip somebody; a new tuple cannot.
+        self._subscribers = (*self._subscribers, callback)
+
+        def stop() -> None:
+            kept = list(self._subscribers)
+            if callback in kept:
+                kept.remove(callback)
+            self._subscribers = tuple(kept)
+
+        return stop
+
+    @property
+    def subscribers(self) -> int:
+        """How many listen at the moment."""
+        return len(self._subscribers)
+
+    async def stream(self, depth: int = 100) -> AsyncIterator[T]:
+        """Values to come, one by one; a reader slower than `depth` values loses the oldest."""
+        waiting: deque[T] = deque(maxlen=depth)
+        arrived = asyncio.Event()
+
+        def keep(value: T) -> None:
+            waiting.append(value)
+            arrived.set()
+
+        stop = self.subscribe(keep)
+        try:
+            while True:
+                while waiting:
+                    yield waiting.popleft()
+                arrived.clear()
+                await arrived.wait()
+        finally:
+            stop()
+
+
+Handler = Callable[[Any], Any | Awaitable[Any]]
+"""Answers a service's request, now or when awaited."""
+
+
+@dataclass(frozen=True, slots=True)
+class GoalResult:
+    """How an action ended.
+
+    Attributes:
+        status: "succeeded", "aborted" or "canceled".
+        value: The action's result.
+    """
+
+    status: Status
+    value: Any
+
+
+class GoalHandle:
+    """One goal of an action, as both its client and its server hold it.
+
+    Attributes:
+        request: What was asked for.
+        cancel_requested: Whether the client wants it stopped.
+        feedback: The last feedback, None before the first.
+    """
+
+    def __init__(self, request: Any, on_feedback: Callable[[Any], object] | None = None) -> None:
+        self.request = request
+        self.cancel_requested = False
+        self.feedback: Any = None
+        self._on_feedback = on_feedback
+        self._result: asyncio.Future[GoalResult] = asyncio.get_running_loop().create_future()
+
+    # The client's side.
+
+    def cancel(self) -> None:
+        """Ask the server to stop; does nothing once the goal has ended."""
+        if not self.done:
+            self.cancel_requested = True
+
+    async def result(self) -> GoalResult:
+        """Wait for the end."""
+        return await asyncio.shield(self._result)
+
+    @property
+    def done(self) -> bool:
+        """Whether the goal has ended."""
+        return self._result.done()
+
+    # The server's side.
+
+    def publish_feedback(self, value: Any) -> None:
+        """Tell the client how far it is."""
+        self.feedback = value
+        if self._on_feedback is not None:
+            self._on_feedback(value)
+
+    def finish(self, status: Status, value: Any) -> None:
+        """End the goal; the first end counts."""
+        if not self.done:
+            self._result.set_result(GoalResult(status, value))
+
+
+Acceptor = Callable[[GoalHandle], None]
+"""Takes a goal over; it ends it with `finish`."""

@@ -1,0 +1,296 @@
+"""The world nodes live in: one clock, one buffer, topics, services, actions, a log."""
+
+import inspect
+from collections.abc import Callable, Iterable, Mapping
+from dataclasses import dataclass
+from types import MappingProxyType
+from typing import TYPE_CHECKING, Any, TypeVar, cast
+
+from tftool.errors import TftoolError
+from tftool.frames.buffer import Buffer
+from tftool.frames.sample import TransformStamped
+from tftool.runtime import waiting
+from tftool.runtime.clock import Clock
+from tftool.runtime.log import Log
+from tftool.runtime.topics import Acceptor, GoalHandle, Handler, Topic
+from tftool.stamps import Duration, Stamp, seconds
+
+if TYPE_CHECKING:
+    from tftool.runtime.node import Node
+
+T = TypeVar("T")
+
+
+@dataclass(frozen=True, slots=True)
+class TransformMessage:
+    """What travels on topics `tf` and `tf_static`: transforms and who sent them."""
+
+    transforms: tuple[TransformStamped, ...]
+    authority: str
+
+
+class World:
+    """Everything the nodes of one process share.
+
+    Attributes:
+        clock: Whose time everything here means.
+        buffer: What is known of frames.
+        log: What the nodes said.
+        nodes: Those who joined, in order.
+    """
+
+    def __init__(
+        self,
+        clock: Clock,
+        buffer: Buffer | None = None,
+        *,
+        cache_time: Duration = seconds(10),
+    ) -> None:
+        self.clock = clock
+        self.log = Log(clock.now)
+        self.buffer = buffer or Buffer(cache_time, log=self._log_buffer)
+        self.nodes: list[Node] = []
+        self._joined = 0
+        self._topics: dict[str, Topic[Any]] = {}
+        self._services: dict[str, Handler] = {}
+        self._actions: dict[str, Acceptor] = {}
+        self._statics: dict[str, dict[str, TransformStamped]] = {}
+        self._supervisor: Supervision | None = None
+        self.tf = self.topic("tf", TransformMessage)
+        self.tf_static = self.topic("tf_static", TransformMessage)
+
+    # Topics
+
+    def topic(self, name: str, kind: type[T]) -> Topic[T]:
+        """The topic of that name, made when it is first named.
+
+        Raises:
+            TftoolError: If it is there already and carries something else.
+        """
+        name = name.removeprefix("/")
+        topic = self._topics.get(name)
+        if topic is None:
+            topic = self._topics[name] = Topic(name, kind)
+        elif topic.kind is not kind:
+            raise TftoolError(f"topic '{name}' carries {topic.kind.__name__}, not {kind.__name__}")
+        return cast("Topic[T]", topic)
+
+    def topics(self) -> Mapping[str, Topic[Any]]:
+        """Every topic by its name, read-only."""
+        return MappingProxyType(self._topics)
+
+    def remove_topic(self, name: str) -> None:
+        """Forget a topic; who still holds it talks to nobody."""
+        self._topics.pop(name.removeprefix("/"), None)
+
+    # Services and actions
+
+    def serve(self, name: str, handler: Handler) -> Callable[[], None]:
+        """Answer a service by `handler`; call what is returned to stop.
+
+        Raises:
+            TftoolError: If somebody serves that name already.
+        """
+        return _offer(self._services, name, handler, "service")
+
+    def has_service(self, name: str) -> bool:
+        """Whether somebody answers that service."""
+        return name.removeprefix("/") in self._services
+
+    def services(self) -> Mapping[str, Handler]:
+        """Every service by its name, read-only."""
+        return MappingProxyType(self._services)
+
+    async def call(self, name: str, request: Any) -> Any:
+        """Ask a service and wait for its answer.
+
+        Raises:
+            TftoolError: If nobody serves that name.
+        """
+        handler = self._services.get(name.removeprefix("/"))
+        if handler is None:
+            raise TftoolError(f"no node serves '{name}'")
+        response = handler(request)
+        return await response if inspect.isawaitable(response) else response
+
+    def serve_action(self, name: str, accept: Acceptor) -> Callable[[], None]:
+        """Take goals of an action by `accept`; call what is returned to stop.
+
+        Raises:
+            TftoolError: If somebody serves that action already.
+        """
+        return _offer(self._actions, name, accept, "action")
+
+    def actions(self) -> Mapping[str, Acceptor]:
+        """Every action by its name, read-only."""
+        return MappingProxyType(self._actions)
+
+    async def send_goal(
+        self, name: str, goal: Any, on_feedback: Callable[[Any], object] | None = None
+    ) -> GoalHandle:
+        """Hand a goal to an action's server.
+
+        Raises:
+            TftoolError: If nobody serves that action.
+        """
+        accept = self._actions.get(name.removeprefix("/"))
+        if accept is None:
+            raise TftoolError(f"no node serves the action '{name}'")
+        handle = GoalHandle(goal, on_feedback)
+        accept(handle)
+        return handle
+
+    # Transforms
+
+    def broadcast(
+        self, transforms: Iterable[TransformStamped], authority: str, *, static: bool = False
+    ) -> None:
+        """Put transforms into the buffer and tell whoever listens to `tf` or `tf_static`.
+
+        What the buffer refuses (and says why) goes no further. A static message always
+        holds all statics of its sender, the newest of each child, as a late listener
+        sees nothing but a sender's last message.
+        """
+        sent = tuple(transforms)
+        if static:
+            held = self._statics.setdefault(authority, {})
+            for transform in sent:
+                if self.buffer.set_transform_static(transform, authority):
+                    held[transform.child_frame_id] = transform
+            self.tf_static.publish(TransformMessage(tuple(held.values()), authority))
+            return
+        accepted = tuple(one for one in sent if self.buffer.set_transform(one, authority))
+        if accepted:
+            self.tf.publish(TransformMessage(accepted, authority))
+
+    def static_transforms(self, authority: str | None = None) -> tuple[TransformStamped, ...]:
+        """The static transforms of one sender, or of all, in the order of their children."""
+        senders = self._statics if authority is None else [authority]
+        return tuple(
+            transform for sender in senders for transform in self._statics.get(sender, {}).values()
+        )
+
+    async def wait_for_transform(
+        self,
+        target_frame: str,
+        source_frame: str,
+        time: Stamp = 0,
+        timeout: Duration | None = None,
+    ) -> TransformStamped:
+        """The transform as soon as it can be given; see `waiting.wait_for_transform`."""
+        return await waiting.wait_for_transform(
+            self.buffer, self.clock, target_frame, source_frame, time, timeout
+        )
+
+    async def wait_for_transform_full(
+        self,
+        target_frame: str,
+        target_time: Stamp,
+        source_frame: str,
+        source_time: Stamp,
+        fixed_frame: str,
+        timeout: Duration | None = None,
+    ) -> TransformStamped:
+        """The transform between two moments; see `waiting.wait_for_transform_full`."""
+        return await waiting.wait_for_transform_full(
+            self.buffer,
+            self.clock,
+            target_frame,
+            target_time,
+            source_frame,
+            source_time,
+            fixed_frame,
+            timeout,
+        )
+
+    # Nodes
+
+    def add(self, node: "Node") -> None:
+        """Let a node join; in a world that lives already it starts at once.
+
+        Raises:
+            TftoolError: If a node of that name is here.
+        """
+        if any(other.name == node.name for other in self.nodes):
+            raise TftoolError(f"a node named '{node.name}' is here already")
+        node.rank = self._joined
+        self._joined += 1
+        self.nodes.append(node)
+        if self._supervisor is not None:
+            self._supervisor.start(node)
+
+    def remove(self, node: "Node") -> None:
+        """Stop a node and let it leave."""
+        if node in self.nodes:
+            self.nodes.remove(node)
+        if self._supervisor is not None:
+            self._supervisor.end(node)
+
+    def node(self, name: str) -> "Node":
+        """The node of that name.
+
+        Raises:
+            TftoolError: If there is none.
+        """
+        for node in self.nodes:
+            if node.name == name:
+                return node
+        raise TftoolError(f"no node is named '{name}'")
+
+    def stop(self) -> None:
+        """End the run: `live` returns as soon as the current step is over."""
+        if self._supervisor is not None:
+            self._supervisor.stop()
+
+    def fail(self, node: "Node", error: BaseException) -> None:
+        """Report that a node raised outside its `run`, in a callback for example.
+
+        Raises:
+            BaseException: `error` itself, while nobody lives this world.
+        """
+        if self._supervisor is None:
+            raise error
+        self._supervisor.fail(node, error)
+
+    def supervise(self, supervision: "Supervision | None") -> None:
+        """Name who starts and stops nodes from now on (the supervisor's own call)."""
+        self._supervisor = supervision
+
+    def _log_buffer(self, level: str, text: str) -> None:
+        if level == "ERROR":
+            self.log.error("buffer", text)
+        else:
+            self.log.warn("buffer", text)
+
+
+class Supervision:
+    """What a world asks of whoever runs its nodes."""
+
+    def start(self, node: "Node") -> None:
+        """Start a node that joined."""
+        raise NotImplementedError
+
+    def end(self, node: "Node") -> None:
+        """Stop a node that leaves."""
+        raise NotImplementedError
+
+    def stop(self) -> None:
+        """End the run."""
+        raise NotImplementedError
+
+    def fail(self, node: "Node", error: BaseException) -> None:
+        """End the run because a node raised."""
+        raise NotImplementedError
+
+
+def _offer(offers: dict[str, T], name: str, offer: T, what: str) -> Callable[[], None]:
+    name = name.removeprefix("/")
+    if name in offers:
+        raise TftoolError(f"{what} '{name}' is served already")
+    offers[name] = offer
+
+    def stop() -> None:
+        if offers.get(name) is offer:
+            del offers[name]
+
+    return stop
