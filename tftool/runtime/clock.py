@@ -76,8 +76,7 @@ class Clock(ABC):
         """
         future: asyncio.Future[None] = asyncio.get_running_loop().create_future()
         self._asked += 1
-        due = max(stamp, self.now())
-        heapq.heappush(self._waiters, (due, phase, rank, self._asked, future))
+        heapq.heappush(self._waiters, (stamp, phase, rank, self._asked, future))
         return future
 
     async def sleep_until(self, stamp: Stamp, phase: Phase = Phase.CONSUME, rank: int = 0) -> None:
@@ -118,6 +117,12 @@ class SimClock(Clock):
     def now(self) -> Stamp:
         """The simulated moment, in nanoseconds."""
         return self._now
+
+    def timer(
+        self, stamp: Stamp, phase: Phase = Phase.CONSUME, rank: int = 0
+    ) -> "asyncio.Future[None]":
+        """A future that is done at `stamp`; what has passed takes its turn in this instant."""
+        return super().timer(max(stamp, self._now), phase, rank)
 
     def new_loop(self) -> asyncio.AbstractEventLoop:
         """Make an event loop that lives in this clock's time."""
