@@ -1,0 +1,39 @@
+"""x, y, heading to a transform and back; angles wrapped."""
+
+import math
+
+from tftool.geometry import rigid
+from tftool.geometry.rigid import Transform
+
+
+def transform_from_pose(x: float, y: float, heading: float) -> Transform:
+    """The pose of something that stands in the plane, turned by `heading` radians about z."""
+    half = 0.5 * heading
+    return rigid.transform((float(x), float(y), 0.0), (0.0, 0.0, math.sin(half), math.cos(half)))
+
+
+def heading(transform: Transform) -> float:
+    """The yaw of a transform, in radians from −π to π.
+
+    It is the yaw of roll, pitch, yaw: for a pose in the plane, the direction of its x axis.
+    """
+    x, y, z, w = transform.rotation
+    return math.atan2(2.0 * (w * z + x * y), w * w + x * x - y * y - z * z)
+
+
+def bearing(transform: Transform) -> float:
+    """The direction in which the other frame's origin lies, in radians; 0 at no distance."""
+    return math.atan2(transform.translation.y, transform.translation.x)
+
+
+def distance(transform: Transform) -> float:
+    """How far away the other frame's origin lies in the plane, in metres."""
+    return math.hypot(transform.translation.x, transform.translation.y)
+
+
+def wrap(angle: float) -> float:
+    """The same direction as an angle in [−π, π)."""
+    # A step of 2π leaves rounding; the two bounds are met exactly when they are given.
+    if -math.pi <= angle < math.pi:
+        return angle
+    return (angle + math.pi) % math.tau - math.pi

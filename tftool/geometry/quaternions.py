@@ -1,0 +1,187 @@
+"""Arithmetic of rotations in plain floats, xyzw order.
+
+Every function takes and gives plain tuples of floats, so that the scalar path
+makes no object it does not hand out. Products apply the right factor first.
+"""
+
+import math
+from typing import TypeAlias
+
+Triple: TypeAlias = tuple[float, float, float]
+"""x, y, z."""
+
+Quad: TypeAlias = tuple[float, float, float, float]
+"""A quaternion: x, y, z, w."""
+
+Rows: TypeAlias = tuple[Triple, Triple, Triple]
+"""A 3×3 matrix, row by row."""
+
+IDENTITY: Quad = (0.0, 0.0, 0.0, 1.0)
+
+NAN_QUAD: Quad = (math.nan, math.nan, math.nan, math.nan)
+
+# A quaternion that is a unit one but for rounding is left as it is, to the last bit.
+_ROUNDING = 8e-16
+
+
+def multiply(first: Quad, second: Quad) -> Quad:
+    """Chain two rotations: `second` is applied first, then `first`."""
+    ax, ay, az, aw = first
+    bx, by, bz, bw = second
+    return (
+        aw * bx + ax * bw + ay * bz - az * by,
+        aw * by + ay * bw + az * bx - ax * bz,
+        aw * bz + az * bw + ax * by - ay * bx,
+        aw * bw - ax * bx - ay * by - az * bz,
+    )
+
+
+def conjugate(quaternion: Quad) -> Quad:
+    """Undo a unit quaternion."""
+    x, y, z, w = quaternion
+    return (-x, -y, -z, w)
+
+
+def rotate(quaternion: Quad, vector: Triple) -> Triple:
+    """Turn a vector by a unit quaternion."""
+    qx, qy, qz, qw = quaternion
+    x, y, z = vector
+    cx = 2.0 * (qy * z - qz * y)
+    cy = 2.0 * (qz * x - qx * z)
+    cz = 2.0 * (qx * y - qy * x)
+    return (
+        x + qw * cx + qy * cz - qz * cy,
+        y + qw * cy + qz * cx - qx * cz,
+        z + qw * cz + qx * cy - qy * cx,
+    )
+
+
+def unit(quaternion: Quad) -> Quad:
+    """Scale a quaternion to length one; NaN throughout if it has no direction.
+
+    Zero, not finite, or so small that its square leaves the range of floats:
+    no rotation can be told from it.
+    """
+    x, y, z, w = quaternion
+    square = x * x + y * y + z * z + w * w
+    if -_ROUNDING < square - 1.0 < _ROUNDING:
+        return quaternion
+    if square == math.inf:
+        # Squares of huge numbers overflow although the direction is plain to see.
+        largest = max(abs(x), abs(y), abs(z), abs(w))
+        if largest == math.inf:
+            return NAN_QUAD
+        return unit((x / largest, y / largest, z / largest, w / largest))
+    # As tf2: below this, 2 over the square is infinite. Asked so that NaN fails too.
+    if not square > 2.0 / 1.7976931348623157e308:
+        return NAN_QUAD
+    scale = 1.0 / math.sqrt(square)
+    return (x * scale, y * scale, z * scale, w * scale)
+
+
+def canonical(quaternion: Quad) -> Quad:
+    """Give the one of a unit quaternion's two signs that tf2 would give.
+
+    It is the sign that comes out of a rotation matrix: w positive for turns below
+    120°, and beyond that the largest imaginary part positive, so that w may be
+    negative.
+    """
+    x, y, z, w = quaternion
+    if w * w > 0.25:
+        lead = w
+    else:
+        xx, yy, zz = x * x, y * y, z * z
+        lead = (z if yy < zz else y) if xx < yy else (z if xx < zz else x)
+    return (-x, -y, -z, -w) if lead < 0.0 else quaternion
+
+
+def slerp(start: Quad, end: Quad, fraction: float) -> Quad:
+    """Turn from `start` to `end` along the shorter arc, at constant speed.
+
+    Args:
+        start: Unit quaternion.
+        end: Unit quaternion; where the shorter arc asks for it, its negative is used.
+        fraction: Share of the arc, from 0 to 1.
+
+    Returns:
+        A unit quaternion, `start` itself at fraction 0.
+    """
+    ax, ay, az, aw = start
+    bx, by, bz, bw = end
+    cosine = ax * bx + ay * by + az * bz + aw * bw
+    if cosine < 0.0:
+        cosine = -cosine
+        bx, by, bz, bw = -bx, -by, -bz, -bw
+    if cosine >= 1.0:
+        # Too near for acos to tell; on an arc this short the chord is the arc.
+        return (
+            ax + fraction * (bx - ax),
+            ay + fraction * (by - ay),
+            az + fraction * (bz - az),
+            aw + fraction * (bw - aw),
+        )
+    angle = math.acos(cosine)
+    sine = math.sin(angle)
+    keep = math.sin((1.0 - fraction) * angle) / sine
+    take = math.sin(fraction * angle) / sine
+    return (
+        keep * ax + take * bx,
+        keep * ay + take * by,
+        keep * az + take * bz,
+        keep * aw + take * bw,
+    )
+
+
+def half_angle(first: Quad, second: Quad) -> float:
+    """Half the turn from one unit quaternion to the other's exact sign, as tf2's `angle`."""
+    dot = sum(a * b for a, b in zip(first, second, strict=True))
+    return math.acos(max(-1.0, min(1.0, dot)))
+
+
+def angle_between(first: Quad, second: Quad) -> float:
+    """The turn from one rotation to the other, in radians from 0 to π."""
+    near = math.dist(first, second)
+    far = math.dist(first, conjugate_sign(second))
+    # acos of the dot product would lose half the digits of a small angle.
+    return 4.0 * math.atan2(min(near, far), max(near, far))
+
+
+def conjugate_sign(quaternion: Quad) -> Quad:
+    """The other quaternion that means the same rotation."""
+    x, y, z, w = quaternion
+    return (-x, -y, -z, -w)
+
+
+def matrix(quaternion: Quad) -> Rows:
+    """Write a rotation as a matrix.
+
+    Any finite quaternion but zero gives a proper rotation; zero gives NaN.
+    """
+    x, y, z, w = unit(quaternion)
+    xx, yy, zz = x * x, y * y, z * z
+    xy, xz, yz = x * y, x * z, y * z
+    wx, wy, wz = w * x, w * y, w * z
+    return (
+        (1.0 - 2.0 * (yy + zz), 2.0 * (xy - wz), 2.0 * (xz + wy)),
+        (2.0 * (xy + wz), 1.0 - 2.0 * (xx + zz), 2.0 * (yz - wx)),
+        (2.0 * (xz - wy), 2.0 * (yz + wx), 1.0 - 2.0 * (xx + yy)),
+    )
+
+
+def from_matrix(rows: Rows) -> Quad:
+    """Read the rotation out of a proper rotation matrix, with tf2's sign."""
+    (m00, m01, m02), (m10, m11, m12), (m20, m21, m22) = rows
+    trace = m00 + m11 + m22
+    if trace > 0.0:
+        w = 0.5 * math.sqrt(trace + 1.0)
+        part = 0.25 / w
+        return ((m21 - m12) * part, (m02 - m20) * part, (m10 - m01) * part, w)
+    m = rows
+    i = (2 if m11 < m22 else 1) if m00 < m11 else (2 if m00 < m22 else 0)
+    j, k = (i + 1) % 3, (i + 2) % 3
+    q = [0.0, 0.0, 0.0]
+    q[i] = 0.5 * math.sqrt(m[i][i] - m[j][j] - m[k][k] + 1.0)
+    part = 0.25 / q[i]
+    q[j] = (m[j][i] + m[i][j]) * part
+    q[k] = (m[k][i] + m[i][k]) * part
+    return (q[0], q[1], q[2], (m[k][j] - m[j][k]) * part)
