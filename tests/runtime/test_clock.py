@@ -202,3 +202,45 @@ def test_a_fast_wall_clock_counts_its_own_seconds():
         return clock.now() - start
 
     assert run(clock, main()) >= seconds(2)
+
+
+def test_a_head_start_is_lived_through_at_once_and_in_order_then_time_is_real():
+    clock = WallClock(head_start=seconds(3600))
+    woken = []
+
+    async def tick(name, period):
+        for _ in range(3):
+            await clock.sleep(period)
+            woken.append((name, clock.elapsed()))
+
+    async def main():
+        await asyncio.gather(tick("slow", seconds(1000)), tick("fast", seconds(600)))
+        await clock.sleep_until(clock.epoch + seconds(3600))
+        return clock.elapsed()
+
+    arrived = run(clock, main())
+
+    assert woken == [
+        ("fast", seconds(600)),
+        ("slow", seconds(1000)),
+        ("fast", seconds(1200)),
+        ("fast", seconds(1800)),
+        ("slow", seconds(2000)),
+        ("slow", seconds(3000)),
+    ]
+    assert seconds(3600) <= arrived < seconds(3660)
+
+
+def test_a_head_start_ends_when_nothing_is_due_in_it():
+    clock = WallClock(rate=2.0, head_start=seconds(10))
+
+    async def main():
+        await clock.sleep(seconds(10) + 1000)
+        return clock.elapsed()
+
+    assert seconds(10) + 1000 <= run(clock, main()) < seconds(70)
+
+
+def test_a_head_start_cannot_be_negative():
+    with pytest.raises(ValueError, match="head start"):
+        WallClock(head_start=-1)

@@ -157,20 +157,32 @@ class WallClock(Clock):
     monotonic clock counts on.
     """
 
-    def __init__(self, rate: float = 1.0) -> None:
+    def __init__(self, rate: float = 1.0, *, head_start: Duration = 0) -> None:
         """Start now, at `rate` times real time.
 
+        Args:
+            rate: How many of its seconds pass in a real one.
+            head_start: How much of the past to live through first, as fast as it can be
+                simulated, so that a world is already under way when somebody looks.
+
         Raises:
-            ValueError: If `rate` is not a positive finite number.
+            ValueError: If `rate` is not a positive finite number, or the head start negative.
         """
         if not (math.isfinite(rate) and rate > 0):
             raise ValueError(f"a rate must be a positive number, not {rate!r}")
-        super().__init__(time.time_ns(), rate)
+        if head_start < 0:
+            raise ValueError(f"a head start cannot be negative: {head_start} ns")
+        super().__init__(time.time_ns() - head_start, rate)
         self._started = time.monotonic_ns()
         self._alarm: asyncio.TimerHandle | None = None
+        # From here on time is real; before, it stands still while anything runs.
+        self._caught_up = self.epoch + head_start
+        self._simulated: Stamp | None = self.epoch if head_start else None
 
     def now(self) -> Stamp:
         """The moment it is, in nanoseconds since the Unix epoch (at rate 1)."""
+        if self._simulated is not None:
+            return self._simulated
         passed = time.monotonic_ns() - self._started
         return self.epoch + (passed if self.rate == 1.0 else round(passed * self.rate))
 
@@ -192,7 +204,9 @@ class WallClock(Clock):
             self._alarm.cancel()
             self._alarm = None
         due = self._next_due()
-        if due is not None:
+        if self._simulated is not None:
+            self._alarm = asyncio.get_running_loop().call_later(0, self._wake)
+        elif due is not None:
             delay = max(0, due - self.now()) / (NANOSECONDS * self.rate)
             self._alarm = asyncio.get_running_loop().call_later(delay, self._wake)
 
@@ -201,6 +215,13 @@ class WallClock(Clock):
             self._alarm.cancel()
             self._alarm = None
         due = self._next_due()
+        if self._simulated is not None:
+            if due is not None and due <= self._caught_up:
+                self._simulated = max(due, self._simulated)
+            else:
+                self._simulated = None
+                head_start = (self._caught_up - self.epoch) / self.rate
+                self._started = time.monotonic_ns() - round(head_start)
         if due is None or due > self.now():
             self._set_alarm()
             return
