@@ -1,0 +1,60 @@
+"""Names from strangers, made harmless and still recognisable.
+
+Every drawing first passes a name through `visible`, which leaves nothing that acts on
+its own (no control, no change of writing direction, nothing XML forbids), and then
+escapes what its own format reserves.
+"""
+
+import unicodedata
+from collections.abc import Iterable
+
+_JOINERS = frozenset("\u200c\u200d")
+"""Zero width joiners: emoji and several scripts are written with them; they act on nothing else."""
+
+
+def visible(name: str) -> str:
+    """Write a name so that every character of it can be seen.
+
+    Control characters become their Unicode pictures (ESC is ␛), and what else has no
+    shape of its own, or turns the writing direction, becomes its number, as in ⟨U+202E⟩.
+    """
+    if name.isascii() and name.isprintable():
+        return name
+    return "".join(map(_shown, name))
+
+
+def _shown(char: str) -> str:
+    code = ord(char)
+    if code < 0x20:
+        return chr(0x2400 + code)
+    if code == 0x7F:
+        return "\u2421"
+    if char not in _JOINERS and unicodedata.category(char) in _SHAPELESS:
+        return f"⟨U+{code:04X}⟩"
+    return char
+
+
+_SHAPELESS = frozenset({"Cc", "Cf", "Cs", "Co", "Cn", "Zl", "Zp"})
+
+
+def distinct(names: Iterable[str]) -> dict[str, str]:
+    """Pair every name with its visible writing; no two names are written alike."""
+    shown: dict[str, str] = {}
+    taken: set[str] = set()
+    for name in names:
+        plain = written = visible(name)
+        number = 2
+        while written in taken:
+            written = f"{plain} ({number})"
+            number += 1
+        taken.add(written)
+        shown[name] = written
+    return shown
+
+
+def shorten(text: str, most: int) -> str:
+    """Cut a long text in its middle, where names of frames differ least, to `most` characters."""
+    if len(text) <= most:
+        return text
+    tail = (most - 1) // 2
+    return f"{text[: most - 1 - tail]}…{text[len(text) - tail :]}"

@@ -1,0 +1,80 @@
+"""A picture of the tree as SVG: one self-contained file, light or dark as its viewer is."""
+
+from xml.sax.saxutils import escape
+
+from tftool.views.picture import Box, Link, Picture, Text
+
+_STYLE = """\
+svg { background: #fbfbfd; font-family: Helvetica, Arial, sans-serif; }
+text { fill: #5a6472; white-space: pre; unicode-bidi: isolate; }
+.name { fill: #171c24; font-weight: bold; }
+.note { fill: #8a6a17; font-style: italic; }
+rect { stroke-width: 1.2; }
+.root { fill: #dbe9ff; stroke: #4b7fd6; }
+.dynamic { fill: #ffffff; stroke: #8fa3bd; }
+.static { fill: #fdf7e7; stroke: #b99a45; stroke-dasharray: 5 3; }
+.group { fill: none; stroke: #c6ced9; }
+.more { fill: none; stroke: #8a93a0; stroke-dasharray: 1.5 3; }
+path { fill: none; stroke: #6d86a8; stroke-width: 1.6; }
+path.still { stroke: #b99a45; stroke-dasharray: 5 4; }
+@media (prefers-color-scheme: dark) {
+svg { background: #14171c; }
+text { fill: #a3aebd; }
+.name { fill: #f0f3f7; }
+.note { fill: #d9b65c; }
+.root { fill: #1d3050; stroke: #6c9cf0; }
+.dynamic { fill: #1c2129; stroke: #55657c; }
+.static { fill: #29241a; stroke: #a3873d; }
+.group { stroke: #333c49; }
+path { stroke: #7f96b6; }
+path.still { stroke: #b4964a; }
+}"""
+
+
+def render(picture: Picture) -> str:
+    """Write a picture as SVG; names are text in it and nothing else."""
+    wide, high = _number(picture.width), _number(picture.height)
+    parts = [
+        f'<svg xmlns="http://www.w3.org/2000/svg" width="{wide}" height="{high}" '
+        f'viewBox="0 0 {wide} {high}">',
+        f"<title>{escape(picture.title)}</title>",
+        f"<style>{_STYLE}</style>",
+        *map(_link, picture.links),
+        *map(_box, picture.boxes),
+        *map(_text, picture.texts),
+        "</svg>",
+    ]
+    return "\n".join(parts) + "\n"
+
+
+def _link(link: Link) -> str:
+    x0, y0, x1, y1 = link.x0, link.y0, link.x1, link.y1
+    if link.down:
+        half = (y0 + y1) / 2
+        bends = (x0, half, x1, half, x1, y1)
+    else:
+        half = (x0 + x1) / 2
+        bends = (half, y0, half, y1, x1, y1)
+    style = ' class="still"' if link.static else ""
+    return f'<path{style} d="M{_number(x0)} {_number(y0)}C{" ".join(map(_number, bends))}"/>'
+
+
+def _box(box: Box) -> str:
+    radius = _number(box.height / 2 if box.kind == "root" else 9.0)
+    opening = (
+        f'<rect class="{box.kind}" x="{_number(box.x)}" y="{_number(box.y)}" '
+        f'width="{_number(box.width)}" height="{_number(box.height)}" rx="{radius}"'
+    )
+    # The whole name, for names that were cut to fit; shown when the pointer rests on the box.
+    return f"{opening}><title>{escape(box.title)}</title></rect>" if box.title else f"{opening}/>"
+
+
+def _text(text: Text) -> str:
+    return (
+        f'<text class="{text.kind}" x="{_number(text.x)}" y="{_number(text.y)}" '
+        f'font-size="{_number(text.size)}">{escape(text.text)}</text>'
+    )
+
+
+def _number(value: float) -> str:
+    return f"{value:.1f}".removesuffix(".0")
