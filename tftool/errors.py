@@ -111,3 +111,17 @@ class ForwardExtrapolationException(ExtrapolationException):
 
 class NoDataForExtrapolationException(ExtrapolationException):
     """A link holds no sample, or a single one at another moment."""
+
+
+class MalformedMessage(InputError):
+    """Bytes that came in are not the message they should be, or one cannot be written.
+
+    Attributes:
+        kind: The type it should be.
+        reason: What is wrong with it.
+    """
+
+    def __init__(self, kind: str, reason: str) -> None:
+        super().__init__(f"{kind} refused: {reason}")
+        self.kind = kind
+        self.reason = reason

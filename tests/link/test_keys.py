@@ -1,0 +1,168 @@
+"""Names on the wire, against definitions, published hashes and examples of rmw_zenoh."""
+
+import pytest
+
+from tests.link import definitions
+from tftool.errors import MalformedMessage
+from tftool.link import keys
+from tftool.link.keys import Attachment, Entity
+
+TF_HASH = "RIHS01_e369d0f05a23ae52508854b66f6aa0437f3449d652e8cbf22d5abe85d020f087"
+GID = bytes(range(100, 116))
+
+
+@pytest.fixture(scope="module")
+def store():
+    return definitions.store()
+
+
+@pytest.mark.parametrize(
+    ("ros_type", "published"),
+    [
+        # From ROS 2 itself: what `ros2 service info`, `ros2 action info` and rmw_zenoh show.
+        (
+            "example_interfaces/srv/AddTwoInts",
+            "RIHS01_e118de6bf5eeb66a2491b5bda11202e7b68f198d6f67922cf30364858239c81a",
+        ),
+        (
+            "action_msgs/srv/CancelGoal",
+            "RIHS01_573d8b0a534451d7bc2ac8c5ffde8ac14b8593b7001175d0cd6516dcbeb8689a",
+        ),
+        (
+            "example_interfaces/action/Fibonacci_SendGoal",
+            "RIHS01_d1a57fb2a4afe8c21e34fb10db206f16ce6729b28531141472df92277c55b557",
+        ),
+        (
+            "example_interfaces/action/Fibonacci_GetResult",
+            "RIHS01_1b0de0d5d29dc955d92f546706568428632771db13ec84c15ec1c1a59f424a57",
+        ),
+        (
+            "example_interfaces/action/Fibonacci_FeedbackMessage",
+            "RIHS01_c1de71afd52e49a89c53d8262366884185bc0a02f78ce051c4e46b0a7fe59bb2",
+        ),
+        ("tf2_msgs/msg/TFMessage", TF_HASH),
+    ],
+)
+def test_the_way_hashes_are_computed_here_gives_what_ros_2_publishes(store, ros_type, published):
+    assert store.hash_rihs01(ros_type) == published
+
+
+@pytest.mark.parametrize("ros_type", sorted(keys.TYPE_HASHES))
+def test_every_hash_we_carry_is_that_of_its_definition(store, ros_type):
+    assert keys.TYPE_HASHES[ros_type] == store.hash_rihs01(ros_type)
+
+
+def test_a_topic_travels_under_the_key_that_rmw_zenoh_gives_it():
+    ros_type = "tf2_msgs/msg/TFMessage"
+
+    assert keys.data_key(0, "/tf", ros_type) == f"0/tf/tf2_msgs::msg::dds_::TFMessage_/{TF_HASH}"
+    assert keys.any_hash_key(7, "tf", ros_type) == "7/tf/tf2_msgs::msg::dds_::TFMessage_/*"
+    assert keys.ros_name("tf2_msgs::msg::dds_::TFMessage_") == ros_type
+    assert keys.ros_name("nonsense") == "nonsense"
+
+
+def test_a_publisher_token_reads_like_one_of_rmw_zenoh():
+    entity = Entity(
+        2,
+        "aac3178e146ba6f1fc6e6a4085e77f21",
+        0,
+        10,
+        "MP",
+        "turtlesim",
+        "turtle1/pose",
+        "turtlesim/msg/Pose",
+        quality=keys.quality(depth=7),
+    )
+
+    assert entity.token() == (
+        "@ros2_lv/2/aac3178e146ba6f1fc6e6a4085e77f21/0/10/MP/%/%/turtlesim/%turtle1%pose/"
+        f"turtlesim::msg::dds_::Pose_/{keys.TYPE_HASHES['turtlesim/msg/Pose']}/::,7:,:,:,,"
+    )
+
+
+def test_latched_topics_say_so_in_their_token():
+    assert keys.quality(depth=1, durability=keys.TRANSIENT_LOCAL) == ":1:,1:,:,:,,"
+
+
+@pytest.mark.parametrize(
+    "entity",
+    [
+        Entity(0, "ab12", 0, 0, "NN", "turtlesim"),
+        Entity(0, "ab12", 3, 3, "NN", "robot1/arm/planner"),
+        Entity(5, "ab12", 1, 7, "SS", "sim", "turtle1/set_pen", "turtlesim/srv/SetPen", "h", "q"),
+    ],
+)
+def test_a_token_tells_what_it_was_made_from(entity):
+    assert keys.parse_token(entity.token()) == entity
+
+
+def test_the_token_of_a_humble_talker_is_read():
+    token = (
+        "@ros2_lv/0/f1eec80b0794deb18ff9ee5a0182029d/0/10/SS/%/%robot1/server/%add_two_ints/"
+        "example_interfaces::srv::dds_::AddTwoInts_/TypeHashNotSupported/::,10:,:,:,,"
+    )
+
+    entity = keys.parse_token(token)
+
+    assert entity is not None
+    assert (entity.node, entity.name) == ("robot1/server", "add_two_ints")
+    assert entity.ros_type == "example_interfaces/srv/AddTwoInts"
+    assert entity.type_hash == "TypeHashNotSupported"
+
+
+@pytest.mark.parametrize(
+    "token",
+    [
+        "",
+        "@ros2_lv/0/ab/0/0/NN/%/%",
+        "@other/0/ab/0/0/NN/%/%/node",
+        "@ros2_lv/x/ab/0/0/NN/%/%/node",
+        "@ros2_lv/0/ab/-1/0/NN/%/%/node",
+        "@ros2_lv/99999999999999999999/ab/0/0/NN/%/%/node",
+        "@ros2_lv/0/ab/0/0/MP/%/%/node",
+        "@ros2_lv/0/ab/0/0/ZZ/%/%/node",
+        "@ros2_lv/0/ab/0/0/NN/%/%/node/%t/type/hash/qos",
+    ],
+)
+def test_a_token_that_is_none_of_ros_2_is_passed_over(token):
+    assert keys.parse_token(token) is None
+
+
+def test_an_attachment_is_33_bytes_and_comes_back():
+    attachment = Attachment(-1, 1_700_000_000_000_000_000, GID)
+    raw = attachment.encode()
+
+    assert len(raw) == 33
+    assert raw[16] == 16
+    assert raw[17:] == GID
+    assert keys.parse_attachment(raw) == attachment
+
+
+def test_the_named_attachment_of_early_jazzy_is_read_too():
+    raw = (
+        b"\x0fsequence_number"
+        + (5).to_bytes(8, "little")
+        + b"\x10source_timestamp"
+        + (123456789).to_bytes(8, "little")
+        + b"\x0asource_gid\x10"
+        + GID
+    )
+
+    assert keys.parse_attachment(raw) == Attachment(5, 123456789, GID)
+    for end in range(len(raw)):
+        with pytest.raises(MalformedMessage):
+            keys.parse_attachment(raw[:end])
+
+
+@pytest.mark.parametrize("raw", [b"", bytes(16), bytes(33), bytes(1000), b"\x0fsequence_number"])
+def test_an_attachment_of_no_known_form_is_refused(raw):
+    with pytest.raises(MalformedMessage):
+        keys.parse_attachment(raw)
+
+
+def test_a_gid_is_16_bytes_made_from_the_token():
+    one, other = keys.gid_of("@ros2_lv/0/a"), keys.gid_of("@ros2_lv/0/b")
+
+    assert len(one) == 16
+    assert one != other
+    assert one == keys.gid_of("@ros2_lv/0/a")
