@@ -144,7 +144,7 @@ def _usage_sentence(error: Any) -> tuple[str, str]:
 
 
 def _complain(who: str, sentence: str) -> None:
-    from tftool.views.printable import printable
+    from tftool.views.escaping import visible_lines
 
     sys.stdout.flush()
-    sys.stderr.write(f"{who}: {printable(sentence.rstrip(), keep=chr(10))}\n")
+    sys.stderr.write(f"{who}: {visible_lines(sentence.rstrip())}\n")

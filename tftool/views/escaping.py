@@ -23,6 +23,11 @@ def visible(name: str) -> str:
     return "".join(map(_shown, name))
 
 
+def visible_lines(text: str) -> str:
+    """Write a text of several lines so that every character can be seen; its lines stay."""
+    return "\n".join(map(visible, text.split("\n")))
+
+
 def _shown(char: str) -> str:
     code = ord(char)
     if code < 0x20:
