@@ -1,0 +1,40 @@
+"""Strangers' names in a given number of cells, the same number in every terminal."""
+
+from rich.cells import cell_len
+
+from tftool.views.escaping import visible
+
+# Joined or switched by these, one sign is drawn wide in one terminal and narrow in
+# the next; without them every terminal agrees with our count.
+_SWITCHES = dict.fromkeys((0x200C, 0x200D, *range(0xFE00, 0xFE10)))
+
+
+def plain(text: str) -> str:
+    """Give `text` as one line that is only ever shown, and whose width is known."""
+    if text.isascii() and text.isprintable():
+        return text
+    return visible(text).translate(_SWITCHES)
+
+
+def fitted(text: str, width: int, *, more: str = "…") -> str:
+    """Give `plain(text)` in at most `width` cells; what is left out shows as `more`."""
+    # No sign is narrower than nothing: a long text need not be measured to its end.
+    shown = plain(text[: 4 * max(0, width) + 4])
+    if cell_len(shown) <= width:
+        return shown
+    room = width - cell_len(more)
+    if room < 0:
+        return ""
+    kept, used = 0, 0
+    for sign in shown:
+        used += cell_len(sign)
+        if used > room:
+            break
+        kept += 1
+    return shown[:kept] + more
+
+
+def padded(text: str, width: int, *, more: str = "…") -> str:
+    """Give `fitted(text, width)` filled up with blanks to exactly `width` cells."""
+    shown = fitted(text, width, more=more)
+    return shown + " " * (width - cell_len(shown))

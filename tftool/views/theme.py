@@ -1,0 +1,158 @@
+"""Colours: turtlesim's own, a stable one per name, and rviz's fading of stale frames.
+
+Colours are `Color` (0 to 255 a channel); on the way through a fade they are
+floats from 0 to 1, as rviz has them.
+"""
+
+import zlib
+from collections.abc import Mapping
+from types import MappingProxyType
+from typing import NamedTuple
+
+from tftool.messages import Color
+
+BACKGROUND = Color(69, 86, 255)
+PEN = Color(179, 184, 255)
+WALL = Color(255, 92, 87)
+INK = Color(16, 20, 48)
+WHITE = Color(255, 255, 255)
+
+FRAME_TIMEOUT = 15.0
+"""Seconds without news after which a frame counts as dead (rviz's default)."""
+
+_GREY = 0.7
+
+# Apart from each other and readable on turtlesim's blue, also after a terminal
+# has rounded them to the nearest of its 256.
+_PALETTE = (
+    Color(135, 255, 135),
+    Color(255, 215, 95),
+    Color(255, 135, 175),
+    Color(95, 255, 255),
+    Color(255, 175, 95),
+    Color(215, 255, 95),
+    Color(255, 175, 255),
+    Color(175, 255, 215),
+    Color(255, 255, 175),
+    Color(215, 215, 255),
+)
+
+
+class Rgba(NamedTuple):
+    """A colour from 0 to 1 a channel, and how opaque it is."""
+
+    red: float
+    green: float
+    blue: float
+    alpha: float = 1.0
+
+
+AXIS_X = Rgba(1.0, 0.0, 0.0)
+AXIS_Y = Rgba(0.0, 1.0, 0.0)
+AXIS_Z = Rgba(0.0, 0.0, 1.0)
+ARROW_SHAFT = Rgba(0.8, 0.8, 0.3)
+ARROW_HEAD = Rgba(1.0, 0.1, 0.6)
+NAME = Rgba(1.0, 1.0, 1.0)
+
+
+def stale_fade(color: Rgba, age: float, timeout: float = FRAME_TIMEOUT) -> Rgba | None:
+    """Fade the colour of a frame nothing was heard of for a while, in rviz's three stages.
+
+    Args:
+        color: The colour of a fresh frame.
+        age: Seconds since its latest stamp last changed; 0 for static frames.
+        timeout: Seconds after which the frame is dead.
+
+    Returns:
+        `color` itself during the first third of `timeout`, a blend to grey during
+        the second, grey that turns transparent during the last, and None (hidden)
+        after that.
+    """
+    third = timeout / 3.0
+    # Asked this way round, an age that is not a number hides the frame.
+    if not age <= timeout:
+        return None
+    if age <= third:
+        return color
+    if age <= 2.0 * third:
+        share = (age - third) / third
+        red, green, blue = (c + share * (_GREY - c) for c in color[:3])
+        return Rgba(red, green, blue, color.alpha)
+    share = (age - 2.0 * third) / third
+    return Rgba(_GREY, _GREY, _GREY, color.alpha * (1.0 - share))
+
+
+def faded(color: Color, age: float, on: Color, timeout: float = FRAME_TIMEOUT) -> Color | None:
+    """Fade `color` as `stale_fade` does, laid over the ground `on` of a screen without alpha."""
+    fresh = Rgba(color.r / 255.0, color.g / 255.0, color.b / 255.0)
+    found = stale_fade(fresh, age, timeout)
+    if found is None:
+        return None
+    solid = Color(*(round(255.0 * channel) for channel in found[:3]))
+    return blend(on, solid, found.alpha)
+
+
+def blend(start: Color, end: Color, share: float) -> Color:
+    """Mix two colours: `start` for a share of 0, `end` for 1."""
+    return Color(
+        round(start.r + share * (end.r - start.r)),
+        round(start.g + share * (end.g - start.g)),
+        round(start.b + share * (end.b - start.b)),
+    )
+
+
+def of_name(name: str) -> Color:
+    """Give every name its colour: the same in every run, on every machine.
+
+    Names that end in a number step through the palette, so that `turtle1` and
+    `turtle2` never look alike.
+    """
+    stem = name.rstrip("0123456789")
+    number = name[len(stem) :][-9:]
+    if number.isascii() and number:
+        start = 0 if stem == "turtle" else zlib.crc32(stem.encode("utf-8", "replace"))
+        return _PALETTE[(start + int(number) - 1) % len(_PALETTE)]
+    return _PALETTE[zlib.crc32(name.encode("utf-8", "replace")) % len(_PALETTE)]
+
+
+def hexadecimal(color: Color) -> str:
+    """Write a colour as `#rrggbb`."""
+    return f"#{color.r:02x}{color.g:02x}{color.b:02x}"
+
+
+class Palette(NamedTuple):
+    """What a screen is painted with beside the field: its own colours, dark or light."""
+
+    ground: Color
+    panel: Color
+    text: Color
+    dim: Color
+    accent: Color
+    warning: Color
+    error: Color
+
+
+DARK = Palette(
+    ground=Color(17, 19, 28),
+    panel=Color(24, 27, 40),
+    text=Color(222, 226, 240),
+    dim=Color(126, 133, 160),
+    accent=Color(255, 215, 95),
+    warning=Color(255, 183, 77),
+    error=Color(255, 110, 110),
+)
+LIGHT = Palette(
+    ground=Color(238, 240, 247),
+    panel=Color(250, 251, 254),
+    text=Color(30, 34, 52),
+    dim=Color(104, 110, 135),
+    accent=Color(52, 66, 214),
+    warning=Color(170, 95, 0),
+    error=Color(190, 30, 40),
+)
+
+
+def prefers_light(environment: Mapping[str, str] = MappingProxyType({})) -> bool:
+    """Tell from COLORFGBG, which some terminals set, whether their ground is light."""
+    ground = environment.get("COLORFGBG", "").rpartition(";")[2]
+    return ground in {"7", "15"}
