@@ -16,6 +16,18 @@ class UsageError(TftoolError):
     """The command was asked for something it does not do (exit status 2)."""
 
 
+class NodeArgumentsError(UsageError):
+    """A node's program was started with arguments it does not take.
+
+    Attributes:
+        status: The exit status of the original program, where it is run as such.
+    """
+
+    def __init__(self, message: str, *, status: int) -> None:
+        super().__init__(message)
+        self.status = status
+
+
 class InputError(TftoolError):
     """Something given cannot be read: a file, a scenario, a number in it (exit status 3)."""
 

@@ -1,0 +1,106 @@
+"""The message filter's demonstration: points that wait until they can be placed."""
+
+import asyncio
+
+from tftool.errors import TransformException
+from tftool.messages import PointStamped, Pose2D, Spawn, Twist2D
+from tftool.nodes.broadcasters import require_period
+from tftool.nodes.spawning import Spawning
+from tftool.nodes.turtle import require_turtle_name
+from tftool.runtime.node import Node
+from tftool.runtime.world import World
+from tftool.stamps import Duration, seconds
+
+POINT_TOPIC = "turtle_point_stamped"
+
+QUEUE_LENGTH = 100
+"""How many points wait at most; one more drops the oldest."""
+
+
+class MessageBroadcaster(Node):
+    """Spawn a turtle, drive it in a circle, and publish where it is as stamped points."""
+
+    def __init__(
+        self,
+        world: World,
+        name: str = "turtle_tf2_message_broadcaster",
+        *,
+        turtle: str = "turtle3",
+        frame_id: str = "world",
+        spawn: tuple[float, float, float] = (4.0, 2.0, 0.0),
+        period: Duration = seconds(1),
+    ) -> None:
+        """Join the world; `period` is that of the start-up machine."""
+        require_turtle_name(turtle)
+        super().__init__(world, name)
+        self.turtle, self.frame_id = turtle, frame_id
+        self.period = require_period(period)
+        self._spawning = Spawning(self, Spawn(*spawn, turtle))
+
+    async def run(self) -> None:
+        """Start up, then react to every pose."""
+        try:
+            async for _ in self.every(self.period):
+                if self._spawning.step():
+                    break
+        finally:
+            self._spawning.cancel()
+        self.subscribe(f"{self.turtle}/pose", Pose2D, self._on_pose)
+
+    def _on_pose(self, pose: Pose2D) -> None:
+        self.publish(f"{self.turtle}/cmd_vel", Twist2D(1.0, 1.0))
+        self.publish(
+            f"{self.turtle}/{POINT_TOPIC}",
+            PointStamped(self.clock.now(), self.frame_id, pose.x, pose.y, 0.0),
+        )
+
+
+class PointDrawer(Node):
+    """Say where each point is in a frame, as soon as that frame is known at its stamp."""
+
+    def __init__(
+        self,
+        world: World,
+        name: str = "turtle_tf2_pose_drawer",
+        *,
+        target_frame: str = "turtle1",
+        turtle: str = "turtle3",
+        patience: Duration = seconds(1),
+    ) -> None:
+        """Join the world; `patience` is how long a point waits at most."""
+        super().__init__(world, name)
+        self.target_frame, self.turtle = target_frame, turtle
+        self.patience = require_period(patience)
+        # A dict keeps the order in which they came.
+        self._waiting: dict[asyncio.Task[None], None] = {}
+
+    async def run(self) -> None:
+        """Listen until the end."""
+        self.subscribe(f"{self.turtle}/{POINT_TOPIC}", PointStamped, self._on_point)
+        try:
+            await asyncio.Event().wait()
+        finally:
+            for task in list(self._waiting):
+                task.cancel()
+
+    def _on_point(self, point: PointStamped) -> None:
+        if not point.frame_id:
+            return
+        if len(self._waiting) >= QUEUE_LENGTH:
+            oldest = next(iter(self._waiting))
+            del self._waiting[oldest]
+            oldest.cancel()
+        task = asyncio.get_running_loop().create_task(self._place(point))
+        self._waiting[task] = None
+        task.add_done_callback(lambda done: self._waiting.pop(done, None))
+
+    async def _place(self, point: PointStamped) -> None:
+        try:
+            found = await self.world.wait_for_transform(
+                self.target_frame, point.frame_id, point.stamp, timeout=self.patience
+            )
+        except TransformException as refusal:
+            self.warn(f"Failure {refusal}")
+        else:
+            x, y, z = found.transform.apply((point.x, point.y, point.z))
+            self.info(f"Point of turtle3 in frame of turtle1: x:{x:f} y:{y:f} z:{z:f}")

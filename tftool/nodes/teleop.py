@@ -1,0 +1,174 @@
+"""turtle_teleop_key: arrow keys drive a turtle, eight letters round F turn it."""
+
+import asyncio
+import re
+from collections.abc import Mapping
+from dataclasses import dataclass
+from types import MappingProxyType
+from typing import Literal
+
+from tftool.errors import TftoolError
+from tftool.messages import KeyPress, RotateAbsolute, Twist2D
+from tftool.nodes.turtle import require_turtle_name
+from tftool.runtime.node import Node
+from tftool.runtime.topics import GoalHandle
+from tftool.runtime.world import World
+
+BANNER = (
+    "Reading from keyboard",
+    "---------------------------",
+    "Use arrow keys to move the turtle.",
+    "Use g|b|v|c|d|e|r|t keys to rotate to absolute orientations. 'f' to cancel a rotation.",
+    "'q' to quit.",
+)
+"""What teleop prints at its start, line by line."""
+
+SCALE_LINEAR = 2.0
+"""Speed of the arrow keys in m/s, unless a parameter says otherwise."""
+
+SCALE_ANGULAR = 2.0
+"""Turn rate of the arrow keys in rad/s, unless a parameter says otherwise."""
+
+Action = Literal["cmd_vel", "rotate", "cancel", "quit"]
+
+
+@dataclass(frozen=True, slots=True)
+class Key:
+    """What a key does.
+
+    Attributes:
+        action: Drive, turn to a heading, give the turning up, or quit.
+        linear: For `cmd_vel`: the share of scale_linear, from -1 to 1.
+        angular: For `cmd_vel`: the share of scale_angular, from -1 to 1.
+        theta: For `rotate`: the heading in radians.
+        meaning: A word or two for a help line.
+    """
+
+    action: Action
+    meaning: str
+    linear: float = 0.0
+    angular: float = 0.0
+    theta: float = 0.0
+
+
+KEYS: Mapping[str, Key] = MappingProxyType(
+    {
+        "up": Key("cmd_vel", "forward", linear=1.0),
+        "down": Key("cmd_vel", "back", linear=-1.0),
+        "left": Key("cmd_vel", "turn left", angular=1.0),
+        "right": Key("cmd_vel", "turn right", angular=-1.0),
+        "g": Key("rotate", "east", theta=0.0),
+        "t": Key("rotate", "north-east", theta=0.7854),
+        "r": Key("rotate", "north", theta=1.5708),
+        "e": Key("rotate", "north-west", theta=2.3562),
+        "d": Key("rotate", "west", theta=3.1416),
+        "c": Key("rotate", "south-west", theta=-2.3562),
+        "v": Key("rotate", "south", theta=-1.5708),
+        "b": Key("rotate", "south-east", theta=-0.7854),
+        "f": Key("cancel", "cancel a rotation"),
+        "q": Key("quit", "quit"),
+    }
+)
+"""Every key that does something. The letters form a ring round F on a keyboard."""
+
+_ARROWS = {"A": "up", "B": "down", "C": "right", "D": "left"}
+_TYPED = re.compile(r"\x1b[\[O](?P<arrow>[A-D])|\x1b[\[O][0-9;]*.|(?P<letter>.)", re.DOTALL)
+
+
+class Teleop(Node):
+    """Turn keys into commands for a turtle; one press is one message.
+
+    Keys come from `press` and from the topic `keys`. Stopping is the simulator's
+    timeout. Parameters, read anew at every press: scale_linear, scale_angular.
+    """
+
+    def __init__(
+        self,
+        world: World,
+        name: str = "teleop_turtle",
+        *,
+        turtle: str = "turtle1",
+        scale_linear: float = SCALE_LINEAR,
+        scale_angular: float = SCALE_ANGULAR,
+    ) -> None:
+        """Join the world.
+
+        Args:
+            world: Where to live.
+            name: The node's name.
+            turtle: Whom to drive.
+            scale_linear: Speed of the arrow keys in m/s.
+            scale_angular: Turn rate of the arrow keys in rad/s.
+
+        Raises:
+            UsageError: If `turtle` cannot be a turtle's name.
+        """
+        require_turtle_name(turtle)
+        super().__init__(world, name)
+        self.turtle = turtle
+        self.declare_parameter("scale_linear", float(scale_linear))
+        self.declare_parameter("scale_angular", float(scale_angular))
+        self._goal: GoalHandle | None = None
+        self._sending: set[asyncio.Task[None]] = set()
+        self._quit = asyncio.Event()
+
+    async def run(self) -> None:
+        """Take keys from the topic `keys` until one says to quit."""
+        stop = self.subscribe("keys", KeyPress, lambda pressed: self.press(pressed.key))
+        try:
+            await self._quit.wait()
+        finally:
+            stop()
+            for sending in self._sending:
+                sending.cancel()
+
+    def press(self, key: str) -> Action | None:
+        """Do what a key says.
+
+        Args:
+            key: "up", "down", "left", "right" or a letter of either case.
+
+        Returns:
+            The kind of what was done; None for a key that does nothing.
+        """
+        meaning = KEYS.get(key.lower())
+        if meaning is None:
+            return None
+        if meaning.action == "cmd_vel":
+            linear = meaning.linear * float(self.get_parameter("scale_linear"))
+            angular = meaning.angular * float(self.get_parameter("scale_angular"))
+            # Nothing plus nothing: a key that does not turn must not send minus zero.
+            self.publish(f"{self.turtle}/cmd_vel", Twist2D(linear + 0.0, angular + 0.0))
+        elif meaning.action == "rotate":
+            sending = asyncio.get_running_loop().create_task(self._rotate(meaning.theta))
+            self._sending.add(sending)
+            sending.add_done_callback(self._sending.discard)
+        elif meaning.action == "cancel":
+            # Without a goal, or when it has ended by now, there is nothing to cancel.
+            if self._goal is not None:
+                self._goal.cancel()
+        else:
+            self._quit.set()
+        return meaning.action
+
+    async def _rotate(self, theta: float) -> None:
+        try:
+            self._goal = await self.world.send_goal(
+                f"{self.turtle}/rotate_absolute", RotateAbsolute(theta)
+            )
+        except TftoolError as refusal:
+            self.warn(f"{self.turtle} cannot be turned: {refusal}")
+
+
+def keys_in(typed: str) -> list[str]:
+    """Read the keys in what a terminal sent, in order; what means nothing is left out.
+
+    Arrows are escape sequences, `ESC [ A` or `ESC O A`; letters count in either case.
+    """
+    found = []
+    for match in _TYPED.finditer(typed):
+        if match["arrow"]:
+            found.append(_ARROWS[match["arrow"]])
+        elif match["letter"] and match["letter"].lower() in KEYS:
+            found.append(match["letter"].lower())
+    return found
