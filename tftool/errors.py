@@ -5,7 +5,9 @@ carries its facts as fields. `cli.app` turns them into exit statuses and is the
 only place that does.
 """
 
-from tftool.stamps import Stamp
+from collections.abc import Iterable
+
+from tftool.stamps import Duration, Stamp
 
 
 class TftoolError(Exception):
@@ -47,6 +49,8 @@ class NodeFailed(TftoolError):
 class TransformException(TftoolError):
     """The transform asked for cannot be given (exit status 4); tf2's base class.
 
+    Its text is tf2's own, to the letter; what to do about it is said apart, in `remedy`.
+
     Attributes:
         target: The frame asked for, where it is known.
         source: The frame asked about, where it is known.
@@ -59,12 +63,72 @@ class TransformException(TftoolError):
         self.target = target
         self.source = source
 
+    @property
+    def remedy(self) -> str:
+        """What is wrong in our words, by how much, and what to do; may be empty."""
+        return ""
+
 
 class LookupException(TransformException):
     """A frame is not known, or the tree has a loop.
 
     Attributes:
         frame: The unknown frame, where that is the reason.
+        looped: Whether the reason is a loop (or a chain of more than 1000 links).
+    """
+
+    def __init__(
+        self,
+        message: str,
+        *,
+        frame: str | None = None,
+        target: str | None = None,
+        source: str | None = None,
+        known: Iterable[str] = (),
+        looped: bool = False,
+    ) -> None:
+        super().__init__(message, target=target, source=source)
+        self.frame = frame
+        self.looped = looped
+        self._known = known
+
+    @property
+    def remedy(self) -> str:
+        """The names that look like the unknown one, or that none has come up yet."""
+        if self.looped:
+            return "Some frame hangs from one of its own children: see who sends the links named."
+        if self.frame is None:
+            return ""
+        # Only for a person who reads it: a wait that is refused ten thousand times is not slowed.
+        import difflib
+
+        known = list(self._known)
+        near = difflib.get_close_matches(self.frame, known, n=3, cutoff=0.6)
+        if near:
+            names = " or ".join(f"'{name}'" for name in near)
+            return f"Nobody has sent '{self.frame}' yet; did you mean {names}?"
+        if not known:
+            return f"Nobody has sent '{self.frame}' yet, nor any other frame."
+        return f"Nobody has sent '{self.frame}' yet; {len(known)} other frames are known."
+
+
+class ConnectivityException(TransformException):
+    """The two frames hang in different trees."""
+
+    @property
+    def remedy(self) -> str:
+        """That a link is missing."""
+        return (
+            f"No chain of links joins '{self.source}' to '{self.target}' at that moment: "
+            "the tree shows which root each hangs from."
+        )
+
+
+class InvalidArgumentException(TransformException):
+    """A frame name that can never be asked for: empty, or with a leading slash.
+
+    Attributes:
+        frame: The name.
     """
 
     def __init__(
@@ -78,17 +142,21 @@ class LookupException(TransformException):
         super().__init__(message, target=target, source=source)
         self.frame = frame
 
-
-class ConnectivityException(TransformException):
-    """The two frames hang in different trees."""
-
-
-class InvalidArgumentException(TransformException):
-    """A frame name that can never be asked for: empty, or with a leading slash."""
+    @property
+    def remedy(self) -> str:
+        """The name without its slash."""
+        plain = (self.frame or "").lstrip("/")
+        return f"Ask for '{plain}'." if plain else "Name a frame."
 
 
 class TimeoutException(TransformException):
     """Waiting for a transform took longer than allowed; the last refusal is the cause."""
+
+    @property
+    def remedy(self) -> str:
+        """What the last refusal has to say."""
+        cause = self.__cause__
+        return cause.remedy if isinstance(cause, TransformException) else ""
 
 
 class ExtrapolationException(TransformException):
@@ -97,6 +165,7 @@ class ExtrapolationException(TransformException):
     Attributes:
         requested: The moment asked for.
         available: The stored moment nearest to it; 0 when nothing is stored.
+        frame: The child of the link that falls short.
     """
 
     def __init__(
@@ -105,24 +174,62 @@ class ExtrapolationException(TransformException):
         *,
         requested: Stamp,
         available: Stamp,
+        frame: str | None = None,
         target: str | None = None,
         source: str | None = None,
     ) -> None:
         super().__init__(message, target=target, source=source)
         self.requested = requested
         self.available = available
+        self.frame = frame
+
+    @property
+    def missed(self) -> Duration:
+        """How far the moment asked for is from the stored one, in nanoseconds."""
+        return abs(self.requested - self.available)
+
+    def _by(self) -> str:
+        # Rounded to microseconds, as in the message, the two moments often read alike.
+        return f"{self.missed / 1e9:.3f} s" if self.missed >= 500_000 else f"{self.missed} ns"
 
 
 class BackwardExtrapolationException(ExtrapolationException):
     """The moment lies before the oldest sample of a link."""
 
+    @property
+    def remedy(self) -> str:
+        """By how much, and what helps."""
+        return (
+            f"That is {self._by()} before the oldest sample of '{self.frame}': ask for a later "
+            "moment, or for time 0 (the latest), or give the buffer a longer cache_time."
+        )
+
 
 class ForwardExtrapolationException(ExtrapolationException):
     """The moment lies after the newest sample of a link."""
 
+    @property
+    def remedy(self) -> str:
+        """By how much, and what helps."""
+        return (
+            f"That is {self._by()} after the newest sample of '{self.frame}': ask for time 0 "
+            "(the latest), or wait until it has come."
+        )
+
 
 class NoDataForExtrapolationException(ExtrapolationException):
     """A link holds no sample, or a single one at another moment."""
+
+    @property
+    def remedy(self) -> str:
+        """By how much, and what helps."""
+        if self.available == 0:
+            return f"Nothing is remembered of '{self.frame}': wait until it is sent."
+        side = "after" if self.requested > self.available else "before"
+        return (
+            f"That is {self._by()} {side} the only sample of '{self.frame}': ask for time 0 "
+            "(the latest), or wait for more."
+        )
 
 
 class MalformedMessage(InputError):

@@ -1,0 +1,629 @@
+"""The buffer: remembers transforms over time and answers how frames lie to each other."""
+
+from collections.abc import Callable
+
+from tftool.errors import TransformException
+from tftool.frames import export, names, refusals, sweep, velocity
+from tftool.frames.forest import ARRIVED, LOOP, REFUSED, Forest, Walk
+from tftool.frames.history import RESHAPED, TOO_OLD, Sample
+from tftool.frames.plans import MOST_PLANS, Plan, plan_of
+from tftool.frames.requests import AVAILABLE, EXPIRED, NEVER, PENDING, Callback, Question, Requests
+from tftool.frames.sample import FrameInfo, Snapshot, TransformStamped
+from tftool.geometry import quaternions, rigid
+from tftool.geometry.rigid import Quaternion, Transform, Vector3
+from tftool.stamps import Duration, Stamp, seconds
+
+__all__ = ["NEVER", "Buffer"]
+
+Listener = Callable[[TransformStamped, bool, str], object]
+"""Is told each accepted sample, whether it is static, and who sent it."""
+
+MAX_FRAMES = 16_384
+"""How many names a buffer takes unless it is told to take more."""
+
+_EXACT = 8e-16
+_new = tuple.__new__
+
+
+class Buffer:
+    """Named frames over time, as tf2 keeps them.
+
+    It knows no clock and waits for nothing: time comes in with the samples and with
+    the questions, in nanoseconds, and 0 in a question means the latest.
+    """
+
+    def __init__(
+        self,
+        cache_time: Duration = seconds(10),
+        *,
+        log: Callable[[str, str], None] | None = None,
+        max_frames: int = MAX_FRAMES,
+    ) -> None:
+        """Make an empty buffer.
+
+        Args:
+            cache_time: How far each moving link remembers back from its newest sample.
+            log: Is told why a sample is refused: level ("WARN", "ERROR") and sentence.
+                Without one, Python's own `logging` is.
+            max_frames: How many names it takes; strangers choose names.
+
+        Raises:
+            ValueError: If `cache_time` is negative.
+        """
+        cache_time = _whole(cache_time)
+        if cache_time < 0:
+            raise ValueError(f"cache_time must not be negative, but is {cache_time} ns")
+        self.cache_time = cache_time
+        self.max_frames = max_frames
+        self._log = log or refusals.log_to_logging
+        self._forest = Forest(cache_time)
+        self._plans: dict[str, dict[str, Plan]] = {}
+        self._planned = 0
+        self._requests = Requests(self._examine)
+        self._listeners: tuple[Listener, ...] = ()
+
+    # Setting
+
+    def set_transform(self, transform: TransformStamped, authority: str = "") -> bool:
+        """Remember a sample of a link that moves.
+
+        Args:
+            transform: The pose of a child in its parent. One leading slash is taken off
+                either name; any finite quaternion but zero is scaled to length one.
+            authority: Who sent it.
+
+        Returns:
+            Whether it was taken. If not, the log was told why, and nothing is lost.
+
+        Raises:
+            TypeError: If the stamp is not a whole number.
+        """
+        return self._set(transform, authority, False)
+
+    def set_transform_static(self, transform: TransformStamped, authority: str = "") -> bool:
+        """Set a link that holds at all times; it takes the place of all the child had before.
+
+        Returns:
+            Whether it was taken. If not, the log was told why, and nothing is lost.
+        """
+        return self._set(transform, authority, True)
+
+    def _set(self, transform: TransformStamped, authority: str, static: bool) -> bool:
+        stamp, parent, child, pose = transform
+        (x, y, z), (qx, qy, qz, qw) = pose
+        if stamp.__class__ is not int:
+            stamp = _whole(stamp)
+        forest = self._forest
+        frame = forest.children.get(child)
+        off = qx * qx + qy * qy + qz * qz + qw * qw - 1.0
+        total = x + y + z
+        if (
+            frame is None
+            or frame.parent_name != parent
+            or (link := frame.link) is None
+            or link.is_static != static
+            or not -_EXACT < off < _EXACT
+            # NaN and, as its sum may be NaN too, infinity.
+            or total - total != 0.0
+        ):
+            return self._set_slowly(stamp, parent, child, pose, authority, static)
+        if qw * qw <= 0.25:
+            qx, qy, qz, qw = quaternions.canonical((qx, qy, qz, qw))
+        elif qw < 0.0:
+            qx, qy, qz, qw = -qx, -qy, -qz, -qw
+        try:
+            outcome = link.insert(stamp, frame.parent_number, (x, y, z, qx, qy, qz, qw))
+        except OverflowError:
+            self._log("ERROR", refusals.bad_stamp(child, stamp, authority))
+            return False
+        if outcome == TOO_OLD:
+            self._log("WARN", refusals.old_data(child, stamp, authority))
+            return False
+        frame.authority = authority
+        if outcome == RESHAPED:
+            self._drop_plans()
+        if self._listeners:
+            self._tell((x, y, z, qx, qy, qz, qw), stamp, parent, child, authority, static)
+        if len(self._requests):
+            self._requests.changed(child)
+        return True
+
+    def _set_slowly(
+        self,
+        stamp: Stamp,
+        parent: str,
+        child: str,
+        pose: Transform,
+        authority: str,
+        static: bool,
+    ) -> bool:
+        """Set what is new or odd: every check, each with its own line in the log."""
+        parent, child = names.stripped(parent), names.stripped(child)
+        x, y, z = pose.translation
+        rotation = quaternions.canonical(quaternions.unit(pose.rotation))
+        errors: list[str] = []
+        if child == parent:
+            errors.append(refusals.self_transform(child, authority))
+        if not child:
+            errors.append(refusals.no_child(authority))
+        if not parent:
+            errors.append(refusals.no_parent(child, authority))
+        if any(number != number for number in (x, y, z, *rotation)):
+            errors.append(refusals.nan_input(child, authority, pose.translation, rotation))
+        if rotation[0] != rotation[0]:
+            errors.append(refusals.denormalized(child, authority, rotation))
+        if not refusals.fits(stamp):
+            errors.append(refusals.bad_stamp(child, stamp, authority))
+        forest = self._forest
+        if not errors:
+            new = forest.missing(child, parent)
+            if new and len(forest.frames) + new > self.max_frames:
+                errors.append(refusals.too_many_frames(child, authority, len(forest.frames)))
+        if errors:
+            for error in errors:
+                self._log("ERROR", error)
+            return False
+
+        known = len(forest.frames)
+        fresh = forest.hang(child, parent, static)
+        frame = forest.children[child]
+        assert frame.link is not None
+        sample = (x, y, z, *rotation)
+        outcome = frame.link.insert(stamp, frame.parent_number, sample)
+        if outcome == TOO_OLD:
+            self._log("WARN", refusals.old_data(child, stamp, authority))
+            return False
+        frame.authority = authority
+        if fresh or outcome == RESHAPED:
+            self._drop_plans()
+        if self._listeners:
+            self._tell(sample, stamp, parent, child, authority, static)
+        if len(self._requests):
+            if len(forest.frames) > known:
+                self._requests.changed(child, parent)
+            else:
+                self._requests.changed(child)
+        return True
+
+    def _tell(
+        self, sample: Sample, stamp: Stamp, parent: str, child: str, authority: str, static: bool
+    ) -> None:
+        told = _stamped(stamp, parent, child, sample)
+        for listener in self._listeners:
+            listener(told, static, authority)
+
+    def clear(self) -> None:
+        """Forget all that moves; names, statics and pending requests stay."""
+        for frame in self._forest.frames:
+            if frame.link is not None:
+                frame.link.clear()
+        self._drop_plans()
+
+    def listen(self, callback: Listener) -> Callable[[], None]:
+        """Have `callback` called after each accepted sample; call what is returned to stop."""
+        self._listeners = (*self._listeners, callback)
+
+        def stop() -> None:
+            self._listeners = tuple(one for one in self._listeners if one is not callback)
+
+        return stop
+
+    # Looking up
+
+    def lookup_transform(
+        self, target_frame: str, source_frame: str, time: Stamp = 0
+    ) -> TransformStamped:
+        """The pose of source in target: moves points given in source into target.
+
+        Args:
+            target_frame: What the answer is expressed in.
+            source_frame: What is asked about.
+            time: The moment; 0 for the newest one for which the whole chain has data.
+
+        Returns:
+            With the moment it holds for as its stamp, or 0 if it holds at all times.
+
+        Raises:
+            InvalidArgumentException: If a name is empty or starts with a slash.
+            LookupException: If a name never came up, or the chain runs in a loop.
+            ConnectivityException: If the two frames are of different trees.
+            ExtrapolationException: If a link has no data for that moment.
+            TypeError: If `time` is not a whole number.
+        """
+        if time.__class__ is not int:
+            time = _whole(time)
+        try:
+            plan = self._plans[target_frame][source_frame]
+        except KeyError:
+            return self._lookup_slowly(target_frame, source_frame, time)
+        moment = time or plan.latest()
+        sample = plan.solve(moment)
+        if sample is None:
+            return self._lookup_slowly(target_frame, source_frame, time)
+        x, y, z, qx, qy, qz, qw = sample
+        pose = _new(Transform, (_new(Vector3, (x, y, z)), _new(Quaternion, (qx, qy, qz, qw))))
+        return _new(TransformStamped, (moment, target_frame, source_frame, pose))
+
+    def _lookup_slowly(self, target: str, source: str, time: Stamp) -> TransformStamped:
+        """Look up without a plan; leaves one behind where that is possible."""
+        if target == source:
+            if time == 0:
+                number = self._forest.numbers.get(target)
+                time = 0 if number is None else self._forest.newest_stamp(number)
+            return TransformStamped(time, target, source, rigid.IDENTITY)
+        target_number = self._number(target, "target_frame", "lookupTransform", target, source)
+        source_number = self._number(source, "source_frame", "lookupTransform", target, source)
+        time = time or self._latest_common(target_number, source_number)
+        walk = self._forest.walk(target_number, source_number, time)
+        if walk.ended != ARRIVED:
+            raise self._refusal(walk, time, target, source)
+        plan = plan_of(self._forest, walk)
+        sample = plan.solve(time)
+        assert sample is not None, "a link that answers for its parent answers for its pose"
+        self._remember_plan(target, source)
+        return _stamped(time, target, source, sample)
+
+    def lookup_transform_full(
+        self,
+        target_frame: str,
+        target_time: Stamp,
+        source_frame: str,
+        source_time: Stamp,
+        fixed_frame: str,
+    ) -> TransformStamped:
+        """Where source was at its time, in target as target is at its own time.
+
+        Both are looked up against `fixed_frame`, which is taken not to move in between.
+
+        Raises:
+            TransformException: As `lookup_transform`; frames are always checked, even equal ones.
+        """
+        for frame, argument in (
+            (target_frame, "target_frame"),
+            (source_frame, "source_frame"),
+            (fixed_frame, "fixed_frame"),
+        ):
+            self._number(frame, argument, "lookupTransform", target_frame, source_frame)
+        fixed_from_source = self.lookup_transform(fixed_frame, source_frame, source_time)
+        target_from_fixed = self.lookup_transform(target_frame, fixed_frame, target_time)
+        found = rigid.canonical(target_from_fixed.transform @ fixed_from_source.transform)
+        return TransformStamped(target_from_fixed.stamp, target_frame, source_frame, found)
+
+    def get_latest_common_time(self, target_frame: str, source_frame: str) -> Stamp:
+        """The newest moment for which every link between two frames has data; 0 if none moves.
+
+        Raises:
+            TransformException: If a name is unknown or invalid, or nothing joins the two.
+        """
+        call = "get_latest_common_time"
+        target = self._number(target_frame, "target_frame", call, target_frame, source_frame)
+        source = self._number(source_frame, "source_frame", call, target_frame, source_frame)
+        return self._latest_common(target, source)
+
+    def newest_common(self, target_frame: str, source_frame: str) -> Stamp:
+        """As `get_latest_common_time`, but 0 where that would refuse."""
+        try:
+            return self.get_latest_common_time(target_frame, source_frame)
+        except TransformException:
+            return 0
+
+    def lookup_velocity(
+        self, tracking_frame: str, observation_frame: str, time: Stamp, interval: Duration
+    ) -> velocity.Velocity:
+        """How `tracking_frame` moves in `observation_frame`, by tf2's formula.
+
+        See `velocity.full` for what tf2's numbers mean, and `lookup_twist` for plain ones.
+        """
+        return velocity.full(
+            self,
+            tracking_frame,
+            observation_frame,
+            observation_frame,
+            (0.0, 0.0, 0.0),
+            tracking_frame,
+            time,
+            interval,
+        )
+
+    def lookup_velocity_full(
+        self,
+        tracking_frame: str,
+        observation_frame: str,
+        reference_frame: str,
+        reference_point: tuple[float, float, float],
+        reference_point_frame: str,
+        time: Stamp,
+        interval: Duration,
+    ) -> velocity.Velocity:
+        """How `tracking_frame` moves in `observation_frame`, told in `reference_frame`.
+
+        tf2's formula to the letter; see `velocity.full`.
+        """
+        return velocity.full(
+            self,
+            tracking_frame,
+            observation_frame,
+            reference_frame,
+            reference_point,
+            reference_point_frame,
+            time,
+            interval,
+        )
+
+    def lookup_twist(
+        self, tracking_frame: str, observation_frame: str, time: Stamp, interval: Duration
+    ) -> velocity.Velocity:
+        """The velocity of the origin of `tracking_frame`, and how it turns, in `observation_frame`.
+
+        Raises:
+            TransformException: As `lookup_transform`.
+        """
+        return velocity.twist(self, tracking_frame, observation_frame, time, interval)
+
+    # Asking whether
+
+    def can_transform(self, target_frame: str, source_frame: str, time: Stamp = 0) -> bool:
+        """Whether `lookup_transform` would answer; it never raises for a name or a time."""
+        plan = self._plans.get(target_frame, {}).get(source_frame)
+        if plan is not None and plan.covers(time or plan.latest()):
+            return True
+        return self._why_not(target_frame, source_frame, time) is None
+
+    def can_transform_full(
+        self,
+        target_frame: str,
+        target_time: Stamp,
+        source_frame: str,
+        source_time: Stamp,
+        fixed_frame: str,
+    ) -> bool:
+        """Whether `lookup_transform_full` would answer."""
+        return not self.why_not_full(
+            target_frame, target_time, source_frame, source_time, fixed_frame
+        )
+
+    def why_not(self, target_frame: str, source_frame: str, time: Stamp = 0) -> str:
+        """Why `can_transform` says no, in tf2's words; empty if it says yes."""
+        reason = self._why_not(target_frame, source_frame, time)
+        return "" if reason is None else reason if isinstance(reason, str) else str(reason)
+
+    def why_not_full(
+        self,
+        target_frame: str,
+        target_time: Stamp,
+        source_frame: str,
+        source_time: Stamp,
+        fixed_frame: str,
+    ) -> str:
+        """Why `can_transform_full` says no, in tf2's words; empty if it says yes."""
+        for frame, argument in (
+            (target_frame, "target_frame"),
+            (source_frame, "source_frame"),
+            (fixed_frame, "fixed_frame"),
+        ):
+            if why := self._fault(frame):
+                return refusals.invalid_frame(frame, argument, why)
+        # The other way round than in the lookup, as in tf2.
+        return self.why_not(target_frame, fixed_frame, target_time) or self.why_not(
+            fixed_frame, source_frame, source_time
+        )
+
+    def _why_not(self, target: str, source: str, time: Stamp) -> str | TransformException | None:
+        if target == source:
+            return None
+        for frame, argument in ((target, "target_frame"), (source, "source_frame")):
+            if why := self._fault(frame):
+                return refusals.invalid_frame(frame, argument, why)
+        numbers = self._forest.numbers
+        target_number, source_number = numbers[target], numbers[source]
+        try:
+            time = time or self._latest_common(target_number, source_number)
+        except TransformException as refused:
+            return refused
+        walk = self._forest.walk(target_number, source_number, time)
+        if walk.ended == ARRIVED:
+            self._remember_plan(target, source)
+            return None
+        return self._refusal(walk, time, target, source)
+
+    # Waiting
+
+    def request(
+        self, callback: Callback, target_frame: str, source_frame: str, time: Stamp = 0
+    ) -> int:
+        """Be told once the transform can be looked up.
+
+        Args:
+            callback: Called from inside the set that makes it possible, in the order of the
+                requests: with the handle, and True; or False once that moment is forgotten.
+            target_frame: As in `lookup_transform`.
+            source_frame: As in `lookup_transform`.
+            time: As in `lookup_transform`; 0 is never forgotten.
+
+        Returns:
+            0 if it can be looked up now, NEVER if it never can again (in both cases
+            `callback` is not kept), else a handle for `cancel`.
+        """
+        return self._requests.add(callback, ((target_frame, source_frame, time),))
+
+    def request_full(
+        self,
+        callback: Callback,
+        target_frame: str,
+        target_time: Stamp,
+        source_frame: str,
+        source_time: Stamp,
+        fixed_frame: str,
+    ) -> int:
+        """The same for `lookup_transform_full`."""
+        return self._requests.add(
+            callback,
+            (
+                (target_frame, fixed_frame, target_time),
+                (fixed_frame, source_frame, source_time),
+            ),
+        )
+
+    def cancel(self, handle: int) -> None:
+        """Let go of a request; its callback is not called any more."""
+        self._requests.cancel(handle)
+
+    def _examine(self, question: Question, first: bool) -> tuple[int, tuple[str, ...]]:
+        target, source, time = question
+        if target == source:
+            return AVAILABLE, ()
+        numbers = self._forest.numbers
+        for name in (target, source):
+            if name not in numbers:
+                # Nothing but this name's coming up can help.
+                return PENDING, (name,)
+        target_number, source_number = numbers[target], numbers[source]
+        ended, latest = self._forest.latest_common(target_number, source_number)
+        # A question for the latest never becomes too old.
+        expired = latest != 0 and time != 0 and time + self.cache_time < latest
+        if expired and not first:
+            return EXPIRED, ()
+        newest = self._forest.walk(target_number, source_number, 0)
+        walk = self._forest.walk(target_number, source_number, time or latest)
+        if walk.ended == ARRIVED and (time or ended == ARRIVED):
+            return AVAILABLE, ()
+        if expired:
+            return EXPIRED, ()
+        frames = self._forest.frames
+        seen = dict.fromkeys([*walk.visited(), *newest.visited()])
+        return PENDING, tuple(frames[number].name for number in seen)
+
+    # Looking at the whole
+
+    def snapshot(self, now: Stamp, at: Stamp = 0) -> Snapshot:
+        """All frames at one moment.
+
+        Args:
+            now: What the clock reads; ages are told against it.
+            at: The moment to show; 0 for each frame at the latest moment of its chain.
+        """
+        return sweep.snapshot(self._forest, now, at)
+
+    def frames(self) -> list[str]:
+        """Every name that ever came up, in that order; of one sample the child first."""
+        return [frame.name for frame in self._forest.frames]
+
+    def frame_exists(self, frame: str) -> bool:
+        """Whether a name ever came up; tf2's own NO_PARENT always did."""
+        return frame in self._forest.numbers or frame == names.NO_PARENT_NAME
+
+    def parent(self, frame: str, time: Stamp = 0) -> str | None:
+        """What a frame hung from at a moment; None for a root, and where nobody knows."""
+        number = self._forest.numbers.get(frame)
+        if number is None:
+            return None
+        link = self._forest.frames[number].link
+        above = -1 if link is None else link.parent_at(time)
+        return None if above < 0 else self._forest.frames[above].name
+
+    def chain(self, target_frame: str, source_frame: str, time: Stamp = 0) -> list[str]:
+        """The frames from source to target, both included; empty if they are the same.
+
+        Raises:
+            TransformException: As `lookup_transform`.
+        """
+        if target_frame == source_frame:
+            return []
+        self.lookup_transform(target_frame, source_frame, time)
+        forest = self._forest
+        target, source = forest.numbers[target_frame], forest.numbers[source_frame]
+        time = time or self._latest_common(target, source)
+        walk = forest.walk(target, source, time)
+        numbers = list(walk.up)
+        # Where the two sides meet: above the last link of either.
+        last = (walk.up or walk.down)[-1]
+        link = forest.frames[last].link
+        assert link is not None
+        numbers.append(link.parent_at(time))
+        numbers.extend(reversed(walk.down))
+        return [forest.frames[number].name for number in numbers]
+
+    def all_frames_as_yaml(self, current_time: Stamp = 0) -> str:
+        """tf2's YAML of all frames; see `export.as_yaml`."""
+        return export.as_yaml(self._infos(), current_time)
+
+    def all_frames_as_string(self) -> str:
+        """tf2's sentences about all frames; see `export.as_string`."""
+        return export.as_string(self._infos())
+
+    def all_frames_as_dot(self, current_time: Stamp = 0) -> str:
+        """tf2's dot of all frames; see `export.as_dot`."""
+        return export.as_dot(self._infos(), current_time)
+
+    def _infos(self) -> tuple[FrameInfo, ...]:
+        return self.snapshot(0).frames
+
+    # Names, plans and refusals
+
+    def _number(self, frame: str, argument: str, call: str, target: str, source: str) -> int:
+        """A frame's number, or why there is none."""
+        if why := names.fault(frame):
+            raise refusals.invalid(frame, argument, call, why, target=target, source=source)
+        number = self._forest.numbers.get(frame)
+        if number is None:
+            raise refusals.unknown(
+                frame, argument, call, self._forest.numbers.keys(), target=target, source=source
+            )
+        return number
+
+    def _fault(self, frame: str) -> str:
+        """What is wrong with a frame's name, as `can_transform` has it; empty if nothing is."""
+        if why := names.fault(frame):
+            return why
+        return "" if frame in self._forest.numbers else "frame does not exist"
+
+    def _latest_common(self, target: int, source: int) -> Stamp:
+        ended, latest = self._forest.latest_common(target, source)
+        if ended == ARRIVED:
+            return latest
+        frames = self._forest.frames
+        target_name, source_name = frames[target].name, frames[source].name
+        if ended == LOOP:
+            raise refusals.loop(self.all_frames_as_string(), target_name, source_name)
+        raise refusals.unconnected(target_name, source_name)
+
+    def _refusal(self, walk: Walk, time: Stamp, target: str, source: str) -> TransformException:
+        """What a walk that did not arrive is refused with."""
+        if walk.ended == LOOP:
+            return refusals.loop(self.all_frames_as_string(), target, source)
+        if walk.ended == REFUSED:
+            frame = self._forest.frames[walk.refused]
+            assert frame.link is not None
+            return refusals.extrapolation(
+                frame.link.refusal(time), frame.name, time, target, source
+            )
+        return refusals.unconnected(target, source)
+
+    def _remember_plan(self, target: str, source: str) -> None:
+        """Keep a plan by the newest samples, if no link on the way leads elsewhere at times."""
+        forest = self._forest
+        walk = forest.walk(forest.numbers[target], forest.numbers[source], 0)
+        if walk.ended != ARRIVED:
+            return
+        for number in walk.visited():
+            link = forest.frames[number].link
+            if link is not None and link.mixed:
+                return
+        if self._planned >= MOST_PLANS:
+            self._drop_plans()
+        self._plans.setdefault(target, {})[source] = plan_of(forest, walk)
+        self._planned += 1
+
+    def _drop_plans(self) -> None:
+        if self._planned:
+            self._plans = {}
+            self._planned = 0
+
+
+def _stamped(stamp: Stamp, target: str, source: str, sample: Sample) -> TransformStamped:
+    x, y, z, qx, qy, qz, qw = sample
+    return TransformStamped(stamp, target, source, rigid.transform((x, y, z), (qx, qy, qz, qw)))
+
+
+def _whole(stamp: object) -> Stamp:
+    return stamp if stamp.__class__ is int else refusals.whole_nanoseconds(stamp)

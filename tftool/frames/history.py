@@ -1,0 +1,432 @@
+"""One link over time: insert, forget, interpolate, refuse to extrapolate.
+
+A link joins a child to its parent. `History` is one that moves: its samples lie in
+flat arrays, oldest first, 64 bytes each, behind a window that slides as old ones are
+forgotten; the newest is kept as a tuple too, so that "latest" touches no array.
+`Constant` is one that holds at all times.
+"""
+
+import math
+import struct
+from array import array
+from bisect import bisect_left, bisect_right
+from typing import TypeAlias
+
+from tftool.stamps import Duration, Stamp
+
+Sample: TypeAlias = tuple[float, float, float, float, float, float, float]
+"""A pose: x, y, z in metres and a unit quaternion x, y, z, w of tf2's sign."""
+
+Refusal: TypeAlias = tuple[int, Stamp]
+"""Why a link has no pose at a moment: NO_DATA, FORWARD or BACKWARD, and the stamp it does have."""
+
+NO_PARENT = -1
+"""In place of a parent's number: none."""
+
+# Why a link has no pose at some moment.
+NO_DATA = 1
+FORWARD = 2
+BACKWARD = 3
+
+# What became of an insert.
+TOO_OLD = 0
+KNOWN = 1
+STORED = 2
+RESHAPED = 3
+
+_pack = struct.Struct("=7d").pack
+_unpack_one = struct.Struct("=7d").unpack_from
+_unpack_two = struct.Struct("=14d").unpack_from
+_WIDTH = 56
+
+# Forgotten samples, and room in front for ones that arrive backwards, take at most
+# one part in sixteen, like the room that `array` keeps at its end.
+_SLACK = 4
+_LEAST_SLACK = 32
+
+
+class Link:
+    """What joins a child to its parent.
+
+    Attributes:
+        newest_stamp: Stamp of the newest sample; 0 for a constant, and when there is none.
+        oldest_stamp: Stamp of the oldest sample; 0 likewise.
+        newest: The newest sample itself; None when there is none.
+        parent: Number of the newest sample's parent; NO_PARENT when there is none.
+        mixed: Whether samples with different parents are remembered.
+    """
+
+    __slots__ = ("mixed", "newest", "newest_stamp", "oldest_stamp", "parent")
+
+    def __init__(self) -> None:
+        self.newest_stamp: Stamp = 0
+        self.oldest_stamp: Stamp = 0
+        self.newest: Sample | None = None
+        self.parent: int = NO_PARENT
+        self.mixed: bool = False
+
+    @property
+    def is_static(self) -> bool:
+        """Whether it holds at all times."""
+        raise NotImplementedError
+
+    def __len__(self) -> int:
+        raise NotImplementedError
+
+    def at(self, time: Stamp) -> Sample | None:
+        """The pose at that moment (0: the newest), interpolated; None if it is refused."""
+        raise NotImplementedError
+
+    def parent_at(self, time: Stamp) -> int:
+        """Number of the parent at that moment (0: the newest's); NO_PARENT if refused."""
+        raise NotImplementedError
+
+    def refusal(self, time: Stamp) -> Refusal:
+        """Why there is no pose at that moment; only asked when there is none."""
+        raise NotImplementedError
+
+    def insert(self, stamp: Stamp, parent: int, sample: Sample) -> int:
+        """Remember a sample; says TOO_OLD, KNOWN, STORED, or RESHAPED when the parent changed."""
+        raise NotImplementedError
+
+    def clear(self) -> None:
+        """Forget what moves."""
+        raise NotImplementedError
+
+    def items(self) -> list[tuple[Stamp, int, Sample]]:
+        """Every sample remembered, newest first: stamp, parent's number, pose."""
+        raise NotImplementedError
+
+
+class Constant(Link):
+    """A link that holds at all times: one slot, overwritten."""
+
+    __slots__ = ()
+
+    @property
+    def is_static(self) -> bool:
+        """True."""
+        return True
+
+    def __len__(self) -> int:
+        return 1
+
+    def at(self, time: Stamp) -> Sample | None:
+        """The one pose, whatever the moment."""
+        return self.newest
+
+    def parent_at(self, time: Stamp) -> int:
+        """The one parent, whatever the moment."""
+        return self.parent
+
+    def refusal(self, time: Stamp) -> Refusal:
+        """Never asked for: a constant refuses nothing."""
+        return NO_DATA, 0
+
+    def insert(self, stamp: Stamp, parent: int, sample: Sample) -> int:
+        """Put the sample in place of the one that was there."""
+        if parent == self.parent and sample == self.newest:
+            return KNOWN
+        self.parent = parent
+        self.newest = sample
+        return RESHAPED
+
+    def clear(self) -> None:
+        """Nothing: what holds at all times is not forgotten."""
+
+    def items(self) -> list[tuple[Stamp, int, Sample]]:
+        """The one sample, at stamp 0."""
+        return [] if self.newest is None else [(0, self.parent, self.newest)]
+
+
+class History(Link):
+    """A link that moves: its samples of the last `limit` nanoseconds, as tf2 keeps them.
+
+    Forgetting is lazy: only an insert forgets, and before it adds. Among equal stamps
+    the last one inserted is the newest.
+    """
+
+    __slots__ = ("_limit", "_parents", "_run", "_samples", "_stamps", "_start")
+
+    def __init__(self, limit: Duration) -> None:
+        super().__init__()
+        self._limit = limit
+        self._stamps: array[int] = array("q")
+        self._samples: array[float] = array("d")
+        # One parent serves all, until samples disagree: then one number for each sample.
+        self._parents: array[int] | None = None
+        self._start = 0
+        # Where the newest samples that share a parent begin; of use while mixed.
+        self._run = 0
+
+    @property
+    def is_static(self) -> bool:
+        """False."""
+        return False
+
+    def __len__(self) -> int:
+        return len(self._stamps) - self._start
+
+    # Remembering
+
+    def insert(self, stamp: Stamp, parent: int, sample: Sample) -> int:
+        """Forget what is too old by now, then remember a sample.
+
+        Returns:
+            TOO_OLD if it lies further back than the limit, KNOWN if that very sample is
+            there, RESHAPED if it changes who the newest parent is or makes the parents
+            mixed, else STORED.
+
+        Raises:
+            OverflowError: If the stamp does not fit 64 bits.
+        """
+        newest = self.newest_stamp
+        if self.newest is None:
+            self._stamps.append(stamp)
+            self._samples.frombytes(_pack(*sample))
+            self.oldest_stamp = self.newest_stamp = stamp
+            self.newest = sample
+            self.parent = parent
+            return RESHAPED
+        if self.oldest_stamp + self._limit < newest:
+            self._forget(newest - self._limit)
+        if stamp > newest:
+            self._stamps.append(stamp)
+            self._samples.frombytes(_pack(*sample))
+            self.newest_stamp = stamp
+            self.newest = sample
+            if parent != self.parent or self.mixed:
+                return self._append_parent(parent)
+            return STORED
+        if stamp < newest - self._limit:
+            return TOO_OLD
+        return self._insert_late(stamp, parent, sample)
+
+    def clear(self) -> None:
+        """Forget everything; afterwards any stamp is taken again."""
+        self._stamps = array("q")
+        self._samples = array("d")
+        self._parents = None
+        self._start = self._run = 0
+        self.newest_stamp = self.oldest_stamp = 0
+        self.newest = None
+        self.parent = NO_PARENT
+        self.mixed = False
+
+    def _forget(self, oldest_kept: Stamp) -> None:
+        """Let go of samples before that stamp."""
+        stamps = self._stamps
+        start = self._start + 1
+        if stamps[start] < oldest_kept:
+            start = bisect_left(stamps, oldest_kept, start)
+        self.oldest_stamp = stamps[start]
+        if self.mixed and start >= self._run:
+            self._parents = None
+            self.mixed = False
+        if start > _LEAST_SLACK and start > len(stamps) >> _SLACK:
+            del stamps[:start]
+            del self._samples[: 7 * start]
+            if self._parents is not None:
+                del self._parents[:start]
+            self._run -= start
+            start = 0
+        self._start = start
+
+    def _append_parent(self, parent: int) -> int:
+        """Note the parent of the sample just appended."""
+        count = len(self._stamps)
+        parents = self._parents
+        if parents is None:
+            parents = self._mix(count - 1)
+        parents.append(parent)
+        if parent == self.parent:
+            return STORED
+        self.parent = parent
+        self._run = count - 1
+        return RESHAPED
+
+    def _mix(self, count: int) -> "array[int]":
+        """Begin to note a parent for each of the first `count` samples."""
+        parents = self._parents = array("i", [self.parent]) * count
+        self.mixed = True
+        self._run = self._start
+        return parents
+
+    def _insert_late(self, stamp: Stamp, parent: int, sample: Sample) -> int:
+        """Insert a sample that is not newer than all others."""
+        stamps = self._stamps
+        place = bisect_right(stamps, stamp, self._start)
+        behind = place - 1
+        while behind >= self._start and stamps[behind] == stamp:
+            if self._sample(behind) == sample and self._parent(behind) == parent:
+                return KNOWN
+            behind -= 1
+
+        was_mixed = self.mixed
+        if parent != self.parent and not was_mixed:
+            self._mix(len(stamps))
+        if place == self._start:
+            place = self._make_room_in_front()
+            stamps[place] = stamp
+            self._samples[7 * place : 7 * place + 7] = array("d", sample)
+            if self._parents is not None:
+                self._parents[place] = parent
+            self._start = place
+        else:
+            stamps.insert(place, stamp)
+            self._samples[7 * place : 7 * place] = array("d", sample)
+            if self._parents is not None:
+                self._parents.insert(place, parent)
+            if place < self._run:
+                self._run += 1
+        self.oldest_stamp = stamps[self._start]
+        if place == len(stamps) - 1:
+            # Equal to the newest stamp: the one that came last is in front.
+            self.newest = sample
+            if parent != self.parent:
+                self.parent = parent
+                self._run = place
+                return RESHAPED
+        elif parent != self.parent and (place >= self._run or not was_mixed):
+            self._run = place + 1
+        return RESHAPED if self.mixed != was_mixed else STORED
+
+    def _make_room_in_front(self) -> int:
+        """The free place before the oldest sample; samples that arrive backwards go there."""
+        if self._start == 0:
+            room = max(_LEAST_SLACK, len(self._stamps) >> _SLACK)
+            self._stamps[0:0] = array("q", bytes(8 * room))
+            self._samples[0:0] = array("d", bytes(_WIDTH * room))
+            if self._parents is not None:
+                self._parents[0:0] = array("i", [self.parent]) * room
+            self._start = room
+            self._run += room
+        return self._start - 1
+
+    # Answering
+
+    def at(self, time: Stamp) -> Sample | None:
+        """The pose at that moment: met exactly, or on the way between its two neighbours.
+
+        Between two samples with different parents it is the older one, as it is.
+        """
+        if time == self.newest_stamp or time == 0:
+            return self.newest
+        if time <= self.oldest_stamp:
+            if time < self.oldest_stamp or self.newest is None:
+                return None
+            return _unpack_one(self._samples, _WIDTH * self._start)
+        if time > self.newest_stamp:
+            return None
+        index = self._index(time)
+        stamps = self._stamps
+        before = stamps[index]
+        if before == time:
+            return _unpack_one(self._samples, _WIDTH * index)
+        if self._parents is not None and self._parents[index] != self._parents[index + 1]:
+            return _unpack_one(self._samples, _WIDTH * index)
+        ratio = (time - before) / (stamps[index + 1] - before)
+        x, y, z, ax, ay, az, aw, x2, y2, z2, bx, by, bz, bw = _unpack_two(
+            self._samples, _WIDTH * index
+        )
+        x += ratio * (x2 - x)
+        y += ratio * (y2 - y)
+        z += ratio * (z2 - z)
+        # quaternions.slerp, written out: calling it would cost a third of the whole.
+        cosine = ax * bx + ay * by + az * bz + aw * bw
+        if cosine < 0.0:
+            cosine = -cosine
+            bx, by, bz, bw = -bx, -by, -bz, -bw
+        if cosine >= 1.0:
+            return (
+                x,
+                y,
+                z,
+                ax + ratio * (bx - ax),
+                ay + ratio * (by - ay),
+                az + ratio * (bz - az),
+                aw + ratio * (bw - aw),
+            )
+        angle = math.acos(cosine)
+        sine = math.sin(angle)
+        keep = math.sin((1.0 - ratio) * angle) / sine
+        take = math.sin(ratio * angle) / sine
+        return (
+            x,
+            y,
+            z,
+            keep * ax + take * bx,
+            keep * ay + take * by,
+            keep * az + take * bz,
+            keep * aw + take * bw,
+        )
+
+    def parent_at(self, time: Stamp) -> int:
+        """Number of the parent at that moment: the older neighbour's."""
+        if time == self.newest_stamp or time == 0:
+            return self.parent
+        if self.newest is None or not self.oldest_stamp <= time < self.newest_stamp:
+            return NO_PARENT
+        if self._parents is None:
+            return self.parent
+        if time == self.oldest_stamp:
+            return self._parents[self._start]
+        return self._parents[self._index(time)]
+
+    def refusal(self, time: Stamp) -> Refusal:
+        """Which kind of nothing it has for that moment, and the stamp nearest to it."""
+        if len(self) <= 1:
+            return NO_DATA, self.newest_stamp
+        if time > self.newest_stamp:
+            return FORWARD, self.newest_stamp
+        return BACKWARD, self.oldest_stamp
+
+    def stamp_at(self, time: Stamp) -> Stamp:
+        """Stamp of the sample that answers for that moment, the older of the two."""
+        if time == self.newest_stamp or time == 0:
+            return self.newest_stamp
+        return self._stamps[self._index(time)] if time > self.oldest_stamp else self.oldest_stamp
+
+    def items(self) -> list[tuple[Stamp, int, Sample]]:
+        """Every sample remembered, newest first: stamp, parent's number, pose."""
+        return [
+            (self._stamps[index], self._parent(index), self._sample(index))
+            for index in range(len(self._stamps) - 1, self._start - 1, -1)
+        ]
+
+    def _sample(self, index: int) -> Sample:
+        sample: Sample = _unpack_one(self._samples, _WIDTH * index)
+        return sample
+
+    def _parent(self, index: int) -> int:
+        return self.parent if self._parents is None else self._parents[index]
+
+    def _index(self, time: Stamp) -> int:
+        """Where the last sample at or before `time` lies; oldest < time < newest.
+
+        Samples come almost periodically: guess by the mean rate, correct the guess once,
+        and search only when that fails.
+        """
+        stamps = self._stamps
+        start = self._start
+        last = len(stamps) - 1
+        oldest = self.oldest_stamp
+        span = self.newest_stamp - oldest
+        steps = last - start
+        guess = start + (time - oldest) * steps // span
+        there = stamps[guess]
+        if there <= time:
+            if time < stamps[guess + 1]:
+                return guess
+            low, high = guess + 1, last
+            guess += (time - there) * steps // span
+            if guess >= last:
+                guess = last - 1
+        else:
+            low, high = start, guess
+            guess -= (there - time) * steps // span + 1
+            if guess < start:
+                guess = start
+        if stamps[guess] <= time < stamps[guess + 1]:
+            return guess
+        return bisect_right(stamps, time, low, high) - 1

@@ -1,0 +1,180 @@
+"""The way from one frame to another, worked out once and walked many times.
+
+A plan holds while no link changes whom it leads to. Where a link has nothing for a
+moment, a plan answers nothing: the forest's walk then says why, or finds a way that a
+plan cannot know.
+"""
+
+from collections.abc import Iterable
+
+from tftool.frames.forest import Forest, Walk
+from tftool.frames.history import Constant, Link, Sample
+from tftool.geometry import quaternions
+from tftool.stamps import Stamp
+
+IDENTITY: Sample = (0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 1.0)
+
+# So many pairs of frames are remembered; a program that asks for more than this in turn
+# pays for each plan anew rather than with memory.
+MOST_PLANS = 20_000
+
+
+class Plan:
+    """The links from source up to where the two sides meet, and from target up to there.
+
+    Attributes:
+        up: Links from the source upward.
+        down: Links from the target upward.
+        moving: Those of them that are no constants.
+        mixed: Whether a link leads somewhere else at other times.
+    """
+
+    __slots__ = ("down", "mixed", "moving", "up")
+
+    def __init__(self, up: Iterable[Link], down: Iterable[Link]) -> None:
+        self.up = folded(up)
+        self.down = folded(down)
+        self.moving = tuple(link for link in self.up + self.down if not link.is_static)
+        self.mixed = any(link.mixed for link in self.moving)
+
+    def latest(self) -> Stamp:
+        """The newest moment for which every link has data; 0 if none of them moves."""
+        latest = 0
+        for link in self.moving:
+            stamp = link.newest_stamp
+            if stamp != 0 and (stamp < latest or latest == 0):
+                latest = stamp
+        return latest
+
+    def covers(self, time: Stamp) -> bool:
+        """Whether every link has data at that moment."""
+        for link in self.moving:
+            if time != link.newest_stamp and (
+                not link.oldest_stamp <= time < link.newest_stamp and time != 0
+            ):
+                return False
+        return True
+
+    def solve(self, time: Stamp) -> Sample | None:
+        """The pose of source in target at that moment, or None if a link has none for it."""
+        # Both sides are written out: a call for each would cost as much as its arithmetic.
+        x = y = z = qx = qy = qz = 0.0
+        qw = 1.0
+        first = True
+        for link in self.up:
+            sample = link.newest if link.newest_stamp == time else link.at(time)
+            if sample is None:
+                return None
+            if first:
+                x, y, z, qx, qy, qz, qw = sample
+                first = False
+                continue
+            tx, ty, tz, ax, ay, az, aw = sample
+            cx = 2.0 * (ay * z - az * y)
+            cy = 2.0 * (az * x - ax * z)
+            cz = 2.0 * (ax * y - ay * x)
+            x += aw * cx + ay * cz - az * cy + tx
+            y += aw * cy + az * cx - ax * cz + ty
+            z += aw * cz + ax * cy - ay * cx + tz
+            qx, qy, qz, qw = (
+                aw * qx + ax * qw + ay * qz - az * qy,
+                aw * qy + ay * qw + az * qx - ax * qz,
+                aw * qz + az * qw + ax * qy - ay * qx,
+                aw * qw - ax * qx - ay * qy - az * qz,
+            )
+
+        first = True
+        ux = uy = uz = vx = vy = vz = 0.0
+        vw = 1.0
+        for link in self.down:
+            sample = link.newest if link.newest_stamp == time else link.at(time)
+            if sample is None:
+                return None
+            if first:
+                ux, uy, uz, vx, vy, vz, vw = sample
+                first = False
+                continue
+            tx, ty, tz, ax, ay, az, aw = sample
+            cx = 2.0 * (ay * uz - az * uy)
+            cy = 2.0 * (az * ux - ax * uz)
+            cz = 2.0 * (ax * uy - ay * ux)
+            ux += aw * cx + ay * cz - az * cy + tx
+            uy += aw * cy + az * cx - ax * cz + ty
+            uz += aw * cz + ax * cy - ay * cx + tz
+            vx, vy, vz, vw = (
+                aw * vx + ax * vw + ay * vz - az * vy,
+                aw * vy + ay * vw + az * vx - ax * vz,
+                aw * vz + az * vw + ax * vy - ay * vx,
+                aw * vw - ax * vx - ay * vy - az * vz,
+            )
+        if not first:
+            # The inverse of the target's side. The difference is turned, not the two ends:
+            # where they are equal, the answer is zero to the last bit.
+            x -= ux
+            y -= uy
+            z -= uz
+            cx = 2.0 * (vz * y - vy * z)
+            cy = 2.0 * (vx * z - vz * x)
+            cz = 2.0 * (vy * x - vx * y)
+            x += vw * cx - vy * cz + vz * cy
+            y += vw * cy - vz * cx + vx * cz
+            z += vw * cz - vx * cy + vy * cx
+            qx, qy, qz, qw = (
+                vw * qx - vx * qw - vy * qz + vz * qy,
+                vw * qy - vy * qw - vz * qx + vx * qz,
+                vw * qz - vz * qw - vx * qy + vy * qx,
+                vw * qw + vx * qx + vy * qy + vz * qz,
+            )
+
+        # quaternions.canonical, written out for the usual case.
+        if qw * qw > 0.25:
+            if qw < 0.0:
+                return x, y, z, -qx, -qy, -qz, -qw
+            return x, y, z, qx, qy, qz, qw
+        qx, qy, qz, qw = quaternions.canonical((qx, qy, qz, qw))
+        return x, y, z, qx, qy, qz, qw
+
+
+def chained(outer: Sample, inner: Sample) -> Sample:
+    """One pose after another: `a_from_c` from `a_from_b` and `b_from_c`."""
+    ox, oy, oz, ax, ay, az, aw = outer
+    ix, iy, iz, bx, by, bz, bw = inner
+    turn = (ax, ay, az, aw)
+    x, y, z = quaternions.rotate(turn, (ix, iy, iz))
+    qx, qy, qz, qw = quaternions.multiply(turn, (bx, by, bz, bw))
+    return x + ox, y + oy, z + oz, qx, qy, qz, qw
+
+
+def folded(links: Iterable[Link]) -> tuple[Link, ...]:
+    """The same links with each run of constants made one."""
+    result: list[Link] = []
+    run: list[Link] = []
+    for link in links:
+        if link.is_static:
+            run.append(link)
+            continue
+        result.extend(_one(run))
+        run = []
+        result.append(link)
+    result.extend(_one(run))
+    return tuple(result)
+
+
+def _one(run: list[Link]) -> list[Link]:
+    if len(run) < 2:
+        return run
+    whole = run[0].newest
+    for link in run[1:]:
+        if whole is not None and link.newest is not None:
+            whole = chained(link.newest, whole)
+    constant = Constant()
+    constant.newest = whole
+    return [constant]
+
+
+def plan_of(forest: Forest, walk: Walk) -> Plan:
+    """The plan for a walk that arrived."""
+    frames = forest.frames
+    up = [frames[number].link for number in walk.up]
+    down = [frames[number].link for number in walk.down]
+    return Plan([link for link in up if link], [link for link in down if link])

@@ -1,0 +1,217 @@
+"""What the buffer says when it refuses, in tf2's words."""
+
+from collections.abc import Callable, Iterable
+
+from tftool.errors import (
+    BackwardExtrapolationException,
+    ConnectivityException,
+    ForwardExtrapolationException,
+    InvalidArgumentException,
+    LookupException,
+    NoDataForExtrapolationException,
+    TransformException,
+)
+from tftool.frames.history import FORWARD, NO_DATA, Refusal
+from tftool.stamps import Stamp, display
+
+# Stamps are kept in 64 bits.
+_LONGEST = 2**63
+
+
+def unknown(
+    frame: str, argument: str, call: str, known: Iterable[str], *, target: str, source: str
+) -> LookupException:
+    """For a name that never came up; `known` is asked only when somebody wants the remedy."""
+    return LookupException(
+        f'"{frame}" passed to {call} argument {argument} does not exist. ',
+        frame=frame,
+        target=target,
+        source=source,
+        known=known,
+    )
+
+
+def invalid(
+    frame: str, argument: str, call: str, why: str, *, target: str, source: str
+) -> InvalidArgumentException:
+    """For a name that can never be asked for."""
+    return InvalidArgumentException(
+        f'Invalid argument "{frame}" passed to {call} argument {argument} - {why}',
+        target=target,
+        source=source,
+        frame=frame,
+    )
+
+
+def invalid_frame(frame: str, argument: str, why: str) -> str:
+    """The sentence `can_transform` has for a name."""
+    return f'Invalid frame ID "{frame}" passed to canTransform argument {argument} - {why}'
+
+
+def unconnected(target: str, source: str) -> ConnectivityException:
+    """For two frames of different trees."""
+    return ConnectivityException(
+        f"Could not find a connection between '{target}' and '{source}' because they are not "
+        "part of the same tree.Tf has two or more unconnected trees.",
+        target=target,
+        source=source,
+    )
+
+
+def loop(frames: str, target: str, source: str) -> LookupException:
+    """For a chain that does not end; `frames` is the list of all of them."""
+    return LookupException(
+        f"The tf tree is invalid because it contains a loop.\n{frames}\n",
+        target=target,
+        source=source,
+        looped=True,
+    )
+
+
+def extrapolation(
+    refusal: Refusal, frame: str, time: Stamp, target: str, source: str
+) -> TransformException:
+    """For a link, that of `frame`, which has nothing for the moment."""
+    kind, available = refusal
+    asked = display(time)
+    has = display(available)
+    tail = f", when looking up transform from frame [{source}] to frame [{target}]"
+    if kind == NO_DATA:
+        return NoDataForExtrapolationException(
+            f"Lookup would require extrapolation at time {asked}, but only time {has} is in the "
+            f"buffer{tail}",
+            requested=time,
+            available=available,
+            frame=frame,
+            target=target,
+            source=source,
+        )
+    if kind == FORWARD:
+        return ForwardExtrapolationException(
+            f"Lookup would require extrapolation into the future.  Requested time {asked} but the "
+            f"latest data is at time {has}{tail}",
+            requested=time,
+            available=available,
+            frame=frame,
+            target=target,
+            source=source,
+        )
+    return BackwardExtrapolationException(
+        f"Lookup would require extrapolation into the past.  Requested time {asked} but the "
+        f"earliest data is at time {has}{tail}",
+        requested=time,
+        available=available,
+        frame=frame,
+        target=target,
+        source=source,
+    )
+
+
+def whole_nanoseconds(stamp: object) -> Stamp:
+    """A moment that is not plainly an `int`, as one.
+
+    Raises:
+        TypeError: If it is a float, or nothing like a whole number.
+    """
+    try:
+        return int(stamp.__index__())  # type: ignore[attr-defined]
+    except AttributeError:
+        raise TypeError(
+            f"stamps are whole nanoseconds, not {stamp!r}: seconds(2.5) makes one of 2.5 seconds"
+        ) from None
+
+
+def fits(stamp: Stamp) -> bool:
+    """Whether a stamp can be kept."""
+    return -_LONGEST <= stamp < _LONGEST
+
+
+# What a rejected sample is logged as. Numbers as C's %f writes them.
+
+
+def self_transform(child: str, authority: str) -> str:
+    """Child and parent are one."""
+    return (
+        f'TF_SELF_TRANSFORM: Ignoring transform from authority "{authority}" with frame_id and  '
+        f'child_frame_id "{child}" because they are the same'
+    )
+
+
+def no_child(authority: str) -> str:
+    """No child named."""
+    return (
+        f'TF_NO_CHILD_FRAME_ID: Ignoring transform from authority "{authority}" because '
+        "child_frame_id not set "
+    )
+
+
+def no_parent(child: str, authority: str) -> str:
+    """No parent named."""
+    return (
+        f'TF_NO_FRAME_ID: Ignoring transform with child_frame_id "{child}"  from authority '
+        f'"{authority}" because frame_id not set'
+    )
+
+
+def nan_input(
+    child: str, authority: str, translation: Iterable[float], rotation: Iterable[float]
+) -> str:
+    """A number that is none."""
+    return (
+        f'TF_NAN_INPUT: Ignoring transform for child_frame_id "{child}" from authority '
+        f'"{authority}" because of a nan value in the transform ({_plain(translation)}) '
+        f"({_plain(rotation)})"
+    )
+
+
+def denormalized(child: str, authority: str, rotation: Iterable[float]) -> str:
+    """A quaternion without a direction."""
+    return (
+        f'TF_DENORMALIZED_QUATERNION: Ignoring transform for child_frame_id "{child}" from '
+        f'authority "{authority}" because of an invalid quaternion in the transform '
+        f"({_plain(rotation)})"
+    )
+
+
+def old_data(child: str, stamp: Stamp, authority: str) -> str:
+    """A sample from before everything that is remembered."""
+    return (
+        f"TF_OLD_DATA ignoring data from the past for frame {child} at time {display(stamp)} "
+        f"according to authority {authority}\nPossible reasons are listed at "
+        "http://wiki.ros.org/tf/Errors%20explained"
+    )
+
+
+def bad_stamp(child: str, stamp: Stamp, authority: str) -> str:
+    """A stamp beyond 64 bits."""
+    return (
+        f'TF_BAD_STAMP: Ignoring transform for child_frame_id "{child}" from authority '
+        f'"{authority}" because its stamp, {stamp} ns, does not fit 64 bits'
+    )
+
+
+def too_many_frames(child: str, authority: str, limit: int) -> str:
+    """More names than the buffer takes."""
+    return (
+        f'TF_TOO_MANY_FRAMES: Ignoring transform for child_frame_id "{child}" from authority '
+        f'"{authority}" because the buffer holds {limit} frame names, as many as it takes; '
+        "Buffer(max_frames=…) raises that"
+    )
+
+
+def _plain(numbers: Iterable[float]) -> str:
+    return " ".join(f"{number:f}" for number in numbers)
+
+
+Log = Callable[[str, str], None]
+"""Is told a level ("WARN", "ERROR") and a sentence."""
+
+
+def log_to_logging(level: str, text: str) -> None:
+    """Where a buffer says why it refused when nobody told it where to."""
+    # Costs 10 ms at start-up, and most programs never get here.
+    import logging
+
+    logging.getLogger("tftool.buffer").log(
+        logging.ERROR if level == "ERROR" else logging.WARNING, "%s", text
+    )

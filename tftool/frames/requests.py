@@ -1,0 +1,125 @@
+"""Questions that wait for their answer, asked again only when something they saw changes."""
+
+from collections.abc import Callable
+from typing import TypeAlias
+
+from tftool.stamps import Stamp
+
+NEVER = 2**64 - 1
+"""The handle of a request that can no longer be met."""
+
+NOW = 0
+"""The handle of a request that is met already."""
+
+PENDING = 0
+AVAILABLE = 1
+EXPIRED = 2
+
+Callback: TypeAlias = Callable[[int, bool], object]
+"""Is told the handle, and whether the transform is available now or never will be."""
+
+Question: TypeAlias = tuple[str, str, Stamp]
+"""Target, source and time."""
+
+Examine: TypeAlias = Callable[[Question, bool], tuple[int, tuple[str, ...]]]
+"""Says PENDING, AVAILABLE or EXPIRED, and which frames must change before that can.
+
+Asked the first time (the flag), a question that has an answer is never taken for expired;
+later, as in tf2, expiry is looked at first.
+"""
+
+
+class Request:
+    """One pending request."""
+
+    __slots__ = ("callback", "handle", "questions", "watched")
+
+    def __init__(self, handle: int, callback: Callback, questions: tuple[Question, ...]) -> None:
+        self.handle = handle
+        self.callback = callback
+        self.questions = questions
+        self.watched: tuple[str, ...] = ()
+
+
+class Requests:
+    """Pending requests, found by the frames they wait for.
+
+    However many wait, a change costs nothing to those that wait for other frames.
+    """
+
+    __slots__ = ("_examine", "_last", "_pending", "_watchers")
+
+    def __init__(self, examine: Examine) -> None:
+        self._examine = examine
+        self._last = 0
+        self._pending: dict[int, Request] = {}
+        # Handles by frame; a dictionary keeps them in the order they were made.
+        self._watchers: dict[str, dict[int, None]] = {}
+
+    def __len__(self) -> int:
+        return len(self._pending)
+
+    def add(self, callback: Callback, questions: tuple[Question, ...]) -> int:
+        """Ask now; what has no answer yet waits.
+
+        Returns:
+            NOW if all can be answered, NEVER if one no longer can, else a handle.
+        """
+        request = Request(self._last + 1, callback, questions)
+        status = self._ask(request, True)
+        if status == AVAILABLE:
+            return NOW
+        if status == EXPIRED:
+            return NEVER
+        self._last += 1
+        self._pending[request.handle] = request
+        return request.handle
+
+    def cancel(self, handle: int) -> None:
+        """Let go of a request; a handle that is not pending is nothing to let go of."""
+        request = self._pending.pop(handle, None)
+        if request is not None:
+            self._unwatch(request)
+
+    def changed(self, *frames: str) -> None:
+        """Ask again whatever waits for one of these frames, oldest request first."""
+        due: set[int] = set()
+        for frame in frames:
+            due.update(self._watchers.get(frame, ()))
+        for handle in sorted(due):
+            # A callback may have cancelled it.
+            request = self._pending.get(handle)
+            if request is None:
+                continue
+            self._unwatch(request)
+            status = self._ask(request, False)
+            if status != PENDING:
+                del self._pending[handle]
+                request.callback(handle, status == AVAILABLE)
+
+    def _ask(self, request: Request, first: bool) -> int:
+        """Ask every question; while one has no answer, watch what keeps it from having one."""
+        status = AVAILABLE
+        for question in request.questions:
+            found, blocked = self._examine(question, first)
+            if found == EXPIRED:
+                self._unwatch(request)
+                return EXPIRED
+            if found == PENDING:
+                status = PENDING
+                self._watch(request, blocked)
+        return status
+
+    def _watch(self, request: Request, frames: tuple[str, ...]) -> None:
+        request.watched += frames
+        for frame in frames:
+            self._watchers.setdefault(frame, {})[request.handle] = None
+
+    def _unwatch(self, request: Request) -> None:
+        for frame in request.watched:
+            watchers = self._watchers.get(frame)
+            if watchers is not None:
+                watchers.pop(request.handle, None)
+                if not watchers:
+                    del self._watchers[frame]
+        request.watched = ()
