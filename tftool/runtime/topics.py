@@ -23,15 +23,17 @@ class Topic(Generic[T]):
         kind: The type every value has.
         latest: The value published last, None before the first.
         count: How many values were published.
+        on_demand: Called when somebody subscribes or stops to, None without anybody who cares.
     """
 
-    __slots__ = ("_subscribers", "count", "kind", "latest", "name")
+    __slots__ = ("_subscribers", "count", "kind", "latest", "name", "on_demand")
 
     def __init__(self, name: str, kind: type[T]) -> None:
         self.name = name
         self.kind = kind
         self.latest: T | None = None
         self.count = 0
+        self.on_demand: Callable[[], object] | None = None
         self._subscribers: tuple[Callable[[T], object], ...] = ()
 
     def publish(self, value: T) -> None:
@@ -53,12 +55,17 @@ class Topic(Generic[T]):
         """Have `callback` called with every value to come; call what is returned to stop."""
         # A list that changes while it is walked would skip somebody; a new tuple cannot.
         self._subscribers = (*self._subscribers, callback)
+        if self.on_demand is not None:
+            self.on_demand()
 
         def stop() -> None:
             kept = list(self._subscribers)
-            if callback in kept:
-                kept.remove(callback)
+            if callback not in kept:
+                return
+            kept.remove(callback)
             self._subscribers = tuple(kept)
+            if self.on_demand is not None:
+                self.on_demand()
 
         return stop
 
@@ -111,12 +118,14 @@ class GoalHandle:
         request: What was asked for.
         cancel_requested: Whether the client wants it stopped.
         feedback: The last feedback, None before the first.
+        on_cancel: Called once when the client wants it stopped, for a server that does not look.
     """
 
     def __init__(self, request: Any, on_feedback: Callable[[Any], object] | None = None) -> None:
         self.request = request
         self.cancel_requested = False
         self.feedback: Any = None
+        self.on_cancel: Callable[[], object] | None = None
         self._on_feedback = on_feedback
         self._result: asyncio.Future[GoalResult] = asyncio.get_running_loop().create_future()
 
@@ -124,8 +133,11 @@ class GoalHandle:
 
     def cancel(self) -> None:
         """Ask the server to stop; does nothing once the goal has ended."""
-        if not self.done:
-            self.cancel_requested = True
+        if self.done or self.cancel_requested:
+            return
+        self.cancel_requested = True
+        if self.on_cancel is not None:
+            self.on_cancel()
 
     async def result(self) -> GoalResult:
         """Wait for the end."""

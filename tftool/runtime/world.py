@@ -56,6 +56,7 @@ class World:
         self._actions: dict[str, Acceptor] = {}
         self._statics: dict[str, dict[str, TransformStamped]] = {}
         self._supervisor: Supervision | None = None
+        self._watchers: tuple[Callable[[], object], ...] = ()
         self.tf = self.topic("tf", TransformMessage)
         self.tf_static = self.topic("tf_static", TransformMessage)
 
@@ -71,6 +72,7 @@ class World:
         topic = self._topics.get(name)
         if topic is None:
             topic = self._topics[name] = Topic(name, kind)
+            self._changed()
         elif topic.kind is not kind:
             raise TftoolError(f"topic '{name}' carries {topic.kind.__name__}, not {kind.__name__}")
         return cast("Topic[T]", topic)
@@ -81,7 +83,8 @@ class World:
 
     def remove_topic(self, name: str) -> None:
         """Forget a topic; who still holds it talks to nobody."""
-        self._topics.pop(name.removeprefix("/"), None)
+        if self._topics.pop(name.removeprefix("/"), None) is not None:
+            self._changed()
 
     # Services and actions
 
@@ -91,7 +94,7 @@ class World:
         Raises:
             TftoolError: If somebody serves that name already.
         """
-        return _offer(self._services, name, handler, "service")
+        return self._offer(self._services, name, handler, "service")
 
     def has_service(self, name: str) -> bool:
         """Whether somebody answers that service."""
@@ -119,7 +122,7 @@ class World:
         Raises:
             TftoolError: If somebody serves that action already.
         """
-        return _offer(self._actions, name, accept, "action")
+        return self._offer(self._actions, name, accept, "action")
 
     def actions(self) -> Mapping[str, Acceptor]:
         """Every action by its name, read-only."""
@@ -139,6 +142,36 @@ class World:
         handle = GoalHandle(goal, on_feedback)
         accept(handle)
         return handle
+
+    def watch(self, callback: Callable[[], object]) -> Callable[[], None]:
+        """Have `callback` called when a topic, service, action or node comes or goes.
+
+        It is called before the first value on a new topic. Call what is returned to stop.
+        """
+        self._watchers = (*self._watchers, callback)
+
+        def stop() -> None:
+            self._watchers = tuple(one for one in self._watchers if one is not callback)
+
+        return stop
+
+    def _changed(self) -> None:
+        for watcher in self._watchers:
+            watcher()
+
+    def _offer(self, offers: dict[str, T], name: str, offer: T, what: str) -> Callable[[], None]:
+        name = name.removeprefix("/")
+        if name in offers:
+            raise TftoolError(f"{what} '{name}' is served already")
+        offers[name] = offer
+        self._changed()
+
+        def stop() -> None:
+            if offers.get(name) is offer:
+                del offers[name]
+                self._changed()
+
+        return stop
 
     # Transforms
 
@@ -216,6 +249,7 @@ class World:
         node.rank = self._joined
         self._joined += 1
         self.nodes.append(node)
+        self._changed()
         if self._supervisor is not None:
             self._supervisor.start(node)
 
@@ -223,6 +257,7 @@ class World:
         """Stop a node and let it leave."""
         if node in self.nodes:
             self.nodes.remove(node)
+            self._changed()
         if self._supervisor is not None:
             self._supervisor.end(node)
 
@@ -281,16 +316,3 @@ class Supervision:
     def fail(self, node: "Node", error: BaseException) -> None:
         """End the run because a node raised."""
         raise NotImplementedError
-
-
-def _offer(offers: dict[str, T], name: str, offer: T, what: str) -> Callable[[], None]:
-    name = name.removeprefix("/")
-    if name in offers:
-        raise TftoolError(f"{what} '{name}' is served already")
-    offers[name] = offer
-
-    def stop() -> None:
-        if offers.get(name) is offer:
-            del offers[name]
-
-    return stop
