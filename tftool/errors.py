@@ -244,3 +244,7 @@ class MalformedMessage(InputError):
         super().__init__(f"{kind} refused: {reason}")
         self.kind = kind
         self.reason = reason
+
+
+class LinkError(TftoolError):
+    """A session with other processes cannot be opened, or one of them does not answer."""
