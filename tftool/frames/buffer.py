@@ -78,44 +78,32 @@ class Buffer:
         Raises:
             TypeError: If the stamp is not a whole number.
         """
-        return self._set(transform, authority, False)
-
-    def set_transform_static(self, transform: TransformStamped, authority: str = "") -> bool:
-        """Set a link that holds at all times; it takes the place of all the child had before.
-
-        Returns:
-            Whether it was taken. If not, the log was told why, and nothing is lost.
-        """
-        return self._set(transform, authority, True)
-
-    def _set(self, transform: TransformStamped, authority: str, static: bool) -> bool:
         stamp, parent, child, pose = transform
-        (x, y, z), (qx, qy, qz, qw) = pose
-        if stamp.__class__ is not int:
-            stamp = _whole(stamp)
-        forest = self._forest
-        frame = forest.children.get(child)
+        x, y, z, qx, qy, qz, qw = pose[0] + pose[1]
+        frame = self._forest.children.get(child)
         off = qx * qx + qy * qy + qz * qz + qw * qw - 1.0
         total = x + y + z
         if (
             frame is None
             or frame.parent_name != parent
-            or (link := frame.link) is None
-            or link.is_static != static
             or not -_EXACT < off < _EXACT
             # NaN and, as its sum may be NaN too, infinity.
             or total - total != 0.0
+            or stamp.__class__ is not int
         ):
-            return self._set_slowly(stamp, parent, child, pose, authority, static)
+            return self._set_slowly(transform, authority, False)
+        link = frame.link
+        if link is None or link.is_static:
+            return self._set_slowly(transform, authority, False)
         if qw * qw <= 0.25:
             qx, qy, qz, qw = quaternions.canonical((qx, qy, qz, qw))
         elif qw < 0.0:
             qx, qy, qz, qw = -qx, -qy, -qz, -qw
+        sample = (x, y, z, qx, qy, qz, qw)
         try:
-            outcome = link.insert(stamp, frame.parent_number, (x, y, z, qx, qy, qz, qw))
+            outcome = link.insert(stamp, frame.parent_number, sample)
         except OverflowError:
-            self._log("ERROR", refusals.bad_stamp(child, stamp, authority))
-            return False
+            return self._set_slowly(transform, authority, False)
         if outcome == TOO_OLD:
             self._log("WARN", refusals.old_data(child, stamp, authority))
             return False
@@ -123,21 +111,26 @@ class Buffer:
         if outcome == RESHAPED:
             self._drop_plans()
         if self._listeners:
-            self._tell((x, y, z, qx, qy, qz, qw), stamp, parent, child, authority, static)
-        if len(self._requests):
+            self._tell(sample, stamp, parent, child, authority, False)
+        if self._requests.pending:
             self._requests.changed(child)
         return True
 
-    def _set_slowly(
-        self,
-        stamp: Stamp,
-        parent: str,
-        child: str,
-        pose: Transform,
-        authority: str,
-        static: bool,
-    ) -> bool:
-        """Set what is new or odd: every check, each with its own line in the log."""
+    def set_transform_static(self, transform: TransformStamped, authority: str = "") -> bool:
+        """Set a link that holds at all times; it takes the place of all the child had before.
+
+        Returns:
+            Whether it was taken. If not, the log was told why, and nothing is lost.
+
+        Raises:
+            TypeError: If the stamp is not a whole number.
+        """
+        return self._set_slowly(transform, authority, True)
+
+    def _set_slowly(self, transform: TransformStamped, authority: str, static: bool) -> bool:
+        """Set what is new, odd or static: every check, each with its own line in the log."""
+        stamp, parent, child, pose = transform
+        stamp = _whole(stamp)
         parent, child = names.stripped(parent), names.stripped(child)
         x, y, z = pose.translation
         rotation = quaternions.canonical(quaternions.unit(pose.rotation))
@@ -178,7 +171,7 @@ class Buffer:
             self._drop_plans()
         if self._listeners:
             self._tell(sample, stamp, parent, child, authority, static)
-        if len(self._requests):
+        if self._requests.pending:
             if len(forest.frames) > known:
                 self._requests.changed(child, parent)
             else:

@@ -6,10 +6,10 @@ forgotten; the newest is kept as a tuple too, so that "latest" touches no array.
 `Constant` is one that holds at all times.
 """
 
-import math
 import struct
 from array import array
 from bisect import bisect_left, bisect_right
+from math import acos, sin
 from typing import TypeAlias
 
 from tftool.stamps import Duration, Stamp
@@ -49,6 +49,7 @@ class Link:
     """What joins a child to its parent.
 
     Attributes:
+        is_static: Whether it holds at all times.
         newest_stamp: Stamp of the newest sample; 0 for a constant, and when there is none.
         oldest_stamp: Stamp of the oldest sample; 0 likewise.
         newest: The newest sample itself; None when there is none.
@@ -56,19 +57,15 @@ class Link:
         mixed: Whether samples with different parents are remembered.
     """
 
-    __slots__ = ("mixed", "newest", "newest_stamp", "oldest_stamp", "parent")
+    __slots__ = ("is_static", "mixed", "newest", "newest_stamp", "oldest_stamp", "parent")
 
-    def __init__(self) -> None:
+    def __init__(self, is_static: bool) -> None:
+        self.is_static: bool = is_static
         self.newest_stamp: Stamp = 0
         self.oldest_stamp: Stamp = 0
         self.newest: Sample | None = None
         self.parent: int = NO_PARENT
         self.mixed: bool = False
-
-    @property
-    def is_static(self) -> bool:
-        """Whether it holds at all times."""
-        raise NotImplementedError
 
     def __len__(self) -> int:
         raise NotImplementedError
@@ -103,10 +100,8 @@ class Constant(Link):
 
     __slots__ = ()
 
-    @property
-    def is_static(self) -> bool:
-        """True."""
-        return True
+    def __init__(self) -> None:
+        super().__init__(True)
 
     def __len__(self) -> int:
         return 1
@@ -146,23 +141,20 @@ class History(Link):
     the last one inserted is the newest.
     """
 
-    __slots__ = ("_limit", "_parents", "_run", "_samples", "_stamps", "_start")
+    __slots__ = ("_limit", "_pace", "_parents", "_run", "_samples", "_stamps", "_start")
 
     def __init__(self, limit: Duration) -> None:
-        super().__init__()
+        super().__init__(False)
         self._limit = limit
         self._stamps: array[int] = array("q")
         self._samples: array[float] = array("d")
         # One parent serves all, until samples disagree: then one number for each sample.
         self._parents: array[int] | None = None
         self._start = 0
+        # Samples a nanosecond, as last measured; where to look is guessed from it.
+        self._pace = 0.0
         # Where the newest samples that share a parent begin; of use while mixed.
         self._run = 0
-
-    @property
-    def is_static(self) -> bool:
-        """False."""
-        return False
 
     def __len__(self) -> int:
         return len(self._stamps) - self._start
@@ -181,26 +173,17 @@ class History(Link):
             OverflowError: If the stamp does not fit 64 bits.
         """
         newest = self.newest_stamp
-        if self.newest is None:
-            self._stamps.append(stamp)
-            self._samples.frombytes(_pack(*sample))
-            self.oldest_stamp = self.newest_stamp = stamp
-            self.newest = sample
-            self.parent = parent
-            return RESHAPED
+        if stamp <= newest or self.newest is None:
+            return self._insert_late(stamp, parent, sample)
         if self.oldest_stamp + self._limit < newest:
             self._forget(newest - self._limit)
-        if stamp > newest:
-            self._stamps.append(stamp)
-            self._samples.frombytes(_pack(*sample))
-            self.newest_stamp = stamp
-            self.newest = sample
-            if parent != self.parent or self.mixed:
-                return self._append_parent(parent)
-            return STORED
-        if stamp < newest - self._limit:
-            return TOO_OLD
-        return self._insert_late(stamp, parent, sample)
+        self._stamps.append(stamp)
+        self._samples.frombytes(_pack(*sample))
+        self.newest_stamp = stamp
+        self.newest = sample
+        if parent != self.parent or self.mixed:
+            return self._append_parent(parent)
+        return STORED
 
     def clear(self) -> None:
         """Forget everything; afterwards any stamp is taken again."""
@@ -253,8 +236,20 @@ class History(Link):
         return parents
 
     def _insert_late(self, stamp: Stamp, parent: int, sample: Sample) -> int:
-        """Insert a sample that is not newer than all others."""
+        """Insert the first sample, or one that is not newer than all others."""
         stamps = self._stamps
+        newest = self.newest_stamp
+        if self.newest is None:
+            stamps.append(stamp)
+            self._samples.frombytes(_pack(*sample))
+            self.oldest_stamp = self.newest_stamp = stamp
+            self.newest = sample
+            self.parent = parent
+            return RESHAPED
+        if self.oldest_stamp + self._limit < newest:
+            self._forget(newest - self._limit)
+        if stamp < newest - self._limit:
+            return TOO_OLD
         place = bisect_right(stamps, stamp, self._start)
         behind = place - 1
         while behind >= self._start and stamps[behind] == stamp:
@@ -310,51 +305,48 @@ class History(Link):
 
         Between two samples with different parents it is the older one, as it is.
         """
-        if time == self.newest_stamp or time == 0:
+        newest = self.newest_stamp
+        if time == newest or time == 0:
             return self.newest
-        if time <= self.oldest_stamp:
-            if time < self.oldest_stamp or self.newest is None:
+        oldest = self.oldest_stamp
+        if time <= oldest:
+            if time < oldest or self.newest is None:
                 return None
             return _unpack_one(self._samples, _WIDTH * self._start)
-        if time > self.newest_stamp:
+        if time > newest:
             return None
-        index = self._index(time)
         stamps = self._stamps
+        # Between the last two is where most questions fall.
+        index = len(stamps) - 2
         before = stamps[index]
-        if before == time:
-            return _unpack_one(self._samples, _WIDTH * index)
-        if self._parents is not None and self._parents[index] != self._parents[index + 1]:
+        if time < before:
+            index = self._index(time)
+            before = stamps[index]
+        if before == time or (self.mixed and self._parent(index) != self._parent(index + 1)):
             return _unpack_one(self._samples, _WIDTH * index)
         ratio = (time - before) / (stamps[index + 1] - before)
         x, y, z, ax, ay, az, aw, x2, y2, z2, bx, by, bz, bw = _unpack_two(
             self._samples, _WIDTH * index
         )
-        x += ratio * (x2 - x)
-        y += ratio * (y2 - y)
-        z += ratio * (z2 - z)
         # quaternions.slerp, written out: calling it would cost a third of the whole.
         cosine = ax * bx + ay * by + az * bz + aw * bw
+        take = 1.0
         if cosine < 0.0:
             cosine = -cosine
-            bx, by, bz, bw = -bx, -by, -bz, -bw
-        if cosine >= 1.0:
-            return (
-                x,
-                y,
-                z,
-                ax + ratio * (bx - ax),
-                ay + ratio * (by - ay),
-                az + ratio * (bz - az),
-                aw + ratio * (bw - aw),
-            )
-        angle = math.acos(cosine)
-        sine = math.sin(angle)
-        keep = math.sin((1.0 - ratio) * angle) / sine
-        take = math.sin(ratio * angle) / sine
+            take = -1.0
+        if cosine < 1.0:
+            angle = acos(cosine)
+            sine = sin(angle)
+            keep = sin((1.0 - ratio) * angle) / sine
+            take *= sin(ratio * angle) / sine
+        else:
+            # Too near for acos to tell; on an arc this short the chord is the arc.
+            keep = 1.0 - ratio
+            take *= ratio
         return (
-            x,
-            y,
-            z,
+            x + ratio * (x2 - x),
+            y + ratio * (y2 - y),
+            z + ratio * (z2 - z),
             keep * ax + take * bx,
             keep * ay + take * by,
             keep * az + take * bz,
@@ -408,25 +400,22 @@ class History(Link):
         and search only when that fails.
         """
         stamps = self._stamps
-        start = self._start
         last = len(stamps) - 1
-        oldest = self.oldest_stamp
-        span = self.newest_stamp - oldest
-        steps = last - start
-        guess = start + (time - oldest) * steps // span
+        guess = last - 1 - int((self.newest_stamp - time) * self._pace)
+        start = self._start
+        if guess >= start and stamps[guess] <= time < stamps[guess + 1]:
+            return guess
+        pace = self._pace = (last - start) / (self.newest_stamp - self.oldest_stamp)
+        guess = start + int((time - self.oldest_stamp) * pace)
         there = stamps[guess]
         if there <= time:
             if time < stamps[guess + 1]:
                 return guess
             low, high = guess + 1, last
-            guess += (time - there) * steps // span
-            if guess >= last:
-                guess = last - 1
+            guess = min(guess + int((time - there) * pace), last - 1)
         else:
             low, high = start, guess
-            guess -= (there - time) * steps // span + 1
-            if guess < start:
-                guess = start
+            guess = max(guess - int((there - time) * pace) - 1, start)
         if stamps[guess] <= time < stamps[guess + 1]:
             return guess
         return bisect_right(stamps, time, low, high) - 1

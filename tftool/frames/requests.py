@@ -45,19 +45,19 @@ class Requests:
     """Pending requests, found by the frames they wait for.
 
     However many wait, a change costs nothing to those that wait for other frames.
+
+    Attributes:
+        pending: By handle.
     """
 
-    __slots__ = ("_examine", "_last", "_pending", "_watchers")
+    __slots__ = ("_examine", "_last", "_watchers", "pending")
 
     def __init__(self, examine: Examine) -> None:
         self._examine = examine
         self._last = 0
-        self._pending: dict[int, Request] = {}
+        self.pending: dict[int, Request] = {}
         # Handles by frame; a dictionary keeps them in the order they were made.
         self._watchers: dict[str, dict[int, None]] = {}
-
-    def __len__(self) -> int:
-        return len(self._pending)
 
     def add(self, callback: Callback, questions: tuple[Question, ...]) -> int:
         """Ask now; what has no answer yet waits.
@@ -72,12 +72,12 @@ class Requests:
         if status == EXPIRED:
             return NEVER
         self._last += 1
-        self._pending[request.handle] = request
+        self.pending[request.handle] = request
         return request.handle
 
     def cancel(self, handle: int) -> None:
         """Let go of a request; a handle that is not pending is nothing to let go of."""
-        request = self._pending.pop(handle, None)
+        request = self.pending.pop(handle, None)
         if request is not None:
             self._unwatch(request)
 
@@ -88,13 +88,13 @@ class Requests:
             due.update(self._watchers.get(frame, ()))
         for handle in sorted(due):
             # A callback may have cancelled it.
-            request = self._pending.get(handle)
+            request = self.pending.get(handle)
             if request is None:
                 continue
             self._unwatch(request)
             status = self._ask(request, False)
             if status != PENDING:
-                del self._pending[handle]
+                del self.pending[handle]
                 request.callback(handle, status == AVAILABLE)
 
     def _ask(self, request: Request, first: bool) -> int:
