@@ -1,0 +1,63 @@
+"""Options that several commands share, and what their numbers may be."""
+
+import math
+from collections.abc import Callable
+from typing import Annotated
+
+import typer
+
+
+def finite(value: float | None) -> float | None:
+    """Let a finite number pass.
+
+    Raises:
+        typer.BadParameter: If it is NaN or infinite.
+    """
+    if value is not None and not math.isfinite(value):
+        raise typer.BadParameter(f"{value} is not a finite number.")
+    return value
+
+
+def positive(value: float | None) -> float | None:
+    """Let a finite number above zero pass.
+
+    Raises:
+        typer.BadParameter: If it is zero, negative, NaN or infinite.
+    """
+    if value is not None and not (math.isfinite(value) and value > 0):
+        raise typer.BadParameter(f"{value:g} is not a positive number.")
+    return value
+
+
+def not_negative(value: float | None) -> float | None:
+    """Let a finite number from zero on pass.
+
+    Raises:
+        typer.BadParameter: If it is negative, NaN or infinite.
+    """
+    if value is not None and not (math.isfinite(value) and value >= 0):
+        raise typer.BadParameter(f"{value:g} is not zero or more.")
+    return value
+
+
+def within(least: float, most: float) -> Callable[[float | None], float | None]:
+    """Make a check that lets numbers from `least` to `most` pass; NaN is not among them."""
+
+    def check(value: float | None) -> float | None:
+        if value is not None and not least <= value <= most:
+            raise typer.BadParameter(f"{value:g} is not between {least:g} and {most:g}.")
+        return value
+
+    return check
+
+
+CacheTime = Annotated[
+    float | None,
+    typer.Option(
+        metavar="SECONDS",
+        callback=positive,
+        help="How far back the buffer remembers; 10 unless the scenario says otherwise.",
+    ),
+]
+
+ForPrograms = Annotated[bool, typer.Option("--json", help="Print JSON.")]

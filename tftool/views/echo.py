@@ -1,0 +1,104 @@
+"""One lookup as text: tf2_echo's block, one JSON object, one sentence."""
+
+import math
+from typing import Any
+
+from tftool.errors import TransformException
+from tftool.frames.sample import TransformStamped
+from tftool.geometry.conversions import rpy_from_quaternion
+from tftool.geometry.rigid import distance
+from tftool.stamps import NANOSECONDS, Stamp, as_seconds
+from tftool.views.escaping import visible, visible_lines
+
+AXES = ("x", "y", "z")
+
+
+def in_words(target: str, source: str) -> str:
+    """Say what a lookup of `source` in `target` gives: "turtle1 in turtle2"."""
+    return f"{visible(source)} in {visible(target)}"
+
+
+def block(
+    found: TransformStamped,
+    *,
+    precision: int = 3,
+    with_distance: bool = False,
+    quaternion_tag: str = "",
+) -> str:
+    """Write a transform as tf2_echo does, line by line.
+
+    The nanoseconds are not padded with zeros, as tf2_echo's are not: 5 s and 12 ns
+    is `5.12`. `as_object` has the exact stamp.
+
+    Args:
+        found: What a lookup gave.
+        precision: Decimals of every number.
+        with_distance: Whether a last line gives the length of the translation.
+        quaternion_tag: What newer releases add after "Quaternion": " (xyzw)".
+
+    Returns:
+        Lines, each with its newline.
+    """
+    pose = found.transform
+    rpy = rpy_from_quaternion(pose.rotation)
+    lines = [
+        f"At time {found.stamp // NANOSECONDS}.{found.stamp % NANOSECONDS}",
+        f"- Translation: {_list(pose.translation, precision)}",
+        f"- Rotation: in Quaternion{quaternion_tag} {_list(pose.rotation, precision)}",
+        f"- Rotation: in RPY (radian) {_list(rpy, precision)}",
+        f"- Rotation: in RPY (degree) {_list([math.degrees(angle) for angle in rpy], precision)}",
+        "- Matrix:",
+        *("".join(f" {number:6.{precision}f}" for number in row) for row in pose.matrix()),
+    ]
+    if with_distance:
+        lines.append(f"- Distance: {distance(pose):.{precision}f}")
+    return "\n".join(lines) + "\n"
+
+
+def failure(now: Stamp, error: TransformException, frames: str) -> str:
+    """Write what tf2_echo prints when a lookup fails that worked before.
+
+    Args:
+        now: What the clock read.
+        error: The refusal.
+        frames: The buffer's `all_frames_as_string()`.
+    """
+    return (
+        f"Failure at {as_seconds(now):.3f}\n"
+        f"Exception thrown:{visible_lines(str(error))}\n"
+        f"The current list of frames is:\n{visible_lines(frames)}\n"
+    )
+
+
+def as_object(found: TransformStamped, *, with_distance: bool = False) -> dict[str, Any]:
+    """The same for programs: full precision, the exact stamp, NaN and infinity as null."""
+    pose = found.transform
+    rpy = rpy_from_quaternion(pose.rotation)
+    result: dict[str, Any] = {
+        "stamp_ns": found.stamp,
+        "target": found.frame_id,
+        "source": found.child_frame_id,
+        "translation": _named(AXES, pose.translation),
+        "rotation": _named((*AXES, "w"), pose.rotation),
+        "rpy": _named(("roll", "pitch", "yaw"), rpy),
+    }
+    if with_distance:
+        result["distance"] = _finite(distance(pose))
+    return result
+
+
+def failure_as_object(now: Stamp, error: TransformException) -> dict[str, Any]:
+    """A refusal for programs."""
+    return {"failed_at_ns": now, "error": type(error).__name__, "message": str(error)}
+
+
+def _list(numbers: Any, precision: int) -> str:
+    return "[" + ", ".join(f"{number:.{precision}f}" for number in numbers) + "]"
+
+
+def _named(names: tuple[str, ...], numbers: Any) -> dict[str, float | None]:
+    return {name: _finite(number) for name, number in zip(names, numbers, strict=True)}
+
+
+def _finite(number: float) -> float | None:
+    return number if math.isfinite(number) else None
