@@ -5,7 +5,8 @@ carries its facts as fields. `cli.app` turns them into exit statuses and is the
 only place that does.
 """
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass
 
 from tftool.stamps import Duration, Stamp
 
@@ -32,6 +33,55 @@ class NodeArgumentsError(UsageError):
 
 class InputError(TftoolError):
     """Something given cannot be read: a file, a scenario, a number in it (exit status 3)."""
+
+
+@dataclass(frozen=True, slots=True)
+class Mistake:
+    """One thing wrong in a text file, and where.
+
+    Attributes:
+        file: Name of the file as it was given.
+        line: Line, from 1.
+        column: Column, from 1.
+        text: What is wrong, a sentence without its full stop.
+        shown: The offending line, fit for a terminal; empty when there is none.
+        marks: What stands under `shown`: blanks up to the place, then carets.
+    """
+
+    file: str
+    line: int
+    column: int
+    text: str
+    shown: str = ""
+    marks: str = ""
+
+    def __str__(self) -> str:
+        head = f"{self.file}:{self.line}:{self.column}: {self.text}"
+        if not self.marks:
+            return head
+        return f"{head}\n  {self.line:>4} | {self.shown}\n       | {self.marks}"
+
+
+class ScenarioError(InputError):
+    """A scenario has mistakes, all told at once (exit status 3).
+
+    Attributes:
+        name: The file, as it was given.
+        mistakes: Every mistake, in the order of the file.
+    """
+
+    MOST = 50
+    """Mistakes written out; a file that is no scenario at all would fill the screen."""
+
+    def __init__(self, name: str, mistakes: Sequence[Mistake]) -> None:
+        self.name = name
+        self.mistakes = tuple(mistakes)
+        count = len(self.mistakes)
+        lines = [f"{name} has {'a mistake' if count == 1 else f'{count} mistakes'}:"]
+        lines += [str(mistake) for mistake in self.mistakes[: self.MOST]]
+        if count > self.MOST:
+            lines.append(f"... and {count - self.MOST} more")
+        super().__init__("\n".join(lines))
 
 
 class NodeFailed(TftoolError):

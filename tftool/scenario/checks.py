@@ -1,0 +1,236 @@
+"""What an answer must be: a range, a pose, a refusal, names.
+
+A `Form` reads the keys that stand beside a question and makes a check of them;
+the check judges answers and says in words what it expects and what it found.
+"""
+
+from abc import ABC, abstractmethod
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass
+from typing import Any
+
+from tftool.errors import TransformException
+from tftool.geometry.planar import wrap
+from tftool.scenario import values
+from tftool.scenario.document import Place
+from tftool.scenario.reading import Field, Reading, listed
+from tftool.scenario.values import ANGLE, Unit
+
+NEAR = 1e-6
+"""How far a value may be off where no tolerance is given: metres, radians, the rest."""
+
+
+@dataclass(frozen=True, slots=True)
+class Judged:
+    """What became of one look: whether it holds, and what was found, in words."""
+
+    ok: bool
+    found: str
+
+
+class Check(ABC):
+    """What an answer must be; its text follows the question in a sentence."""
+
+    @abstractmethod
+    def judge(self, answer: Any) -> Judged:
+        """Compare an answer."""
+
+    def refused(self, error: TransformException) -> Judged:
+        """Judge that there is no answer."""
+        return Judged(False, f"{type(error).__name__}: {error}")
+
+    @abstractmethod
+    def __str__(self) -> str: ...
+
+
+class Form(ABC):
+    """The keys of one kind of check.
+
+    Attributes:
+        fields: What may stand beside the question.
+    """
+
+    fields: Mapping[str, Field]
+
+    @abstractmethod
+    def make(self, given: Mapping[str, Any], reading: Reading, place: Place) -> Check:
+        """Make the check of what was given beside the question and in it."""
+
+
+# Numbers.
+
+
+@dataclass(frozen=True, slots=True)
+class Range(Check):
+    """A number within bounds; bounds themselves are outside, except of `between`."""
+
+    unit: Unit
+    below: float | None = None
+    above: float | None = None
+    between: tuple[float, float] | None = None
+    equal: float | None = None
+    tolerance: float = NEAR
+
+    def judge(self, answer: float) -> Judged:
+        """Compare an answer."""
+        ok = True
+        if self.below is not None:
+            ok = ok and answer < self.below
+        if self.above is not None:
+            ok = ok and answer > self.above
+        if self.between is not None:
+            ok = ok and self.between[0] <= answer <= self.between[1]
+        if self.equal is not None:
+            off = answer - self.equal
+            ok = ok and abs(wrap(off) if self.unit is ANGLE else off) <= self.tolerance
+        return Judged(ok, self._shown(answer))
+
+    def __str__(self) -> str:
+        parts = []
+        if self.below is not None:
+            parts.append(f"below {self._shown(self.below)}")
+        if self.above is not None:
+            parts.append(f"above {self._shown(self.above)}")
+        if self.between is not None:
+            low, high = self.between
+            parts.append(f"between {low:g} and {self._shown(high)}")
+        if self.equal is not None:
+            off = f" ± {self.tolerance:g}" if self.tolerance else ""
+            parts.append(f"is {self._shown(self.equal)}{off}")
+        return " and ".join(parts)
+
+    def _shown(self, value: float) -> str:
+        return f"{value:.6g} {self.unit.name}".rstrip()
+
+
+class RangeForm(Form):
+    """below, above, between, is with a tolerance: at least one of them."""
+
+    def __init__(self, unit: Unit, default: Range | None = None, tolerance: float = NEAR) -> None:
+        """Numbers of one unit; `default` is what is meant when nothing is said."""
+        self.unit = unit
+        self.default = default
+        self.tolerance = tolerance
+        one = values.quantity(unit)
+        self.fields = {
+            "below": Field(one, None),
+            "above": Field(one, None),
+            "between": Field(values.several(one, "lower and upper bound", 2), None),
+            "is": Field(one, None),
+            "tolerance": Field(values.quantity(unit, least=0.0), None),
+        }
+
+    def make(self, given: Mapping[str, Any], reading: Reading, place: Place) -> Range:
+        """Make the check, or note what is wrong."""
+        asked = [key for key in ("below", "above", "between", "is") if given[key] is not None]
+        if not asked:
+            if self.default is not None:
+                return self.default
+            raise reading.refuse(
+                place, "what must it be? say below, above, between: [low, high], or is"
+            )
+        if given["tolerance"] is not None and given["is"] is None:
+            raise reading.refuse(place, "a tolerance goes with 'is'")
+        between = given["between"]
+        if between is not None and between[0] > between[1]:
+            raise reading.refuse(place, f"between {between[0]:g} and {between[1]:g} lies nothing")
+        tolerance = self.tolerance if given["tolerance"] is None else given["tolerance"]
+        return Range(self.unit, given["below"], given["above"], between, given["is"], tolerance)
+
+
+# Frames and names.
+
+
+@dataclass(frozen=True, slots=True)
+class FrameFacts:
+    """What is known of a frame; all None when it is not known at all."""
+
+    exists: bool
+    parent: str | None = None
+    static: bool | None = None
+    broadcaster: str | None = None
+
+
+@dataclass(frozen=True, slots=True)
+class Facts(Check):
+    """A frame of which these facts hold; what is None is not looked at."""
+
+    wanted: FrameFacts
+
+    def judge(self, answer: FrameFacts) -> Judged:
+        """Compare an answer."""
+        if not answer.exists:
+            return Judged(not self.wanted.exists, "no such frame")
+        ok = self.wanted.exists
+        for key in ("parent", "static", "broadcaster"):
+            want = getattr(self.wanted, key)
+            ok = ok and (want is None or want == getattr(answer, key))
+        if answer.parent is None:
+            return Judged(ok, "a root")
+        kind = "static" if answer.static else "dynamic"
+        return Judged(ok, f"{kind}, under {answer.parent}, from {answer.broadcaster}")
+
+    def __str__(self) -> str:
+        if not self.wanted.exists:
+            return "does not exist"
+        parts = []
+        if self.wanted.static is not None:
+            parts.append("is static" if self.wanted.static else "is dynamic")
+        if self.wanted.parent is not None:
+            parts.append(f"hangs under {self.wanted.parent}")
+        if self.wanted.broadcaster is not None:
+            parts.append(f"comes from {self.wanted.broadcaster}")
+        return ", ".join(parts) or "exists"
+
+
+class FactsForm(Form):
+    """exists, parent, static, broadcaster."""
+
+    fields: Mapping[str, Field] = {
+        "exists": Field(values.flag, True),
+        "parent": Field(values.frame, None),
+        "static": Field(values.flag, None),
+        "broadcaster": Field(values.name("a node"), None),
+    }
+
+    def make(self, given: Mapping[str, Any], reading: Reading, place: Place) -> Check:
+        """Make the check, or note what is wrong."""
+        facts = FrameFacts(**{key: given[key] for key in self.fields})
+        if not facts.exists and facts != FrameFacts(False):
+            raise reading.refuse(place, "a frame that does not exist has nothing else to it")
+        return Facts(facts)
+
+
+@dataclass(frozen=True, slots=True)
+class Names(Check):
+    """Exactly these names, in any order."""
+
+    wanted: frozenset[str]
+
+    def judge(self, answer: Iterable[str]) -> Judged:
+        """Compare an answer."""
+        found = frozenset(answer)
+        return Judged(found == self.wanted, listed(sorted(found)) or "none")
+
+    def __str__(self) -> str:
+        return f"are {listed(sorted(self.wanted)) or 'none'}"
+
+
+class NamesForm(Form):
+    """Nothing beside: the question holds the names."""
+
+    fields: Mapping[str, Field] = {}
+
+    def make(self, given: Mapping[str, Any], reading: Reading, place: Place) -> Check:
+        """Make the check, or note what is wrong."""
+        return Names(frozenset(given["names"]))
+
+
+class CountForm(Form):
+    """Nothing beside: the question holds the count."""
+
+    fields: Mapping[str, Field] = {}
+
+    def make(self, given: Mapping[str, Any], reading: Reading, place: Place) -> Check:
+        """Make the check, or note what is wrong."""
+        return Range(values.NUMBER, equal=float(given["count"]), tolerance=0.0)

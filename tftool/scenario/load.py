@@ -1,0 +1,367 @@
+"""YAML in, a scenario out, or every mistake in it with its place.
+
+The kinds of nodes, actions and questions come from tables (`kinds.KINDS`,
+`script.ACTIONS`, `expectations.SUBJECTS`); nothing here knows any of them.
+"""
+
+import re
+from collections import Counter
+from collections.abc import Mapping
+from pathlib import Path, PurePath
+from types import MappingProxyType
+from typing import Any
+
+from tftool.errors import InputError, ScenarioError, TftoolError, UsageError
+from tftool.runtime.clock import SimClock
+from tftool.runtime.world import World
+from tftool.scenario import document, values
+from tftool.scenario.actions import StopNode
+from tftool.scenario.document import Document, Node, Scalar
+from tftool.scenario.expectations import SUBJECTS
+from tftool.scenario.kinds import KINDS
+from tftool.scenario.reading import (
+    UNREAD,
+    Field,
+    Reading,
+    Unreadable,
+    listed,
+    quoted,
+    suggest,
+)
+from tftool.scenario.schema import Expectation, NodeEntry, Scenario, Step, When
+from tftool.scenario.script import ACTIONS
+from tftool.scenario.tagged import tagged
+from tftool.stamps import Duration, as_seconds, seconds
+from tftool.views.escaping import visible
+
+NO_ARGUMENTS: Mapping[str, str] = MappingProxyType({})
+
+LOOK_EVERY: Duration = seconds(0.1)
+"""How often "by" and "during" look, unless said otherwise."""
+
+_WHEN = ("at", "by", "during", "always")
+
+_WORD = re.compile(r"[A-Za-z_]\w*", re.ASCII)
+
+MOST_LOOKS = 1_000_000
+"""How often all expectations of a scenario together may look."""
+
+
+def load(path: Path | str, arguments: Mapping[str, str] = NO_ARGUMENTS) -> Scenario:
+    """Read a scenario file.
+
+    Args:
+        path: The file.
+        arguments: Values for arguments the scenario declares.
+
+    Raises:
+        InputError: If the file cannot be read; `ScenarioError` with every mistake in it.
+        UsageError: If an argument is given that the scenario does not declare.
+    """
+    try:
+        with Path(path).open("rb") as file:
+            raw = file.read(4 * document.LARGEST + 1)
+    except OSError as error:
+        raise InputError(
+            f"cannot read '{visible(str(path))}': {error.strerror or error}"
+        ) from error
+    except ValueError as error:
+        raise InputError(f"cannot read '{visible(str(path))}': {error}") from error
+    try:
+        text = raw.decode("utf-8")
+    except UnicodeDecodeError as error:
+        line = raw[: error.start].count(b"\n") + 1
+        raise InputError(
+            f"'{visible(str(path))}' is not UTF-8 text: byte {error.start + 1}, in line {line}"
+        ) from error
+    return parse(text, str(path), arguments)
+
+
+def parse(text: str, name: str, arguments: Mapping[str, str] = NO_ARGUMENTS) -> Scenario:
+    """Read a scenario from a text; see `load`.
+
+    Args:
+        text: The YAML.
+        name: What to call it in messages, usually its path.
+        arguments: Values for arguments the scenario declares.
+    """
+    source = Document(text, name)
+    reading = Reading(source)
+    try:
+        return _Loader(arguments).scenario(source.read(), reading, name)
+    except Unreadable as error:
+        raise ScenarioError(name, sorted(reading.mistakes, key=_place)) from error
+
+
+def _place(mistake: Any) -> tuple[int, int]:
+    return mistake.line, mistake.column
+
+
+class _Loader:
+    """One pass over a scenario; what is read early checks what is read late.
+
+    Attributes:
+        given: Arguments from outside.
+        duration: How long the scenario lasts, once that is known.
+        names: Names of its nodes, once all are known.
+        looks: How often its expectations look so far.
+    """
+
+    def __init__(self, given: Mapping[str, str]) -> None:
+        self.given = given
+        self.duration: Duration | None = None
+        self.names: tuple[str, ...] | None = None
+        self.looks = 0
+
+    def scenario(self, root: Node, reading: Reading, name: str) -> Scenario:
+        """Read everything, in the order in which one thing checks another."""
+        known = {
+            "about": Field(values.text, ""),
+            "arguments": Field(self.arguments, NO_ARGUMENTS),
+            "duration": Field(self.length),
+            "cache_time": Field(values.time(), seconds(10)),
+            "nodes": Field(self.nodes, ()),
+            "script": Field(self.script, ()),
+            "expect": Field(self.expect, ()),
+        }
+        entries = reading.entries(root, listed(known))
+        if "arguments" not in entries:
+            self.check_given({}, reading)
+        if "nodes" not in entries:
+            self.names = ()
+        found = reading.values(root.place, entries, known, "a scenario")
+        if reading.mistakes:
+            raise Unreadable
+        return Scenario(
+            name=PurePath(name).stem or name,
+            file=name,
+            about=found["about"],
+            arguments=found["arguments"],
+            duration=found["duration"],
+            cache_time=found["cache_time"],
+            nodes=found["nodes"],
+            script=found["script"],
+            expect=found["expect"],
+            source=reading.source.text,
+        )
+
+    # What the rest is read with.
+
+    def arguments(self, node: Node, reading: Reading) -> Mapping[str, str]:
+        """Declared arguments, with those given from outside in place of their defaults."""
+        entries = reading.entries(node, "name: default")
+        declared: dict[str, str] = {}
+        whole = True
+        for name, (key, value) in entries.items():
+            if _WORD.fullmatch(name) is None:
+                whole = False
+                reading.note(key, f"{quoted(name)} names no argument: letters, digits and _ only")
+                continue
+            # A default is a text here; what it is used as decides what it must be.
+            default = reading.try_read(values.text, value)
+            whole = whole and default is not UNREAD
+            declared[name] = default
+        reading.arguments = {key: text for key, text in declared.items() if text is not UNREAD}
+        if not whole:
+            raise Unreadable
+        self.check_given(declared, reading)
+        reading.arguments = {**declared, **self.given}
+        return MappingProxyType(reading.arguments)
+
+    def check_given(self, declared: Mapping[str, str], reading: Reading) -> None:
+        """Refuse arguments from outside that the scenario does not declare."""
+        for name in self.given:
+            if name not in declared:
+                have = f"; it has {listed(declared)}" if declared else "; it has none"
+                raise UsageError(
+                    f"the scenario {quoted(reading.source.name)} has no argument "
+                    f"{quoted(name)}{suggest(name, declared) or have}"
+                )
+
+    def length(self, node: Node, reading: Reading) -> Duration:
+        """How long it lasts."""
+        self.duration = values.time(least=values.SHORTEST)(node, reading)
+        return self.duration
+
+    def moment(self, node: Node, reading: Reading) -> Duration:
+        """A time since the start, not after the end."""
+        at: Duration = values.duration(node, reading)
+        if self.duration is not None and at > self.duration:
+            raise reading.refuse(
+                node,
+                f"{as_seconds(at):g} s lies after the end of the scenario, "
+                f"which lasts {as_seconds(self.duration):g} s",
+            )
+        return at
+
+    # Nodes.
+
+    def nodes(self, node: Node, reading: Reading) -> tuple[NodeEntry, ...]:
+        """The nodes, each with a name of its own."""
+        items = [self.node(item, reading) for item in reading.items(node, "one node an item")]
+        counts = Counter(kind for kind, _, _ in items)
+        numbers: Counter[str] = Counter()
+        found: list[NodeEntry] = []
+        taken: dict[str, int] = {}
+        whole = True
+        for item, (kind, given_name, parameters) in zip(
+            reading.items(node, ""), items, strict=True
+        ):
+            numbers[kind] += 1
+            name = given_name or (f"{kind}{numbers[kind]}" if counts[kind] > 1 else kind)
+            if name in taken:
+                whole = False
+                reading.note(item, f"the node of line {taken[name]} is named {quoted(name)} too")
+            taken.setdefault(name, item.place.line + 1)
+            if kind == "" or parameters is UNREAD:
+                whole = False
+            else:
+                found.append(NodeEntry(kind, name, MappingProxyType(parameters)))
+        if counts[""] == 0:
+            self.names = tuple(taken)
+        if not whole:
+            raise Unreadable
+        return tuple(found)
+
+    def node(self, item: Node, reading: Reading) -> tuple[str, str, Any]:
+        """One node: its kind ("" if that is not known), its name if it has one, the rest."""
+        if isinstance(item, Scalar) and not item.is_nothing:
+            # Just the kind: `- turtlesim`.
+            entries: Mapping[str, tuple[Scalar, Node]] = {item.text: (item, _nothing_at(item))}
+        else:
+            read = reading.try_read(lambda node, r: r.entries(node, "a node's kind"), item)
+            if read is UNREAD:
+                return "", "", UNREAD
+            entries = read
+        if not entries:
+            reading.note(item, f"a node is missing here; there are {listed(KINDS)}")
+            return "", "", UNREAD
+        (kind, (key, value)), *more = entries.items()
+        if kind not in KINDS:
+            near = suggest(kind, KINDS) or f"; there are {listed(KINDS)}"
+            reading.note(key, f"there is no node {quoted(kind)}{near}")
+            return "", "", UNREAD
+        for word, (other, _) in more:
+            hint = (
+                f"write '{kind}: {{{word}: ...}}', or indent it further"
+                if word in KINDS[kind].fields or word == "name"
+                else "begin each node with '- '"
+            )
+            reading.note(other, f"{quoted(word)} stands beside '{kind}', not in it; {hint}")
+        known = {**KINDS[kind].fields, "name": Field(values.name("a node"), "")}
+        parameters = reading.try_read(lambda node, r: r.record(node, known, f"a {kind}"), value)
+        if parameters is UNREAD:
+            return kind, self.name_of(value), UNREAD
+        name = parameters.pop("name")
+        try:
+            # Made once in a world of its own: a node knows best what it cannot be.
+            KINDS[kind].build(World(SimClock()), name or kind, parameters)
+        except TftoolError as error:
+            reading.note(key, str(error))
+            return kind, name, UNREAD
+        return kind, name, UNREAD if more else parameters
+
+    @staticmethod
+    def name_of(value: Node) -> str:
+        """The name a node gives itself, in spite of its mistakes."""
+        for key, entry in value.entries if isinstance(value, document.Mapping) else ():
+            if key.text == "name" and isinstance(entry, Scalar):
+                return entry.text
+        return ""
+
+    # Script and expectations.
+
+    def script(self, node: Node, reading: Reading) -> tuple[Step, ...]:
+        """What happens."""
+        read = [
+            reading.try_read(self.step, item) for item in reading.items(node, "one action an item")
+        ]
+        return tuple(reading.whole(read))
+
+    def step(self, node: Node, reading: Reading) -> Step:
+        """One action and its time."""
+        kinds = {name: kind for name, (kind, _) in ACTIONS.items()}
+        common = {"at": Field(self.moment)}
+        _, action, given = tagged(node, reading, "an action", kinds, common, {})
+        if isinstance(action, StopNode) and self.names is not None:
+            known = (*self.names, "teleop")
+            if action.node not in known:
+                near = suggest(action.node, known) or f"; there are {listed(known)}"
+                raise reading.refuse(node, f"no node is named {quoted(action.node)}{near}")
+        return Step(given["at"], action, node.place.line + 1)
+
+    def expect(self, node: Node, reading: Reading) -> tuple[Expectation, ...]:
+        """What must hold."""
+        read = [
+            reading.try_read(self.expectation, item)
+            for item in reading.items(node, "one expectation an item")
+        ]
+        return tuple(one for several in reading.whole(read) for one in several)
+
+    def expectation(self, node: Node, reading: Reading) -> tuple[Expectation, ...]:
+        """One question; several expectations when it is asked at several moments."""
+        kinds = {name: subject.question for name, subject in SUBJECTS.items()}
+        beside = {name: subject.form.fields for name, subject in SUBJECTS.items()}
+        common = {
+            "at": Field(self.moments, None),
+            "by": Field(self.moment, None),
+            "during": Field(values.several(self.moment, "first and last moment", 2), None),
+            "always": Field(values.flag, None),
+            "every": Field(values.period, None),
+        }
+        said = [key for key in _WHEN if key in reading.entries(node, listed(_WHEN))]
+        if len(said) != 1:
+            wrong = f"{listed(said)} exclude each other" if said else "when must it hold?"
+            reading.note(
+                node, f"{wrong}; say one of at: 2 s, by: 20 s, during: [1 s, 5 s], always: true"
+            )
+        name, question, given = tagged(node, reading, "an expectation", kinds, common, beside)
+        whens = reading.try_read(lambda _, r: self.whens(node.place, given, r), node)
+        own = {field: getattr(question, field) for field in question.__dataclass_fields__}
+        check = SUBJECTS[name].form.make({**own, **given}, reading, node.place)
+        if whens is UNREAD:
+            raise Unreadable
+        line = node.place.line + 1
+        return tuple(Expectation(when, question, check, line) for when in whens)
+
+    def moments(self, node: Node, reading: Reading) -> tuple[Duration, ...]:
+        """One moment or a list of them."""
+        if isinstance(node, document.Sequence):
+            found: tuple[Duration, ...] = values.several(self.moment, "moments")(node, reading)
+            if not found:
+                raise reading.refuse(node, "at which moment? the list is empty")
+            return found
+        return (self.moment(node, reading),)
+
+    def whens(
+        self, place: document.Place, given: Mapping[str, Any], reading: Reading
+    ) -> tuple[When, ...]:
+        """When an expectation is judged."""
+        said = [key for key in _WHEN if given[key] is not None]
+        if len(said) != 1:
+            raise Unreadable  # said already
+        every = LOOK_EVERY if given["every"] is None else given["every"]
+        if said == ["at"]:
+            if given["every"] is not None:
+                raise reading.refuse(place, "'every' goes with by, during or always")
+            return tuple(When("at", at, at, every) for at in given["at"])
+        end = self.duration or 0
+        if said == ["always"] and not given["always"]:
+            raise reading.refuse(place, "always: false says nothing; leave the expectation out")
+        first, last = {
+            "by": (0, given["by"]),
+            "during": given["during"],
+            "always": (0, end),
+        }[said[0]]
+        if first > last:
+            raise reading.refuse(place, "during: the first moment lies after the last one")
+        self.looks += (last - first) // every
+        if self.looks > MOST_LOOKS:
+            raise reading.refuse(
+                place, f"that is more than {MOST_LOOKS:,} looks in all; give 'every' a longer time"
+            )
+        return (When("by" if said == ["by"] else "during", first, last, every),)
+
+
+def _nothing_at(node: Scalar) -> Scalar:
+    return Scalar(node.place, "")

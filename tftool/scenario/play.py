@@ -1,0 +1,134 @@
+"""The one way a world is built and lived through, on simulated and on real time alike."""
+
+from collections.abc import Mapping
+from contextlib import suppress
+
+from tftool.errors import NodeFailed
+from tftool.runtime.clock import Clock, SimClock, run
+from tftool.runtime.supervisor import live
+from tftool.runtime.world import World
+from tftool.scenario import load
+from tftool.scenario.actions import Press
+from tftool.scenario.expectations import Expectations
+from tftool.scenario.kinds import KINDS
+from tftool.scenario.load import NO_ARGUMENTS
+from tftool.scenario.schema import Scenario
+from tftool.scenario.script import Script
+from tftool.scenario.verdict import Outcome, Verdict
+from tftool.stamps import Stamp
+
+TELEOP = "teleop"
+"""Name of the node that is added when a script presses keys and nothing takes them."""
+
+
+class Play:
+    """One run of a scenario: a world with its nodes, its script and its expectations.
+
+    Attributes:
+        scenario: What is played.
+        world: Where.
+        start: The moment the play began; times in the scenario count from it.
+        failure: Why it ended early, in words; empty as long as it did not.
+    """
+
+    def __init__(self, scenario: Scenario, clock: Clock, *, script: bool = True) -> None:
+        """Build the world; nothing moves before `live`.
+
+        Args:
+            scenario: What to play.
+            clock: On whose time.
+            script: Whether the scenario's own script is played; without it, a person acts.
+        """
+        self.scenario = scenario
+        self.world = World(clock, cache_time=scenario.cache_time)
+        self.start: Stamp = clock.now()
+        self.failure = ""
+        for entry in scenario.nodes:
+            KINDS[entry.kind].build(self.world, entry.name, entry.parameters)
+        steps = scenario.script if script else ()
+        presses = any(isinstance(step.action, Press) for step in steps)
+        if presses and not any(entry.kind == "teleop" for entry in scenario.nodes):
+            KINDS["teleop"].build(self.world, TELEOP, KINDS["teleop"].defaults())
+        if steps:
+            Script(self.world, steps)
+        # Without its script a scenario promises nothing.
+        self._expectations = Expectations(self.world, scenario.expect if script else ())
+
+    async def live(self, until: Stamp | None = None, *, endless: bool = False) -> None:
+        """Live through the scenario.
+
+        Args:
+            until: The last moment; that of the scenario's duration when None.
+            endless: Go on until the world is stopped, whatever the duration.
+
+        Raises:
+            NodeFailed: If a node raised.
+        """
+        self.start = self.world.clock.now()
+        end = self.start + self.scenario.duration if until is None else until
+        try:
+            await live(self.world, until=None if endless else end)
+        except NodeFailed as error:
+            self.failure = str(error)
+            raise
+
+    def verdict(self) -> Verdict:
+        """What held so far; expectations whose time has not come say so."""
+        return Verdict(
+            scenario=self.scenario.name,
+            file=self.scenario.file,
+            outcomes=tuple(
+                outcome
+                or Outcome(
+                    expectation=str(expected.question),
+                    line=expected.line,
+                    when=str(expected.when),
+                    expected=str(expected.check),
+                    found="not reached",
+                    at=None,
+                    ok=False,
+                )
+                for expected, outcome in zip(
+                    self._expectations.expected, self._expectations.outcomes, strict=True
+                )
+            ),
+            lasted=self.world.clock.now() - self.start,
+            failure=self.failure,
+        )
+
+
+def build(
+    scenario: Scenario,
+    clock: Clock,
+    arguments: Mapping[str, str] = NO_ARGUMENTS,
+    *,
+    script: bool = True,
+) -> Play:
+    """Build a play.
+
+    Args:
+        scenario: What to play.
+        clock: On whose time.
+        arguments: Values for arguments the scenario declares.
+        script: Whether its own script is played; without it, a person acts.
+
+    Raises:
+        UsageError: If an argument is given that the scenario does not declare.
+        ScenarioError: If the scenario cannot be read with them.
+    """
+    if arguments:
+        scenario = load.parse(scenario.source, scenario.file, arguments)
+    return Play(scenario, clock, script=script)
+
+
+def run_scenario(scenario: Scenario, arguments: Mapping[str, str] = NO_ARGUMENTS) -> Verdict:
+    """Play a scenario on simulated time, to its end, and judge it.
+
+    A node that fails ends the play; that is part of the verdict.
+    """
+    clock = SimClock()
+    play = build(scenario, clock, arguments)
+    # The verdict says so.
+    with suppress(NodeFailed):
+        run(clock, play.live())
+    return play.verdict()

@@ -1,0 +1,113 @@
+"""What a scenario is, read and checked."""
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from typing import Any
+
+from tftool.scenario.checks import Check
+from tftool.stamps import Duration
+
+
+@dataclass(frozen=True, slots=True)
+class NodeEntry:
+    """A node to start.
+
+    Attributes:
+        kind: Its kind, a key of `kinds.KINDS`.
+        name: Who it is; given, or its kind, numbered when there are several.
+        parameters: What its kind takes, all of it.
+    """
+
+    kind: str
+    name: str
+    parameters: Mapping[str, Any]
+
+
+@dataclass(frozen=True, slots=True)
+class Step:
+    """One thing that happens, `at` nanoseconds after the start.
+
+    Attributes:
+        at: When.
+        action: What: one of `actions`.
+        line: Its line in the file.
+    """
+
+    at: Duration
+    action: Any
+    line: int
+
+
+@dataclass(frozen=True, slots=True)
+class When:
+    """When an expectation is judged, in nanoseconds since the start.
+
+    Attributes:
+        kind: "at" a moment, "by" a moment at the latest, or "during" a while.
+        first: The first moment it is looked at.
+        last: The last one.
+        every: How far apart the moments between are.
+    """
+
+    kind: str
+    first: Duration
+    last: Duration
+    every: Duration
+
+    def __str__(self) -> str:
+        if self.kind == "during":
+            return f"from {_clock(self.first)} to {_clock(self.last)}"
+        return f"{self.kind} {_clock(self.last)}"
+
+
+@dataclass(frozen=True, slots=True)
+class Expectation:
+    """What must hold, and when.
+
+    Attributes:
+        when: When it is judged.
+        question: What is asked: one of `questions`.
+        check: What the answer must be, from `checks`.
+        line: Its line in the file.
+    """
+
+    when: When
+    question: Any
+    check: Check
+    line: int
+
+    def __str__(self) -> str:
+        return f"{self.when}: {self.question} {self.check}"
+
+
+@dataclass(frozen=True, slots=True)
+class Scenario:
+    """A world, what happens in it, and what must hold.
+
+    Attributes:
+        name: What it is called: its file's name without the ending.
+        file: Where it came from, as it was given.
+        about: What it shows.
+        arguments: What may be set from outside, with the values it was read with.
+        duration: How long it lasts on simulated time, in nanoseconds.
+        cache_time: How far back its buffer remembers, in nanoseconds.
+        nodes: What lives in it, in order.
+        script: What happens.
+        expect: What must hold.
+        source: The text it was read from, so that it can be read with other arguments.
+    """
+
+    name: str
+    file: str
+    about: str
+    arguments: Mapping[str, str]
+    duration: Duration
+    cache_time: Duration
+    nodes: tuple[NodeEntry, ...]
+    script: tuple[Step, ...]
+    expect: tuple[Expectation, ...]
+    source: str = field(repr=False)
+
+
+def _clock(duration: Duration) -> str:
+    return f"{duration / 1e9:g} s"

@@ -1,0 +1,169 @@
+"""What happens in a scenario: each action, done when its time comes.
+
+To add an action: a dataclass in `actions`, a coroutine that does it, and one
+entry in `ACTIONS`.
+"""
+
+import asyncio
+from collections.abc import Awaitable, Callable, Mapping, Sequence
+from types import MappingProxyType
+from typing import Any
+
+from tftool.frames.sample import TransformStamped
+from tftool.geometry.conversions import quaternion_from_rpy
+from tftool.geometry.rigid import Transform
+from tftool.messages import (
+    Clear,
+    KeyPress,
+    Kill,
+    Reset,
+    RotateAbsolute,
+    SetPen,
+    Spawn,
+    TeleportAbsolute,
+    TeleportRelative,
+    Twist2D,
+)
+from tftool.runtime.node import Node
+from tftool.runtime.world import World
+from tftool.scenario import actions
+from tftool.scenario.schema import Step
+from tftool.stamps import Duration, Stamp, seconds
+
+REFRESH: Duration = seconds(0.5)
+"""How often a drive repeats its command; a turtle stops a second after the last one."""
+
+
+class Script(Node):
+    """Does every step at its time; steps of one instant in the order of the file.
+
+    Attributes:
+        start: The moment the script began.
+    """
+
+    def __init__(self, world: World, steps: Sequence[Step]) -> None:
+        """Act in `world`."""
+        super().__init__(world, "script")
+        self.steps = tuple(steps)
+        self.start = world.clock.now()
+
+    async def run(self) -> None:
+        """Do all steps; one that waits for an answer holds up no other."""
+        self.start = self.clock.now()
+        await asyncio.gather(*(self._do(step) for step in self.steps))
+
+    async def _do(self, step: Step) -> None:
+        await self.wait_until(self.start + step.at)
+        await _DO[type(step.action)](step.action, self)
+
+    async def wait_until(self, stamp: Stamp) -> None:
+        """Wait for a moment, in this node's place within it."""
+        await self.clock.sleep_until(stamp, self.phase, self.rank)
+
+
+async def _press(action: actions.Press, script: Script) -> None:
+    start = script.clock.now()
+    for count, key in enumerate(action.keys):
+        await script.wait_until(start + count * action.every)
+        script.publish("keys", KeyPress(key))
+
+
+async def _drive(action: actions.Drive, script: Script) -> None:
+    topic = f"{action.turtle}/cmd_vel"
+    at = script.clock.now()
+    end = at + action.lasting
+    while at < end:
+        script.publish(topic, Twist2D(action.linear, action.angular, action.sideways))
+        at = min(at + REFRESH, end)
+        await script.wait_until(at)
+    script.publish(topic, Twist2D())
+
+
+async def _spawn(action: actions.SpawnTurtle, script: Script) -> None:
+    await script.call("spawn", Spawn(action.x, action.y, action.theta, action.name))
+
+
+async def _kill(action: actions.KillTurtle, script: Script) -> None:
+    await script.call("kill", Kill(action.turtle))
+
+
+async def _teleport(action: actions.Teleport, script: Script) -> None:
+    request = TeleportAbsolute(action.x, action.y, action.theta)
+    await script.call(f"{action.turtle}/teleport_absolute", request)
+
+
+async def _hop(action: actions.Hop, script: Script) -> None:
+    request = TeleportRelative(action.linear, action.angular)
+    await script.call(f"{action.turtle}/teleport_relative", request)
+
+
+async def _rotate(action: actions.Rotate, script: Script) -> None:
+    goal = RotateAbsolute(action.theta)
+    await script.world.send_goal(f"{action.turtle}/rotate_absolute", goal)
+
+
+async def _set_pen(action: actions.Pen, script: Script) -> None:
+    request = SetPen(action.r, action.g, action.b, action.width, int(action.off))
+    await script.call(f"{action.turtle}/set_pen", request)
+
+
+async def _clear(action: actions.ClearField, script: Script) -> None:
+    await script.call("clear", Clear())
+
+
+async def _reset(action: actions.ResetField, script: Script) -> None:
+    await script.call("reset", Reset())
+
+
+def _transform(action: actions.Broadcast | actions.BroadcastStatic) -> Transform:
+    rotation = quaternion_from_rpy(action.roll, action.pitch, action.yaw)
+    return Transform((action.x, action.y, action.z), rotation)
+
+
+async def _broadcast(action: actions.Broadcast, script: Script) -> None:
+    pose = _transform(action)
+    at = script.clock.now()
+    end = at + action.lasting
+    while True:
+        stamp = action.stamp.stamp(script.start, at)
+        script.broadcast(TransformStamped(stamp, action.parent, action.child, pose))
+        at += action.every
+        if at > end:
+            break
+        await script.wait_until(at)
+
+
+async def _static(action: actions.BroadcastStatic, script: Script) -> None:
+    now = script.clock.now()
+    pose = _transform(action)
+    script.broadcast_static(TransformStamped(now, action.parent, action.child, pose))
+
+
+async def _stop(action: actions.StopNode, script: Script) -> None:
+    script.world.remove(script.world.node(action.node))
+
+
+async def _say(action: actions.Say, script: Script) -> None:
+    script.info(action.text)
+
+
+ACTIONS: Mapping[str, tuple[type, Callable[[Any, Script], Awaitable[None]]]] = MappingProxyType(
+    {
+        "keys": (actions.Press, _press),
+        "drive": (actions.Drive, _drive),
+        "spawn": (actions.SpawnTurtle, _spawn),
+        "kill": (actions.KillTurtle, _kill),
+        "teleport": (actions.Teleport, _teleport),
+        "hop": (actions.Hop, _hop),
+        "rotate": (actions.Rotate, _rotate),
+        "set_pen": (actions.Pen, _set_pen),
+        "clear": (actions.ClearField, _clear),
+        "reset": (actions.ResetField, _reset),
+        "broadcast": (actions.Broadcast, _broadcast),
+        "static": (actions.BroadcastStatic, _static),
+        "stop": (actions.StopNode, _stop),
+        "say": (actions.Say, _say),
+    }
+)
+
+_DO = dict(ACTIONS.values())
