@@ -1,0 +1,131 @@
+"""What was found: as a table, as rows for programs, as a JUnit report."""
+
+from collections.abc import Sequence
+from typing import TYPE_CHECKING, Any
+from xml.etree import ElementTree
+
+from tftool.messages import Finding, Report
+from tftool.views.escaping import visible
+
+if TYPE_CHECKING:
+    from rich.table import Table
+
+
+def render(reports: Sequence[Report]) -> "Table":
+    """Every finding in a table, grouped by report; what is not as it should be stands out."""
+    from rich import box
+    from rich.table import Table
+    from rich.text import Text
+
+    table = Table(box=box.SIMPLE_HEAD, show_edge=False, pad_edge=False)
+    table.add_column("scenario", overflow="fold")
+    table.add_column("expected", overflow="fold", ratio=3)
+    table.add_column("found", overflow="fold", ratio=2)
+    table.add_column("")
+    for report in reports:
+        name = Text(visible(report.name), "bold")
+        for finding in report.findings:
+            ok = Text("ok", "green") if finding.ok else Text("FAILED", "bold red")
+            table.add_row(name, Text(visible(finding.subject)), Text(_found(finding)), ok)
+            name = Text("")
+        if report.failure:
+            table.add_row(name, "", Text(_lines(report.failure)[0]), Text("FAILED", "bold red"))
+        elif not report.findings:
+            table.add_row(name, Text("nothing", "dim"), "", Text("ok", "green"))
+        table.add_section()
+    return table
+
+
+def summary(reports: Sequence[Report]) -> str:
+    """All of it in one sentence."""
+    bad = [report for report in reports if not report.ok]
+    findings = [finding for report in reports for finding in report.findings]
+    held = sum(finding.ok for finding in findings)
+    scenarios = _count(len(reports), "scenario")
+    whole = f"{held} of {_count(len(findings), 'expectation')} held"
+    if bad:
+        names = ", ".join(visible(report.name) for report in bad)
+        return f"{scenarios}, {len(bad)} failed ({names}): {whole}"
+    return f"{scenarios}, none failed: {whole}"
+
+
+def as_rows(reports: Sequence[Report]) -> list[dict[str, Any]]:
+    """The same for programs: one mapping a report, with names exactly as they are."""
+    return [
+        {
+            "scenario": report.name,
+            "file": report.file,
+            "ok": report.ok,
+            "lasted": report.lasted,
+            "failure": report.failure,
+            "expectations": [
+                {
+                    "expectation": finding.subject,
+                    "line": finding.line,
+                    "ok": finding.ok,
+                    "expected": finding.expected,
+                    "found": finding.found,
+                    "at": finding.at,
+                }
+                for finding in report.findings
+            ],
+        }
+        for report in reports
+    ]
+
+
+def as_junit(reports: Sequence[Report]) -> str:
+    """The same as a JUnit XML document; times are those of the scenarios' own clocks."""
+    root = ElementTree.Element("testsuites", name="tftool check")
+    for report in reports:
+        suite = ElementTree.SubElement(
+            root, "testsuite", name=visible(report.name), time=f"{report.lasted:.3f}"
+        )
+        for finding in report.findings:
+            at = 0.0 if finding.at is None else finding.at
+            case = _case(suite, report, finding.subject, at)
+            if not finding.ok:
+                message = f"expected {finding.expected}, found {_found(finding)}"
+                failure = ElementTree.SubElement(case, "failure", message=visible(message))
+                failure.text = visible(f"{report.file}:{finding.line}: {message}")
+        if report.failure or not report.findings:
+            case = _case(suite, report, "plays to its end", report.lasted)
+            if report.failure:
+                failure = ElementTree.SubElement(case, "error", message=_lines(report.failure)[0])
+                failure.text = "\n".join(_lines(report.failure))
+        _total(suite, suite)
+    _total(root, root)
+    ElementTree.indent(root)
+    text = ElementTree.tostring(root, encoding="unicode")
+    return f'<?xml version="1.0" encoding="UTF-8"?>\n{text}\n'
+
+
+def _case(
+    suite: ElementTree.Element, report: Report, name: str, seconds: float
+) -> ElementTree.Element:
+    return ElementTree.SubElement(
+        suite,
+        "testcase",
+        classname=visible(report.name),
+        name=visible(name),
+        file=visible(report.file),
+        time=f"{seconds:.3f}",
+    )
+
+
+def _total(element: ElementTree.Element, within: ElementTree.Element) -> None:
+    for key, tag in (("tests", "testcase"), ("failures", "failure"), ("errors", "error")):
+        element.set(key, str(len(list(within.iter(tag)))))
+
+
+def _found(finding: Finding) -> str:
+    found = visible(finding.found)
+    return found if finding.at is None else f"{found} at {finding.at:g} s"
+
+
+def _lines(text: str) -> list[str]:
+    return [visible(line) for line in text.split("\n")]
+
+
+def _count(number: int, word: str) -> str:
+    return f"{number} {word}" if number == 1 else f"{number} {word}s"
