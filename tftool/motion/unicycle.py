@@ -43,8 +43,8 @@ ROTATION_TOLERANCE: Final = 0.02
 
 # Above this the quotient of `wrap` has no fraction left to speak of.
 _FAR = 1e9
-_ONE = struct.Struct("f")
-_POSE = struct.Struct("5f")
+_ONE = struct.Struct("@f")
+_POSE = struct.Struct("@5f")
 _LARGEST = 3.4028234663852886e38
 
 
@@ -134,10 +134,8 @@ def float32(value: float) -> float:
 
     Beyond the largest such float the result is infinite.
     """
-    try:
-        rounded: float = _ONE.unpack(_ONE.pack(value))[0]
-    except OverflowError:
-        return math.copysign(math.inf, value)
+    # The machine's own conversion: packing for elsewhere would refuse what overflows.
+    rounded: float = _ONE.unpack(_ONE.pack(value))[0]
     return rounded
 
 
@@ -161,7 +159,4 @@ def published(
     x: float, y: float, theta: float, speed: float, turn: float
 ) -> tuple[float, float, float, float, float]:
     """Round the five numbers of a pose message to 32-bit floats."""
-    try:
-        return _POSE.unpack(_POSE.pack(x, y, theta, speed, turn))
-    except OverflowError:
-        return float32(x), float32(y), float32(theta), float32(speed), float32(turn)
+    return _POSE.unpack(_POSE.pack(x, y, theta, speed, turn))

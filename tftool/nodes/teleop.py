@@ -96,14 +96,15 @@ class Teleop(Node):
         Args:
             world: Where to live.
             name: The node's name.
-            turtle: Whom to drive.
+            turtle: Whom to drive; a simulator's namespace may stand in front.
             scale_linear: Speed of the arrow keys in m/s.
             scale_angular: Turn rate of the arrow keys in rad/s.
 
         Raises:
             UsageError: If `turtle` cannot be a turtle's name.
         """
-        require_turtle_name(turtle)
+        for part in turtle.split("/"):
+            require_turtle_name(part)
         super().__init__(world, name)
         self.turtle = turtle
         self.declare_parameter("scale_linear", float(scale_linear))

@@ -77,7 +77,7 @@ class _Pixels:
         self._numbers: dict[Color, int] = {BLANK: 0}
 
     def color_at(self, x: float, y: float) -> Color:
-        column, row = round(x * PIXELS_PER_METRE), round((FIELD - y) * PIXELS_PER_METRE)
+        column, row = _nearest(x * PIXELS_PER_METRE), _nearest((FIELD - y) * PIXELS_PER_METRE)
         if not (0 <= column < WINDOW and 0 <= row < WINDOW):
             return BLANK
         pixels = self._rows[row]
@@ -109,7 +109,7 @@ class _Pixels:
         for x, y in ((x0, y0), (x1, y1)):
             # Far outside nothing is painted; asked first, as infinity has no pixel.
             if -1.0 < y < WINDOW:
-                self._fill(round(y), math.floor(x + 0.5), math.floor(x + 0.5), number)
+                self._fill(_nearest(y), _nearest(x), _nearest(x), number)
 
     def _fill(self, row: int, left: float, right: float, number: int) -> None:
         first = math.ceil(max(left, 0.0))
@@ -128,6 +128,11 @@ class _Pixels:
             number = self._numbers[color] = len(self._palette)
             self._palette.append(color)
         return number
+
+
+def _nearest(coordinate: float) -> int:
+    """The pixel nearest to a coordinate; halves go up, on every side of the layer alike."""
+    return math.floor(coordinate + 0.5)
 
 
 def _between(slope: float, offset: float, low: float, high: float) -> tuple[float, float]:

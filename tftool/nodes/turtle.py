@@ -71,6 +71,7 @@ class Turtle:
         "_goal",
         "_goal_delta",
         "_goal_start",
+        "_settled",
         "_shown_state",
         "_teleports",
         "_wall_met",
@@ -101,6 +102,7 @@ class Turtle:
         self._goal_start = self._goal_delta = 0.0
         self._wall_met = False
         self._wall_told = now
+        self._settled = False
         self._shown_state: tuple[float, ...] = ()
         self.pose = self._pose()
 
@@ -112,6 +114,7 @@ class Turtle:
         The sideways speed alone survives where the simulator is not holonomic, as in
         turtlesim: only the timeout and the rotate action clear it.
         """
+        self._settled = False
         self._commanded = now
         self.forward, self.turn = twist.linear_x, twist.angular_z
         if holonomic:
@@ -122,6 +125,7 @@ class Turtle:
 
     def teleport(self, where: Callable[[Placement], Placement]) -> None:
         """Have the turtle put elsewhere in its next update, after those asked for earlier."""
+        self._settled = False
         self._teleports.append(where)
 
     def set_pen(self, color: Color, width: int, off: bool) -> None:
@@ -138,6 +142,7 @@ class Turtle:
                 "Rotation goal received before a previous goal finished. Aborting previous goal",
             )
             self._end_goal("aborted")
+        self._settled = False
         self._goal, self._goal_start, self._goal_delta = goal, self.place.theta, 0.0
 
     def leave(self) -> None:
@@ -159,6 +164,8 @@ class Turtle:
             The stroke of the motion, to be drawn after the colour sensor looked; None
             where nothing is drawn.
         """
+        if self._settled:
+            return None
         for where in self._teleports:
             before, self.place = self.place, where(self.place)
             if self.pen_on and before[:2] != self.place[:2]:
@@ -177,12 +184,16 @@ class Turtle:
         else:
             self._meet_wall(place, now, say)
             place = clamp(place)
-        if place == before:
-            stroke = None
-        else:
+        stroke = None
+        if place != before:
             self.place = place
-            stroke = self._stroke(before, place) if self.pen_on else None
+            if self.pen_on and (place.x != before.x or place.y != before.y):
+                stroke = self._stroke(before, place)
         self.pose = self._pose()
+        # At rest, every further update would change nothing, until something comes in.
+        self._settled = not (
+            self.forward or self.sideways or self.turn or self._goal or self._wall_met
+        )
         return stroke
 
     def _pursue_goal(self, goal: GoalHandle, now: Stamp, say: Say) -> None:

@@ -138,7 +138,7 @@ class Turtlesim(Node):
 
     async def run(self) -> None:
         """Simulate until the end."""
-        self.info(f"Starting turtlesim with node name /{self.name}")
+        self.info(f"Starting turtlesim with node name /{self._prefix}{self.name}")
         for service, handler in (
             ("spawn", self._on_spawn),
             ("kill", self._on_kill),
