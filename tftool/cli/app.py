@@ -3,9 +3,10 @@
 import os
 import signal
 import sys
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from contextlib import suppress
 from functools import cache
+from inspect import cleandoc
 from types import FrameType
 from typing import TYPE_CHECKING, Annotated, Any, cast
 
@@ -55,7 +56,24 @@ def build() -> "typer.Typer":
         if context.invoked_subcommand is None:
             sys.stdout.write(context.get_help() + "\n")
 
+    from tftool.cli.echo import echo
+    from tftool.cli.follow import follow
+    from tftool.cli.monitor import monitor
+    from tftool.cli.static import static
+    from tftool.cli.tree import tree
+
+    for command in (echo, static, tree, follow, monitor):
+        # A frame may lie at a negative place: -1 is a number there, not an option.
+        takes_numbers = {"ignore_unknown_options": True} if command is static else None
+        app.command(help=_laid_out(command), context_settings=takes_numbers)(command)
     return app
+
+
+def _laid_out(command: Callable[..., Any]) -> str:
+    """The docstring of a command as its help; examples keep their lines."""
+    paragraphs = cleandoc(command.__doc__ or "").split("\n\n")
+    # The mark by which click leaves a paragraph as it is.
+    return "\n\n".join(f"\b\n{one}" if one.startswith("tftool ") else one for one in paragraphs)
 
 
 def main(argv: Sequence[str] | None = None) -> int:

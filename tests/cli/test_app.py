@@ -1,0 +1,155 @@
+import os
+import signal
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+import tftool as package
+from tftool.cli import app
+from tftool.errors import (
+    InputError,
+    LookupException,
+    NodeFailed,
+    TftoolError,
+    UsageError,
+)
+
+ROOT = Path(__file__).parents[2]
+COMMANDS = [command.callback.__name__ for command in app.build().registered_commands]
+
+# What would make every command slow to answer, help included.
+HEAVY = {"numpy", "textual", "zenoh", "rich", "yaml", "asyncio", "transforms3d", "websockets"}
+
+
+def start(*words, **options):
+    environment = {**os.environ, "PYTHONUNBUFFERED": "", **options.pop("env", {})}
+    return subprocess.Popen(
+        [sys.executable, "-m", "tftool", *words],
+        cwd=ROOT,
+        env=environment,
+        text=True,
+        stdout=subprocess.PIPE,
+        stderr=subprocess.PIPE,
+        **options,
+    )
+
+
+def test_without_a_word_it_shows_its_help(tftool):
+    result = tftool()
+
+    assert result.status == 0
+    assert result.out == tftool("--help").out
+    assert "Start with 'tftool demo'" in result.out
+
+
+def test_version(tftool):
+    assert tftool("--version").out == f"tftool {package.__version__}\n"
+
+
+def test_a_near_miss_is_told_what_was_meant(tftool):
+    result = tftool("ecko")
+
+    assert result.status == 2
+    assert result.out == ""
+    assert "'ecko'" in result.err
+    assert "Did you mean 'echo'?" in result.err
+    assert result.err.count("\n") == 1
+
+
+@pytest.mark.parametrize(
+    ("words", "sentence"),
+    [
+        (["echo", "turtle1"], "Missing argument 'SOURCE'"),
+        (["echo", "a", "b", "--rate", "often"], "'often' is not a valid float"),
+        (["echo", "a", "b", "--precission", "2"], "No such option: --precission"),
+        (["tree", "--format", "png"], "'png' is not one of"),
+    ],
+)
+def test_wrong_usage_is_one_sentence_that_says_where_help_is(tftool, words, sentence):
+    result = tftool(*words)
+
+    assert result.status == 2
+    assert sentence in result.err
+    assert result.err.startswith(f"tftool {words[0]}: ")
+    assert f"Try 'tftool {words[0]} --help'." in result.err
+    assert result.err.count("\n") == 1
+
+
+@pytest.mark.parametrize(
+    ("error", "status"),
+    [
+        (UsageError("use it so."), 2),
+        (InputError("cannot be read."), 3),
+        (LookupException('"\x1b[2J" is not here. '), 4),
+        (NodeFailed("follower", ValueError("no")), 1),
+        (TftoolError("something else."), 1),
+    ],
+)
+def test_every_error_has_its_exit_status_and_nothing_in_it_acts_on_the_terminal(
+    tftool, monkeypatch, error, status
+):
+    def fail(*_):
+        raise error
+
+    monkeypatch.setattr("tftool.cli.static_arguments.parse", fail)
+
+    result = tftool("static")
+
+    assert result.status == status
+    assert result.err == f"tftool: {str(error).rstrip()}\n".replace("\x1b", "␛")
+
+
+@pytest.mark.parametrize("command", COMMANDS)
+def test_help_of_every_command_opens_with_its_words_and_keeps_its_examples(tftool, command):
+    result = tftool(command, "--help")
+
+    assert result.status == 0
+    assert result.out.startswith(f"Usage: tftool {command}")
+    assert f"\n  tftool {command}" in result.out
+    assert "\b" not in result.out
+
+
+def test_no_help_imports_anything_heavy():
+    code = (
+        "import sys\n"
+        "from tftool.cli.app import main\n"
+        "for words in sys.argv[1].split(','):\n"
+        "    assert main([*words.split(), '--help']) == 0\n"
+        f"heavy = sorted({HEAVY!r} & set(sys.modules))\n"
+        "sys.stderr.write(' '.join(heavy))\n"
+    )
+
+    done = subprocess.run(
+        [sys.executable, "-c", code, ",".join(["", *COMMANDS])],
+        cwd=ROOT,
+        capture_output=True,
+        text=True,
+        check=True,
+    )
+
+    assert done.stderr == ""
+
+
+@pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM])
+def test_a_signal_ends_it_quietly_with_130(number):
+    with start("static", "0", "0", "3", "0", "0", "3.14", "A", "B") as process:
+        # It publishes first, so whoever reads this line knows that it runs.
+        assert process.stdout.readline() == "Spinning until stopped - publishing transform\n"
+        process.send_signal(number)
+        _, err = process.communicate(timeout=20)
+
+    assert process.returncode == 130
+    assert "Traceback" not in err
+
+
+def test_a_reader_that_goes_away_ends_it_quietly():
+    with start("static", "--once", "--frame-id", "A", "--child-frame-id", "B") as process:
+        process.stdout.close()
+        err = process.stderr.read()
+        process.wait(timeout=20)
+
+    assert process.returncode == 0
+    assert "Traceback" not in err
+    assert "Broken" not in err

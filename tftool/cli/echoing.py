@@ -1,0 +1,218 @@
+"""What `tftool echo` does while it runs: wait and say why, then look up and print."""
+
+import asyncio
+import json
+import re
+import sys
+from dataclasses import dataclass
+from difflib import get_close_matches
+
+from tftool.cli.session import notice
+from tftool.errors import BackwardExtrapolationException, LookupException, TransformException
+from tftool.frames.buffer import Buffer
+from tftool.frames.sample import TransformStamped
+from tftool.runtime.clock import Phase
+from tftool.runtime.world import World
+from tftool.stamps import LATEST, Duration, Stamp
+from tftool.views import echo as view
+from tftool.views.escaping import visible, visible_lines
+
+MOST_NAMED = 12
+"""How many frames a hint names."""
+
+
+@dataclass(frozen=True, slots=True)
+class Question:
+    """What is looked up.
+
+    Attributes:
+        target: Frame the answer is given in.
+        source: Frame looked for.
+        at: The moment; 0 for the latest.
+        offset: How far from now the moment is instead, where it is not 0.
+        fixed_frame: Frame by whose way only `source` is taken from that moment.
+    """
+
+    target: str
+    source: str
+    at: Stamp = LATEST
+    offset: Duration = 0
+    fixed_frame: str | None = None
+
+    def ask(self, buffer: Buffer, now: Stamp) -> TransformStamped:
+        """Look it up.
+
+        Raises:
+            TransformException: If it cannot be given.
+        """
+        if self.target == self.source and not buffer.frame_exists(self.target):
+            # tf2 calls any frame in itself the identity, even one nobody has heard of.
+            raise LookupException(_unknown(self.target), frame=self.target)
+        then = now + self.offset if self.offset else self.at
+        if self.fixed_frame is None:
+            return buffer.lookup_transform(self.target, self.source, then)
+        return buffer.lookup_transform_full(
+            self.target, LATEST, self.source, then, self.fixed_frame
+        )
+
+    def why_not(self, buffer: Buffer, now: Stamp) -> str:
+        """Why it cannot be given, in tf2_echo's words."""
+        if self.target == self.source and not buffer.frame_exists(self.target):
+            return _unknown(self.target)
+        then = now + self.offset if self.offset else self.at
+        if self.fixed_frame is None:
+            return buffer.why_not(self.target, self.source, then)
+        return buffer.why_not_full(self.target, LATEST, self.source, then, self.fixed_frame)
+
+
+def _unknown(frame: str) -> str:
+    return f'Invalid frame ID "{frame}" - frame does not exist'
+
+
+@dataclass(frozen=True, slots=True)
+class Printer:
+    """How answers are written to stdout."""
+
+    precision: int = 3
+    with_distance: bool = False
+    for_programs: bool = False
+
+    def found(self, found: TransformStamped) -> None:
+        """Print an answer."""
+        if self.for_programs:
+            self._line(view.as_object(found, with_distance=self.with_distance))
+        else:
+            self._write(
+                view.block(found, precision=self.precision, with_distance=self.with_distance)
+            )
+
+    def failed(self, now: Stamp, refusal: TransformException, buffer: Buffer) -> None:
+        """Print a refusal."""
+        if self.for_programs:
+            self._line(view.failure_as_object(now, refusal))
+        else:
+            self._write(view.failure(now, refusal, buffer.all_frames_as_string()))
+
+    def _line(self, what: object) -> None:
+        self._write(json.dumps(what, allow_nan=False) + "\n")
+
+    def _write(self, text: str) -> None:
+        sys.stdout.write(text)
+        sys.stdout.flush()
+
+
+class Echo:
+    """One question, asked of one world until enough answers are printed."""
+
+    def __init__(
+        self,
+        world: World,
+        question: Question,
+        printer: Printer,
+        *,
+        period: Duration,
+        count: int | None = None,
+        patience: Duration | None = None,
+        tells: bool = True,
+    ) -> None:
+        """Prepare to ask.
+
+        Args:
+            world: Whose frames.
+            question: What to look up.
+            printer: How to print it.
+            period: Nanoseconds between two answers.
+            count: How many answers to print; None for no end.
+            patience: How long to wait for the first, in nanoseconds; None for ever.
+            tells: Whether to say why it waits; nobody needs to know while time is simulated.
+        """
+        self.world = world
+        self.question = question
+        self.printer = printer
+        self.period = period
+        self.count = count
+        self.patience = patience
+        self.tells = tells
+
+    async def run(self) -> None:
+        """Print answers until there are enough.
+
+        Raises:
+            TransformException: If the first does not come in time, or never will.
+        """
+        clock = self.world.clock
+        await self.wait()
+        due = clock.now()
+        printed = 0
+        while True:
+            now = clock.now()
+            try:
+                self.printer.found(self.question.ask(self.world.buffer, now))
+                printed += 1
+            except TransformException as refusal:
+                self.printer.failed(now, refusal, self.world.buffer)
+            if printed == self.count:
+                return
+            due += self.period
+            await clock.sleep_until(due, Phase.WATCH)
+            # Late by more than a period: what was missed is not made up for.
+            due = max(due, clock.now() - self.period)
+
+    async def wait(self) -> None:
+        """Wait until the question can be answered; whatever comes in may change that."""
+        clock, buffer = self.world.clock, self.world.buffer
+        news = asyncio.Event()
+        stop = buffer.listen(lambda *_: news.set())
+        end = None if self.patience is None else clock.timer(clock.now() + self.patience)
+        if end is not None:
+            end.add_done_callback(lambda _: news.set())
+        told = ""
+        try:
+            while True:
+                try:
+                    self.question.ask(buffer, clock.now())
+                    return
+                except TransformException as refusal:
+                    if self._is_over(refusal, end):
+                        self._hint()
+                        raise
+                if self.tells:
+                    told = self._tell(told)
+                news.clear()
+                await news.wait()
+        finally:
+            stop()
+            if end is not None:
+                end.cancel()
+
+    def _is_over(self, refusal: TransformException, end: "asyncio.Future[None] | None") -> bool:
+        if end is not None and end.done():
+            return True
+        # One moment that lies before all that is remembered will not come back.
+        return self.question.at != LATEST and isinstance(refusal, BackwardExtrapolationException)
+
+    def _tell(self, told: str) -> str:
+        """Say why it waits, if that is another reason than the one told last."""
+        reason = self.question.why_not(self.world.buffer, self.world.clock.now())
+        # The times in it change with every sample; the reason does not.
+        kind = re.sub(r"-?\d+\.\d{6}", "<time>", reason)
+        if kind == told:
+            return told
+        words = view.in_words(self.question.target, self.question.source)
+        notice(f"Waiting for {words}: {visible_lines(reason.rstrip())}")
+        if not told:
+            self._hint()
+        return kind
+
+    def _hint(self) -> None:
+        """Name the frames there are, when one of those asked for is not among them."""
+        frames = self.world.buffer.frames()
+        asked = (self.question.target, self.question.source, self.question.fixed_frame)
+        missing = [frame for frame in asked if frame is not None and frame not in frames]
+        if not missing or not frames:
+            return
+        near = get_close_matches(missing[0], frames, 1)
+        named = ", ".join(visible(frame) for frame in frames[:MOST_NAMED])
+        more = f" and {len(frames) - MOST_NAMED} more" if len(frames) > MOST_NAMED else ""
+        meant = f" Did you mean {visible(near[0])}?" if near else ""
+        notice(f"Frames there are so far: {named}{more}.{meant}")

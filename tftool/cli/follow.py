@@ -1,0 +1,139 @@
+"""`tftool follow`: a turtle that follows a frame."""
+
+from typing import TYPE_CHECKING, Annotated
+
+import typer
+
+from tftool.cli.options import CacheTime, finite, not_negative, positive
+from tftool.stamps import seconds
+
+if TYPE_CHECKING:
+    from tftool.runtime.log import LogRecord
+
+NAME = "turtle_following"
+
+
+def follow(
+    leader: Annotated[str, typer.Argument(metavar="[LEADER]", help="Frame to follow.")] = "turtle1",
+    follower: Annotated[
+        str, typer.Argument(metavar="[FOLLOWER]", help="Turtle to spawn and to steer.")
+    ] = "turtle2",
+    place: Annotated[
+        str | None,
+        typer.Argument(metavar="[FROM]", help="World to host: a scenario's name or file."),
+    ] = None,
+    period: Annotated[
+        float,
+        typer.Option(metavar="SECONDS", callback=positive, help="Time between two commands."),
+    ] = 1.0,
+    delay: Annotated[
+        float,
+        typer.Option(
+            metavar="SECONDS",
+            callback=not_negative,
+            help="Go where the leader was so long ago: time travel.",
+        ),
+    ] = 0.0,
+    fixed_frame: Annotated[
+        str, typer.Option(metavar="FRAME", help="Frame that stands still over the delay.")
+    ] = "world",
+    kp_distance: Annotated[
+        float, typer.Option(callback=finite, metavar="GAIN", help="Speed per metre of distance.")
+    ] = 0.5,
+    ki_distance: Annotated[
+        float, typer.Option(callback=finite, metavar="GAIN", help="Speed per metre and second.")
+    ] = 0.0,
+    kd_distance: Annotated[
+        float, typer.Option(callback=finite, metavar="GAIN", help="Speed per metre a second.")
+    ] = 0.0,
+    kp_bearing: Annotated[
+        float,
+        typer.Option(callback=finite, metavar="GAIN", help="Turn rate per radian of bearing."),
+    ] = 1.0,
+    ki_bearing: Annotated[
+        float,
+        typer.Option(callback=finite, metavar="GAIN", help="Turn rate per radian and second."),
+    ] = 0.0,
+    kd_bearing: Annotated[
+        float, typer.Option(callback=finite, metavar="GAIN", help="Turn rate per radian a second.")
+    ] = 0.0,
+    integral_limit: Annotated[
+        float | None,
+        typer.Option(
+            callback=not_negative, metavar="LIMIT", help="Most that an integral adds to a command."
+        ),
+    ] = None,
+    dead_band: Annotated[
+        float,
+        typer.Option(
+            metavar="METRES", callback=not_negative, help="Distance that counts as there."
+        ),
+    ] = 0.0,
+    max_speed: Annotated[
+        float | None,
+        typer.Option(
+            metavar="M/S", callback=positive, help="Most it drives; no limit if not said."
+        ),
+    ] = None,
+    stale_after: Annotated[
+        float | None,
+        typer.Option(
+            metavar="SECONDS",
+            callback=positive,
+            help="Stop when what is known of the leader is older; never, if not said.",
+        ),
+    ] = None,
+    run_for: Annotated[
+        float | None,
+        typer.Option("--for", metavar="SECONDS", callback=positive, help="Stop after so long."),
+    ] = None,
+    cache_time: CacheTime = None,
+) -> None:
+    """Let FOLLOWER follow LEADER (the tutorial's turtle_following).
+
+    Spawns FOLLOWER. Once a period it looks up where the leader is, as the follower sees
+    it, and drives there. The defaults are the tutorial's.
+
+    tftool follow
+    tftool follow turtle1 turtle3
+    tftool follow turtle1 turtle2 --delay 5        where turtle1 was 5 s ago
+    """
+    from tftool.cli.session import notice, open_session
+    from tftool.motion.pid import Gains
+    from tftool.nodes.broadcasters import Broadcaster
+    from tftool.nodes.follower import Follower
+    from tftool.stamps import NANOSECONDS
+    from tftool.views.escaping import visible_lines
+
+    session = open_session(
+        place,
+        head_start=0,
+        cache_time=None if cache_time is None else seconds(cache_time),
+        without=lambda node: node.kind == "follower",
+    )
+    world = session.world
+
+    def tell(record: "LogRecord") -> None:
+        if record.node == NAME or record.level in ("WARN", "ERROR"):
+            second, rest = divmod(record.stamp, NANOSECONDS)
+            text = visible_lines(record.text.rstrip())
+            notice(f"[{record.level}] [{second}.{rest:09d}] [{record.node}]: {text}")
+
+    world.log.listen(tell)
+    Follower(
+        world,
+        NAME,
+        leader=leader,
+        follower=follower,
+        period=seconds(period),
+        delay=seconds(delay),
+        fixed_frame=fixed_frame,
+        distance_gains=Gains(kp_distance, ki_distance, kd_distance, integral_limit),
+        bearing_gains=Gains(kp_bearing, ki_bearing, kd_bearing, integral_limit),
+        dead_band=dead_band,
+        speed_limit=max_speed,
+        stale_after=None if stale_after is None else seconds(stale_after),
+    )
+    if not any(isinstance(node, Broadcaster) and node.turtle == follower for node in world.nodes):
+        Broadcaster(world, f"broadcaster_{follower}", turtle=follower)
+    session.run(session.lasting(None if run_for is None else seconds(run_for)))

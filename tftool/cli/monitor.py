@@ -1,0 +1,79 @@
+"""`tftool monitor`: what arrives, how often, how late."""
+
+import sys
+from typing import Annotated
+
+import typer
+
+from tftool.cli.options import CacheTime, ForPrograms, positive
+from tftool.errors import UsageError
+from tftool.stamps import seconds
+
+
+def monitor(
+    words: Annotated[
+        list[str] | None,
+        typer.Argument(
+            metavar="[A B] [FROM]",
+            help="Two frames, for the chain between them; then a world to host: "
+            "a scenario's name or file.",
+            show_default=False,
+        ),
+    ] = None,
+    run_for: Annotated[
+        float | None,
+        typer.Option("--for", metavar="SECONDS", callback=positive, help="Stop after so long."),
+    ] = None,
+    every: Annotated[
+        float | None,
+        typer.Option(
+            metavar="SECONDS",
+            callback=positive,
+            help="Time between two reports: 1 on a terminal, 10 elsewhere.",
+        ),
+    ] = None,
+    as_tf2: Annotated[
+        bool, typer.Option("--tf2", help="Print tf2_monitor's own numbers, its flaws included.")
+    ] = False,
+    for_programs: ForPrograms = False,
+    cache_time: CacheTime = None,
+) -> None:
+    """Show how often and how late transforms arrive (tf2_monitor).
+
+    And from whom. Without frames, all of them; with two, the chain between them and how old its
+    latest transform is.
+
+    tftool monitor
+    tftool monitor turtle2 turtle1
+    tftool monitor robot --for 10 --json
+    """
+    from tftool.cli.monitoring import Monitor, Style
+    from tftool.cli.session import open_session
+
+    if as_tf2 and for_programs:
+        raise UsageError("--tf2 and --json are two ways of writing: choose one.")
+    frames, place = _sorted_out(words or [])
+    session = open_session(place, cache_time=None if cache_time is None else seconds(cache_time))
+    if for_programs:
+        style = Style.JSON
+    elif as_tf2:
+        style = Style.TF2
+    else:
+        style = Style.TABLE if sys.stdout.isatty() else Style.LINES
+    if every is None:
+        every = 1.0 if style is Style.TABLE else 10.0
+    watching = Monitor(session.world, frames, style, period=seconds(every))
+    session.run(watching.run(None if run_for is None else seconds(run_for)))
+
+
+def _sorted_out(words: list[str]) -> tuple[tuple[str, str] | None, str | None]:
+    """Tell frames from a world: two words are frames, one is a world, three are all."""
+    if len(words) > 3:
+        raise UsageError(
+            f"{len(words)} words are too many: no frames or two of them, then a scenario."
+        )
+    if len(words) < 2:
+        place = words[0] if words else None
+        return None, place
+    target, source, *rest = words
+    return (target, source), rest[0] if rest else None

@@ -1,0 +1,151 @@
+"""What `tftool monitor` does while it runs: listen, ask how old answers are, report."""
+
+import asyncio
+import json
+import sys
+from collections.abc import Callable
+from enum import Enum, auto
+
+from rich.console import Console
+from rich.live import Live
+
+from tftool.cli.echoing import Echo, Printer, Question
+from tftool.cli.session import notice
+from tftool.errors import TransformException
+from tftool.frames.sample import TransformStamped
+from tftool.frames.traffic import NetDelay, Traffic
+from tftool.runtime.clock import Phase
+from tftool.runtime.world import TransformMessage, World
+from tftool.stamps import Duration, as_seconds, seconds
+from tftool.views import monitor as view
+from tftool.views.echo import in_words
+
+ASK_EVERY = seconds(0.5)
+"""How often the delay of a chain is measured; tf2_monitor's own figure."""
+
+
+class Style(Enum):
+    """How a report is written."""
+
+    TABLE = auto()
+    LINES = auto()
+    TF2 = auto()
+    JSON = auto()
+
+
+class Monitor:
+    """Everything that arrives in one world, reported once a period."""
+
+    def __init__(
+        self, world: World, frames: tuple[str, str] | None, style: Style, *, period: Duration
+    ) -> None:
+        """Prepare to listen.
+
+        Args:
+            world: Where to listen.
+            frames: Target and source of the chain to report on; None for all frames.
+            style: How to report.
+            period: Nanoseconds between two reports.
+        """
+        self.world = world
+        self.frames = frames
+        self.style = style
+        self.period = period
+        self.traffic = Traffic()
+        self.chain: view.Chain | None = None
+
+    async def run(self, duration: Duration | None) -> None:
+        """Listen and report, for so many nanoseconds or for ever.
+
+        The last report is at the end of that time.
+
+        Raises:
+            TransformException: If a frame's name can never be asked for.
+        """
+        clock = self.world.clock
+        if self.frames is not None:
+            await self._find_chain(*self.frames)
+        began = clock.now()
+        end = None if duration is None else began + duration
+        stops = [
+            self.world.tf.subscribe(lambda message: self._hear(message, False)),
+            self.world.tf_static.subscribe(lambda message: self._hear(message, True)),
+        ]
+        self._hear_statics()
+        self._announce()
+        console = Console()
+        asking = asyncio.ensure_future(self._ask())
+        try:
+            if self.style is Style.TABLE:
+                with Live(console=console, auto_refresh=False) as live:
+                    await self._report_until(
+                        end,
+                        lambda: live.update(
+                            view.table(clock.now(), began, self.traffic, self.chain), refresh=True
+                        ),
+                    )
+            else:
+                await self._report_until(end, self._write)
+        finally:
+            asking.cancel()
+            await asyncio.gather(asking, return_exceptions=True)
+            for stop in stops:
+                stop()
+
+    async def _report_until(self, end: int | None, report: Callable[[], None]) -> None:
+        clock = self.world.clock
+        due = clock.now()
+        while end is None or due < end:
+            due += self.period
+            if end is not None:
+                due = min(due, end)
+            await clock.sleep_until(due, Phase.WATCH)
+            report()
+
+    async def _find_chain(self, target: str, source: str) -> None:
+        """Wait until the two frames are connected, as tf2_monitor does."""
+        question = Question(target, source)
+        await Echo(self.world, question, Printer(), period=ASK_EVERY).wait()
+        frames = tuple(self.world.buffer.chain(target, source)) or (target,)
+        self.chain = view.Chain(target, source, frames, NetDelay())
+
+    async def _ask(self) -> None:
+        """Measure how old the latest answer is; a static one has no age."""
+        clock = self.world.clock
+        due = clock.now()
+        while self.chain is not None:
+            due = max(due + ASK_EVERY, clock.now())
+            await clock.sleep_until(due, Phase.WATCH)
+            try:
+                found = self.world.buffer.lookup_transform(self.chain.target, self.chain.source)
+            except TransformException:
+                # tf2_monitor would end here; what is missing comes back, or is seen in the rates.
+                continue
+            if found.stamp:
+                self.chain.delay.add(as_seconds(clock.now() - found.stamp))
+
+    def _hear(self, message: TransformMessage, is_static: bool) -> None:
+        self.traffic.receive(
+            self.world.clock.now(), message.transforms, message.authority, is_static=is_static
+        )
+
+    def _hear_statics(self) -> None:
+        """Take in what was published before anybody listened, as a late listener gets it."""
+        now = self.world.clock.now()
+        for info in self.world.buffer.snapshot(now).frames:
+            if info.is_static and info.parent is not None and info.transform is not None:
+                sample = TransformStamped(now, info.parent, info.frame, info.transform)
+                self.traffic.receive(now, [sample], info.authority or "", is_static=True)
+
+    def _announce(self) -> None:
+        about = "all frames" if self.frames is None else in_words(*self.frames)
+        notice(f"Gathering data on {about}, a report every {as_seconds(self.period):g} s ...")
+
+    def _write(self) -> None:
+        if self.style is Style.JSON:
+            now = self.world.clock.now()
+            text = json.dumps(view.as_object(now, self.traffic, self.chain), allow_nan=False) + "\n"
+        else:
+            text = view.lines(self.traffic, self.chain, as_tf2=self.style is Style.TF2)
+        sys.stdout.write(text)
+        sys.stdout.flush()

@@ -1,0 +1,194 @@
+"""`tftool tree`: which frame hangs from which, as text, data or a picture."""
+
+import sys
+from enum import Enum
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated
+
+import typer
+
+from tftool.cli.options import CacheTime, not_negative
+from tftool.errors import InputError, UsageError
+from tftool.stamps import seconds
+
+if TYPE_CHECKING:
+    from tftool.cli.session import Session
+    from tftool.frames.sample import Snapshot
+
+
+class Format(str, Enum):
+    """What a tree can be written as."""
+
+    tree = "tree"
+    json = "json"
+    yaml = "yaml"
+    dot = "dot"
+    mermaid = "mermaid"
+    svg = "svg"
+    pdf = "pdf"
+
+
+SUFFIXES = {
+    ".txt": Format.tree,
+    ".json": Format.json,
+    ".yaml": Format.yaml,
+    ".yml": Format.yaml,
+    ".dot": Format.dot,
+    ".gv": Format.dot,
+    ".mmd": Format.mermaid,
+    ".mermaid": Format.mermaid,
+    ".svg": Format.svg,
+    ".pdf": Format.pdf,
+}
+
+LISTEN = 5.0
+"""Seconds a scenario is played before its frames are shown, as view_frames listens."""
+
+
+def tree(
+    place: Annotated[
+        str | None,
+        typer.Argument(metavar="[FROM]", help="World to show: a scenario, by name or file."),
+    ] = None,
+    form: Annotated[
+        Format | None,
+        typer.Option("--format", "-f", help="What to write; if not said, what -o ends in."),
+    ] = None,
+    output: Annotated[
+        Path | None,
+        typer.Option("-o", "--output", metavar="FILE", help="Where to write it; - is stdout."),
+    ] = None,
+    at: Annotated[
+        float | None,
+        typer.Option(
+            metavar="SECONDS",
+            callback=not_negative,
+            help="Moment to show, in seconds since the scenario began; 5 if not said.",
+        ),
+    ] = None,
+    watch: Annotated[bool, typer.Option("--watch", "-w", help="Draw it again and again.")] = False,
+    cache_time: CacheTime = None,
+) -> None:
+    """Show which frame hangs from which (rqt_tf_tree, view_frames).
+
+    Every tree there is, and for every link: whether it is static, who broadcasts it, how
+    often, how long a past the buffer holds of it, and how old its newest data is.
+
+    tftool tree                   the tree of what runs here
+    tftool tree robot -o robot.svg
+    tftool tree --watch
+    """
+    from tftool.cli.session import open_session
+    from tftool.runtime.clock import SimClock
+
+    form = form or _form_of(output)
+    cache = None if cache_time is None else seconds(cache_time)
+    if watch:
+        if form is not Format.tree or output is not None or at is not None:
+            raise UsageError("--watch draws on the terminal: leave out --format, -o and --at.")
+        _watch(open_session(place, cache_time=cache))
+        return
+    clock = SimClock()
+    session = open_session(place, clock=clock, cache_time=cache)
+    session.live_until(session.moment(seconds(LISTEN if at is None else at)))
+    _write(session.world.buffer.snapshot(clock.now()), form, output)
+
+
+def _form_of(output: Path | None) -> Format:
+    if output is None or str(output) == "-":
+        return Format.tree
+    try:
+        return SUFFIXES[output.suffix.lower()]
+    except KeyError:
+        known = ", ".join(sorted(SUFFIXES))
+        raise UsageError(
+            f"'{output}' does not say what to write: end it in {known}, or give --format."
+        ) from None
+
+
+def _write(snapshot: "Snapshot", form: Format, output: Path | None) -> None:
+    content = _content(snapshot, form, to_file=output is not None)
+    if output is None or str(output) == "-":
+        if isinstance(content, bytes):
+            if sys.stdout.isatty():
+                raise UsageError("A PDF is nothing for a terminal: say where it goes with -o FILE.")
+            sys.stdout.buffer.write(content)
+        else:
+            sys.stdout.write(content)
+        return
+    try:
+        if isinstance(content, bytes):
+            output.write_bytes(content)
+        else:
+            output.write_text(content, encoding="utf-8")
+    except OSError as error:
+        raise InputError(f"'{output}' cannot be written: {error.strerror or error}.") from error
+
+
+def _content(snapshot: "Snapshot", form: Format, *, to_file: bool) -> str | bytes:
+    from tftool.cli.session import notice
+    from tftool.views import frame_tree
+
+    if form is Format.json:
+        import json
+
+        return json.dumps(frame_tree.as_object(snapshot), indent=2, allow_nan=False) + "\n"
+    if form is Format.yaml:
+        return frame_tree.as_yaml(snapshot)
+    if form is Format.tree:
+        return _drawn(snapshot, to_file=to_file)
+    from tftool.views.drawing import draw
+
+    drawing = draw(snapshot, form.value)
+    if drawing.note:
+        notice(drawing.note)
+    return drawing.content
+
+
+def _drawn(snapshot: "Snapshot", *, to_file: bool) -> str:
+    """The tree as this terminal shows it; in full where there is none."""
+    from rich.console import Console
+
+    from tftool.views import frame_tree
+
+    console = Console()
+    terminal = console.is_terminal and not to_file
+    picture = frame_tree.render(
+        snapshot,
+        width=console.width if terminal else None,
+        ascii_only=not to_file and console.options.ascii_only,
+    )
+    if not terminal:
+        return picture.plain + "\n"
+    with console.capture() as capture:
+        console.print(picture)
+    return capture.get()
+
+
+def _watch(session: "Session") -> None:
+    from rich.console import Console
+    from rich.live import Live
+
+    from tftool.runtime.clock import Phase
+    from tftool.views import frame_tree
+
+    console = Console()
+    if not console.is_terminal:
+        raise UsageError("--watch needs a terminal; without it the tree is written once.")
+    world = session.world
+
+    async def draw() -> None:
+        # Redrawn on the world's own ticks; rich's thread would draw half a change.
+        with Live(console=console, auto_refresh=False, screen=True) as live:
+            due = world.clock.now()
+            while True:
+                picture = frame_tree.render(
+                    world.buffer.snapshot(world.clock.now()),
+                    width=console.width,
+                    ascii_only=console.options.ascii_only,
+                )
+                live.update(picture, refresh=True)
+                due = max(due + seconds(0.5), world.clock.now())
+                await world.clock.sleep_until(due, Phase.WATCH)
+
+    session.run(draw())
