@@ -1,0 +1,48 @@
+"""The page that is shipped is the page whose sources lie beside it."""
+
+import hashlib
+import json
+import re
+from pathlib import Path
+
+import tftool
+
+BROWSER = Path(tftool.__file__).parent / "screens" / "browser"
+PAGE, BUNDLE = BROWSER / "page", BROWSER / "bundle"
+REBUILD = "run `npm install --no-package-lock && npm run build` in tftool/screens/browser/page"
+
+
+def test_the_bundle_was_built_from_these_sources():
+    # page/build.mjs writes the same digest into the bundle's first line.
+    digest = hashlib.sha256()
+    for source in sorted(PAGE.iterdir(), key=lambda path: path.name):
+        if re.search(r"\.(m?js|json|css|html|svg)$", source.name):
+            digest.update(source.name.encode() + b"\0" + source.read_bytes() + b"\0")
+
+    with (BUNDLE / "page.js").open(encoding="utf-8") as script:
+        assert digest.hexdigest() in script.readline(), REBUILD
+
+
+def test_what_is_copied_is_the_same():
+    for name in ("index.html", "page.css", "icon.svg"):
+        assert (BUNDLE / name).read_bytes() == (PAGE / name).read_bytes(), REBUILD
+
+
+def test_versions_are_exact_and_the_licence_of_three_is_shipped():
+    wanted = json.loads((PAGE / "package.json").read_text())["devDependencies"]
+
+    assert all(re.fullmatch(r"\d+\.\d+\.\d+", version) for version in wanted.values())
+    assert "three.js authors" in (BUNDLE / "three-LICENSE.txt").read_text(encoding="utf-8")
+    script = (BUNDLE / "page.js").read_text(encoding="utf-8")
+    assert "three-LICENSE.txt" in script.splitlines()[0]
+
+
+def test_the_page_asks_nobody_else_for_anything():
+    for name in ("index.html", "page.css"):
+        assert not re.search(r"(?:src|href|url\(|@import)[^>]*?//", (BUNDLE / name).read_text())
+
+
+def test_names_never_become_markup():
+    for source in PAGE.glob("*.js"):
+        text = source.read_text()
+        assert not re.search(r"innerHTML|outerHTML|insertAdjacent|document\.write|eval\(", text)

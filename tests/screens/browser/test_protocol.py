@@ -1,0 +1,164 @@
+"""What the page is told, and what it may say."""
+
+import json
+import math
+import struct
+
+import pytest
+
+from tftool.errors import InputError
+from tftool.frames.buffer import Buffer
+from tftool.frames.sample import TransformStamped
+from tftool.geometry.rigid import Transform
+from tftool.screens.browser import protocol
+from tftool.screens.browser.protocol import Got, Pair, Show, parse
+from tftool.stamps import seconds
+
+EPOCH = seconds(1000)
+
+
+@pytest.mark.parametrize(
+    ("said", "means"),
+    [
+        ('{"type": "show", "at": 1.5}', Show(1.5)),
+        ('{"type": "show", "at": null}', Show(None)),
+        ('{"type": "show"}', Show(None)),
+        ('{"type": "pair", "target": "a", "source": "b"}', Pair(("a", "b"))),
+        ('{"type": "pair", "target": null, "source": null}', Pair(None)),
+        ('{"type": "got", "sequence": 7}', Got(7)),
+    ],
+)
+def test_what_the_page_may_say(said, means):
+    assert parse(said) == means
+
+
+@pytest.mark.parametrize(
+    ("said", "told"),
+    [
+        (b"\x00\x01", "text, not bytes"),
+        ("", "not JSON"),
+        ("{", "not JSON"),
+        ("[" * 100_000, "not JSON"),
+        ("null", "show, pair or got"),
+        ("[]", "show, pair or got"),
+        ('{"type": "shutdown"}', "show, pair or got"),
+        ('{"type": ["show"]}', "show, pair or got"),
+        ('{"type": "show", "at": "now"}', "a number of seconds"),
+        ('{"type": "show", "at": NaN}', "a number of seconds"),
+        ('{"type": "show", "at": 1e300}', "a number of seconds"),
+        ('{"type": "show", "at": 1' + "0" * 400 + "}", "a number of seconds"),
+        ('{"type": "pair", "target": "a"}', "two names"),
+        ('{"type": "pair", "target": 1, "source": 2}', "two names"),
+        ('{"type": "got", "sequence": "1"}', "whole number"),
+    ],
+)
+def test_anything_else_is_refused_with_a_sentence(said, told):
+    with pytest.raises(InputError, match=told):
+        parse(said)
+
+
+def test_a_moment_is_never_the_zero_that_means_latest():
+    assert protocol.stamp_at(EPOCH, -1000.0) == 1
+    assert protocol.stamp_at(EPOCH, -5000.0) == 1
+    assert protocol.stamp_at(EPOCH, 0.000000001) == EPOCH + 1
+
+
+def buffer():
+    filled = Buffer()
+    for second, x in ((1001, 1.0), (1003, 3.0)):
+        pose = Transform((x, 0.0, 0.0))
+        filled.set_transform(TransformStamped(seconds(second), "world", "turtle", pose), "mover")
+    mounted = Transform((0.0, 0.0, 0.5), (0.0, 0.0, 1.0, 0.0))
+    filled.set_transform_static(TransformStamped(0, "turtle", "camera", mounted), "mount")
+    return filled
+
+
+def test_poses_are_a_header_and_eleven_numbers_a_frame():
+    snapshot = buffer().snapshot(seconds(1004))
+
+    written = protocol.encode_poses(EPOCH, 5, 2, snapshot, snapshot.frames)
+
+    magic, sequence, revision, count, now, at, oldest, newest = struct.unpack_from(
+        "<4sIIIdddd", written
+    )
+    assert (magic, sequence, revision, count) == (b"TFP1", 5, 2, 3)
+    assert (now, oldest, newest) == (4.0, 1.0, 3.0)
+    assert math.isnan(at)
+    assert [frame.frame for frame in snapshot.frames] == ["turtle", "world", "camera"]
+    numbers = struct.unpack_from("<33d", written, 48)
+    assert numbers[:11] == (3.0, 0, 0, 0, 0, 0, 1, 3.0, 1.0, 1.0, 2.0)
+    assert numbers[22:29] == (0.0, 0.0, 0.5, 0.0, 0.0, 1.0, 0.0)
+    assert len(written) == 48 + 3 * 11 * 8
+
+
+def test_a_frame_without_data_at_the_moment_shown_has_no_pose():
+    snapshot = buffer().snapshot(seconds(1004), seconds(1000.5))
+
+    written = protocol.encode_poses(EPOCH, 1, 1, snapshot, snapshot.frames)
+
+    assert all(math.isnan(value) for value in struct.unpack_from("<7d", written, 48))
+    assert struct.unpack_from("<d", written, 24) == (0.5,)
+
+
+def test_names_travel_with_parents_by_place():
+    frames = buffer().snapshot(seconds(1004)).frames
+
+    told = json.loads(protocol.encode_names(EPOCH, 3, frames, 5000, math.inf))
+
+    assert told == {
+        "type": "frames",
+        "epoch": "1000000000000",
+        "revision": 3,
+        "names": ["turtle", "world", "camera"],
+        "parents": [1, -1, 0],
+        "statics": [0, 0, 1],
+        "authorities": ["mover", "no recorded authority", "mount"],
+        "total": 5000,
+        "rate": 1.0,
+    }
+
+
+def test_a_pair_is_told_as_lookup_transform_answers():
+    filled = buffer()
+
+    told = json.loads(protocol.encode_pair(filled, EPOCH, "world", "camera", seconds(1002)))
+
+    found = filled.lookup_transform("world", "camera", seconds(1002))
+    assert told["found"]
+    assert told["translation"] == [2.0, 0.0, 0.5]
+    assert told["rotation"] == list(found.transform.rotation)
+    assert told["rpy"] == pytest.approx([0.0, 0.0, math.pi])
+    assert (told["stamp"], told["moment"]) == ("1002.000000", 2.0)
+    assert told["chain"] == ["camera", "turtle", "world"]
+
+
+def test_a_pair_that_cannot_be_told_says_why():
+    told = json.loads(protocol.encode_pair(buffer(), EPOCH, "world", "nobody", 0))
+
+    assert not told["found"]
+    assert "nobody" in told["why"]
+
+
+def test_numbers_json_cannot_write_become_null():
+    filled = Buffer()
+    far = Transform((1e308, 0.0, 0.0))
+    filled.set_transform_static(TransformStamped(0, "a", "b", far), "x")
+    filled.set_transform_static(TransformStamped(0, "b", "c", far), "x")
+
+    text = protocol.encode_pair(filled, EPOCH, "a", "c", 0)
+
+    assert json.loads(text)["translation"] == [None, 0.0, 0.0]
+
+
+def test_the_buffers_reach_is_nothing_while_all_is_static():
+    filled = Buffer()
+    filled.set_transform_static(TransformStamped(0, "a", "b", Transform()), "x")
+    snapshot = filled.snapshot(seconds(1004))
+
+    assert protocol.reach(snapshot.frames) is None
+    assert json.loads(protocol.encode_range(EPOCH, snapshot)) == {
+        "type": "range",
+        "now": 4.0,
+        "oldest": 4.0,
+        "newest": 4.0,
+    }

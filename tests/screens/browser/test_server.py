@@ -1,0 +1,465 @@
+"""The page's server, talked to as a browser would, and as nobody should."""
+
+import asyncio
+import json
+import math
+import socket
+import struct
+from http.client import HTTPConnection
+
+import pytest
+
+websockets = pytest.importorskip("websockets", reason="the extra `view` is not installed")
+
+from websockets.asyncio.client import connect  # noqa: E402
+from websockets.exceptions import ConnectionClosed, InvalidStatus  # noqa: E402
+
+from tftool.errors import TftoolError  # noqa: E402
+from tftool.frames.sample import TransformStamped  # noqa: E402
+from tftool.geometry.rigid import Transform  # noqa: E402
+from tftool.runtime.clock import WallClock, run  # noqa: E402
+from tftool.runtime.world import World  # noqa: E402
+from tftool.screens.browser import server  # noqa: E402
+from tftool.screens.browser.server import PageServer  # noqa: E402
+from tftool.stamps import seconds  # noqa: E402
+
+PATIENCE = 20
+
+
+def serve(test, *, port=0, rate=500.0):
+    """Run `test(world, page)` beside a server of that world."""
+    clock = WallClock()
+
+    async def main():
+        world = World(clock)
+        async with PageServer(world, port=port, rate=rate) as page:
+            running = asyncio.ensure_future(page.run())
+            try:
+                return await asyncio.wait_for(test(world, page), PATIENCE)
+            finally:
+                running.cancel()
+
+    return run(clock, main())
+
+
+def put(world, x, *, parent="world", child="turtle", stamp=None):
+    now = world.clock.now() if stamp is None else stamp
+    world.broadcast([TransformStamped(now, parent, child, Transform((x, 0.0, 0.0)))], "test")
+
+
+def open_page(page, **more):
+    origin = more.pop("origin", page.url.rstrip("/"))
+    return connect(f"ws://127.0.0.1:{page.port}/frames", origin=origin, compression=None, **more)
+
+
+class Page:
+    """A page that draws at once: keeps the last of everything it was told."""
+
+    def __init__(self, connection, *, draws=True):
+        self.connection = connection
+        self.draws = draws
+        self.told = {}
+        self.count = 0
+
+    async def hear(self):
+        """Take in messages up to the next poses."""
+        while True:
+            message = await self.connection.recv()
+            if isinstance(message, str):
+                said = json.loads(message)
+                self.told[said["type"]] = said
+                continue
+            head = struct.unpack_from("<4sIIIdddd", message)
+            self.sequence, self.revision, count = head[1:4]
+            self.now, self.at, self.oldest, self.newest = head[4:]
+            numbers = struct.unpack_from(f"<{11 * count}d", message, 48)
+            self.poses = dict(
+                zip(
+                    self.told["frames"]["names"],
+                    [numbers[11 * place : 11 * place + 7] for place in range(count)],
+                    strict=True,
+                )
+            )
+            self.count += 1
+            if self.draws:
+                await self.say(type="got", sequence=self.sequence)
+            return
+
+    async def until(self, condition):
+        while not condition(self):
+            await self.hear()
+
+    async def say(self, **message):
+        await self.connection.send(json.dumps(message))
+
+
+def fetch(port, path="/", **headers):
+    """Ask over plain HTTP from another thread, as a browser would."""
+
+    def ask():
+        connection = HTTPConnection("127.0.0.1", port, timeout=PATIENCE)
+        try:
+            connection.putrequest("GET", path, skip_host="Host" in headers)
+            for name, value in headers.items():
+                connection.putheader(name, value)
+            connection.endheaders()
+            answer = connection.getresponse()
+            return answer.status, dict(answer.getheaders()), answer.read()
+        finally:
+            connection.close()
+
+    return asyncio.get_running_loop().run_in_executor(None, ask)
+
+
+def test_the_page_and_its_files_are_served_with_a_strict_policy():
+    async def test(world, page):
+        assert page.url == f"http://127.0.0.1:{page.port}/"
+        for path, kind in (
+            ("/", "text/html"),
+            ("/index.html?x=1", "text/html"),
+            ("/page.js", "text/javascript"),
+            ("/page.css", "text/css"),
+            ("/icon.svg", "image/svg+xml"),
+            ("/three-LICENSE.txt", "text/plain"),
+        ):
+            status, headers, body = await fetch(page.port, path)
+            assert status == 200
+            assert headers["Content-Type"].startswith(kind)
+            assert "default-src 'none'" in headers["Content-Security-Policy"]
+            assert len(body) == int(headers["Content-Length"]) > 0
+
+    serve(test)
+
+
+def test_nothing_else_is_served():
+    async def test(world, page):
+        for path in ("/../server.py", "/page/main.js", "/etc/passwd", "//", "/frames/x"):
+            status, _, body = await fetch(page.port, path)
+            assert (status, body) == (404, b"There is no such page here.\n")
+
+    serve(test)
+
+
+@pytest.mark.parametrize("host", ["evil.example", "evil.example:8765", "127.0.0.1", ""])
+def test_another_host_name_is_refused(host):
+    # A name that somebody else's server resolves to 127.0.0.1 must not reach us.
+    async def test(world, page):
+        status, _, body = await fetch(page.port, "/", Host=host)
+        assert status == 403
+        assert page.url.encode() in body
+
+    serve(test)
+
+
+@pytest.mark.parametrize(
+    "origin", ["http://evil.example", "null", "http://127.0.0.1:1", "file://", None]
+)
+def test_a_foreign_origin_gets_no_frames(origin):
+    async def test(world, page):
+        with pytest.raises(InvalidStatus) as refused:
+            await open_page(page, origin=origin).__aenter__()
+        assert refused.value.response.status_code == 403
+        assert page.clients == set()
+
+    serve(test)
+
+
+def test_localhost_is_us_too():
+    async def test(world, page):
+        put(world, 1.0)
+        url = f"localhost:{page.port}"
+        status, _, _ = await fetch(page.port, "/", Host=url)
+        assert status == 200
+        async with connect(f"ws://{url}/frames", origin=f"http://{url}") as connection:
+            client = Page(connection)
+            await client.hear()
+            assert client.poses["turtle"][0] == 1.0
+
+    serve(test)
+
+
+def test_frames_come_and_move():
+    async def test(world, page):
+        put(world, 1.0)
+        async with open_page(page) as connection:
+            client = Page(connection)
+            await client.hear()
+            assert client.told["frames"]["names"] == ["turtle", "world"]
+            assert client.poses["turtle"] == (1.0, 0, 0, 0, 0, 0, 1)
+            assert math.isnan(client.at)
+            put(world, 2.0)
+            await client.until(lambda client: client.poses["turtle"][0] == 2.0)
+            put(world, 3.0, parent="turtle", child="carrot")
+            await client.until(lambda client: "carrot" in client.poses)
+            assert client.told["frames"]["parents"] == [1, -1, 0]
+
+    serve(test)
+
+
+def test_a_page_that_comes_before_any_frame_is_told_there_are_none():
+    async def test(world, page):
+        async with open_page(page) as connection:
+            client = Page(connection)
+            await client.hear()
+            assert client.poses == {}
+            put(world, 1.0)
+            await client.until(lambda client: "turtle" in client.poses)
+
+    serve(test)
+
+
+def test_a_second_page_joins_and_both_go_on():
+    async def test(world, page):
+        put(world, 1.0)
+        async with open_page(page) as one, open_page(page) as two:
+            pages = Page(one), Page(two)
+            for client in pages:
+                await client.hear()
+            put(world, 2.0)
+            for client in pages:
+                await client.until(lambda client: client.poses["turtle"][0] == 2.0)
+            assert len(page.clients) == 2
+
+    serve(test)
+
+
+def test_the_past_is_shown_to_the_one_who_asks():
+    async def test(world, page):
+        epoch = world.clock.epoch
+        for second in (1, 2, 3):
+            put(world, float(second), stamp=epoch + seconds(second))
+        async with open_page(page) as one, open_page(page) as two:
+            past, present = Page(one), Page(two)
+            await past.hear()
+            await past.say(type="show", at=1.25)
+            await past.until(lambda client: client.at == 1.25)
+            assert past.poses["turtle"][0] == pytest.approx(1.25)
+            assert (past.oldest, past.newest) == (1.0, 3.0)
+            await present.hear()
+            assert present.poses["turtle"][0] == 3.0
+            await past.say(type="show", at=None)
+            await past.until(lambda client: math.isnan(client.at))
+            assert past.poses["turtle"][0] == 3.0
+
+    serve(test)
+
+
+def test_a_page_in_the_past_still_hears_how_far_the_buffer_reaches():
+    async def test(world, page):
+        epoch = world.clock.epoch
+        put(world, 1.0, stamp=epoch + seconds(1))
+        async with open_page(page) as connection:
+            client = Page(connection)
+            await client.hear()
+            await client.say(type="show", at=1.0)
+            await client.until(lambda client: client.at == 1.0)
+            put(world, 2.0, stamp=epoch + seconds(2))
+            while client.told.get("range", {}).get("newest") != 2.0:
+                said = json.loads(await connection.recv())
+                client.told[said["type"]] = said
+            assert client.told["range"]["oldest"] == 1.0
+
+    serve(test)
+
+
+def test_a_pair_is_told_with_every_picture():
+    async def test(world, page):
+        put(world, 1.0, stamp=world.clock.epoch)
+        put(world, 5.0, stamp=world.clock.epoch, child="turtle2")
+        async with open_page(page) as connection:
+            client = Page(connection)
+            await client.say(type="pair", target="turtle2", source="turtle")
+            await client.until(lambda client: "pair" in client.told)
+            assert client.told["pair"]["translation"] == [-4.0, 0.0, 0.0]
+            assert client.told["pair"]["chain"] == ["turtle", "world", "turtle2"]
+            await client.say(type="pair", target="turtle2", source="<nobody>")
+            await client.until(lambda client: not client.told["pair"]["found"])
+            assert "<nobody>" in client.told["pair"]["why"]
+            await client.say(type="pair", target=None, source=None)
+            client.told.pop("pair")
+            await client.until(lambda client: client.count > 6)
+
+    serve(test)
+
+
+async def closing(connection):
+    """Listen until the server hangs up; return its code and reason."""
+    try:
+        while True:
+            await connection.recv()
+    except ConnectionClosed as closed:
+        return closed.rcvd.code, closed.rcvd.reason
+
+
+@pytest.mark.parametrize("garbage", ["nonsense", b"\xff\xfe", "[1, 2]", '{"type": "x"}'])
+def test_garbage_ends_the_connection_with_a_sentence_and_nobody_elses(garbage):
+    async def test(world, page):
+        put(world, 1.0)
+        async with open_page(page) as bad, open_page(page) as good:
+            await bad.send(garbage)
+            code, reason = await closing(bad)
+            assert code == 1008
+            assert len(reason) > 10
+            client = Page(good)
+            await client.until(lambda client: client.count == 3)
+
+    serve(test)
+
+
+async def close_code(reader):
+    """Read a server's frames, as they are on the wire, up to its word of farewell."""
+    while True:
+        first, length = await reader.readexactly(2)
+        if length == 126:
+            (length,) = struct.unpack("!H", await reader.readexactly(2))
+        body = await reader.readexactly(length)
+        if first & 0x0F == 8:
+            return struct.unpack_from("!H", body)[0]
+
+
+def test_a_hundred_megabytes_are_refused_unread():
+    async def test(world, page):
+        put(world, 1.0)
+        reader, writer = await asyncio.open_connection("127.0.0.1", page.port)
+        writer.write(
+            f"GET /frames HTTP/1.1\r\nHost: 127.0.0.1:{page.port}\r\n"
+            f"Origin: http://127.0.0.1:{page.port}\r\n"
+            "Upgrade: websocket\r\nConnection: Upgrade\r\nSec-WebSocket-Version: 13\r\n"
+            "Sec-WebSocket-Key: dGhlIHNhbXBsZSBub25jZQ==\r\n\r\n".encode()
+        )
+        assert (await reader.readuntil(b"\r\n\r\n")).startswith(b"HTTP/1.1 101 ")
+        # The head of a text message of that length; not one byte of it has to come.
+        writer.write(b"\x81\xff" + struct.pack("!Q", 100_000_000) + b"mask")
+        assert await close_code(reader) == 1009
+        writer.close()
+        async with open_page(page) as good:
+            await Page(good).hear()
+
+    serve(test)
+
+
+def test_a_slow_page_misses_pictures_and_nothing_is_queued_for_it():
+    async def test(world, page):
+        put(world, 1.0)
+        async with open_page(page) as connection:
+            client = Page(connection, draws=False)
+            await client.hear()
+            await client.hear()
+            put(world, 2.0)
+            (known,) = page.clients
+            while known.skipped < 20:
+                await world.clock.sleep(seconds(0.002))
+            assert known.sent == 2
+            await client.say(type="got", sequence=2)
+            await client.hear()
+            # What it missed is gone: the first picture it gets is the newest.
+            assert client.poses["turtle"][0] == 2.0
+            assert client.sequence == 3
+
+    serve(test)
+
+
+def test_a_page_cannot_claim_to_have_drawn_what_it_never_got():
+    async def test(world, page):
+        put(world, 1.0)
+        async with open_page(page) as connection:
+            client = Page(connection, draws=False)
+            await client.say(type="got", sequence=10**9)
+            await client.hear()
+            await client.hear()
+            (known,) = page.clients
+            while known.skipped < 5:
+                await world.clock.sleep(seconds(0.002))
+            assert known.sent <= 3
+
+    serve(test)
+
+
+def test_the_end_of_the_session_is_told():
+    clock = WallClock()
+
+    async def main():
+        world = World(clock)
+        async with PageServer(world, port=0) as page:
+            connection = await open_page(page).__aenter__()
+        code, _ = await closing(connection)
+        await connection.close()
+        return code
+
+    assert run(clock, main()) == 1001
+
+
+def test_a_taken_port_gives_way_to_the_next_free_one():
+    async def test(world, page):
+        taken = page.port
+        async with PageServer(world, port=taken) as second:
+            assert taken < second.port < taken + server.PORTS_TRIED
+            assert second.asked_port == taken
+
+    serve(test)
+
+
+def test_when_no_port_is_free_it_says_so(monkeypatch):
+    monkeypatch.setattr(server, "PORTS_TRIED", 1)
+
+    async def main():
+        with socket.create_server(("127.0.0.1", 0)) as holder:
+            port = holder.getsockname()[1]
+            with pytest.raises(TftoolError, match=f"no port from {port} to {port} is free"):
+                await PageServer(World(clock), port=port).__aenter__()
+
+    clock = WallClock()
+    run(clock, main())
+
+
+def test_more_pages_than_anybody_needs_are_refused(monkeypatch):
+    monkeypatch.setattr(server, "MOST_CLIENTS", 1)
+
+    async def test(world, page):
+        async with open_page(page) as first:
+            await Page(first).hear()
+            with pytest.raises(InvalidStatus) as refused:
+                await open_page(page).__aenter__()
+            assert refused.value.response.status_code == 503
+
+    serve(test)
+
+
+def test_of_thousands_of_frames_those_nearest_to_their_root_are_shown():
+    async def test(world, page):
+        statics = [
+            TransformStamped(0, f"f{(index - 1) // 2}", f"f{index}", Transform((1.0, 0.0, 0.0)))
+            for index in range(1, 5000)
+        ]
+        world.broadcast(reversed(statics), "test", static=True)
+        async with open_page(page) as connection:
+            client = Page(connection)
+            await client.hear()
+            names = client.told["frames"]["names"]
+            assert client.told["frames"]["total"] == 5000
+            assert len(client.poses) == 2000
+            # Two children each: the first 2000 by number are those nearest to the root.
+            assert {int(name[1:]) for name in names} >= set(range(1023))
+            for name, parent in zip(names, client.told["frames"]["parents"], strict=True):
+                if name != "f0":
+                    assert names[parent] == f"f{(int(name[1:]) - 1) // 2}"
+
+    serve(test)
+
+
+def test_a_page_that_was_not_built_is_said(monkeypatch, tmp_path):
+    monkeypatch.setattr(server.assets.resources, "files", lambda package: tmp_path)
+
+    with pytest.raises(TftoolError, match="index.html is missing"):
+        PageServer(World(WallClock()))
+
+
+def test_the_port_of_a_ros_router_is_left_alone(monkeypatch):
+    monkeypatch.setattr(server, "PORTS_TRIED", 1)
+    clock = WallClock()
+
+    async def main():
+        with pytest.raises(TftoolError, match="no port from 7447 to 7447 is free"):
+            await PageServer(World(clock), port=7447).__aenter__()
+
+    run(clock, main())

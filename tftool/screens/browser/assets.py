@@ -1,0 +1,55 @@
+"""The page's files, as they lie in the package, and what a browser may do with them."""
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from importlib import resources
+
+from tftool.errors import TftoolError
+
+_KINDS = {
+    "index.html": "text/html; charset=utf-8",
+    "page.css": "text/css; charset=utf-8",
+    "page.js": "text/javascript; charset=utf-8",
+    "icon.svg": "image/svg+xml",
+    "three-LICENSE.txt": "text/plain; charset=utf-8",
+}
+
+SAFETY: Mapping[str, str] = {
+    # Nothing but our own files, whatever a name manages to put into the page.
+    "Content-Security-Policy": (
+        "default-src 'none'; script-src 'self'; style-src 'self'; connect-src 'self'; "
+        "img-src 'self' data: blob:; base-uri 'none'; form-action 'none'; frame-ancestors 'none'"
+    ),
+    "X-Content-Type-Options": "nosniff",
+    "Referrer-Policy": "no-referrer",
+    "Cross-Origin-Resource-Policy": "same-origin",
+    "Cache-Control": "no-store",
+}
+"""Headers that go with every answer."""
+
+
+@dataclass(frozen=True, slots=True)
+class Asset:
+    """A file of the page and its media type."""
+
+    kind: str
+    content: bytes
+
+
+def load() -> dict[str, Asset]:
+    """Read the page's files; keys are the paths they are served under.
+
+    Raises:
+        TftoolError: If the page was not built, which happens in a source tree only.
+    """
+    folder = resources.files("tftool.screens.browser") / "bundle"
+    try:
+        found = {
+            f"/{name}": Asset(kind, (folder / name).read_bytes()) for name, kind in _KINDS.items()
+        }
+    except FileNotFoundError as error:
+        raise TftoolError(
+            f"the page is not built: {error.filename} is missing; "
+            "run `npm install --no-package-lock && npm run build` in tftool/screens/browser/page"
+        ) from error
+    return {"/": found["/index.html"], **found}

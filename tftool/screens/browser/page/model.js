@@ -1,0 +1,180 @@
+// What is known of the frames: tree, poses in the fixed frame, ages, trails.
+import { IDENTITY, compose, invert, known, normalized } from "./maths.js";
+
+const HISTORY_SECONDS = 60;
+const HISTORY_BYTES = 48e6;
+
+/** The three stages of a frame that is not heard of: normal, turning grey, turning transparent. */
+export function fade(age, timeout) {
+  const share = age / timeout;
+  if (share > 1) return { grey: 1, alpha: 0 };
+  if (share > 2 / 3) return { grey: 1, alpha: 3 * (1 - share) };
+  if (share > 1 / 3) return { grey: 3 * share - 1, alpha: 1 };
+  return { grey: 0, alpha: 1 };
+}
+
+export class Model {
+  constructor() {
+    this.names = [];
+    this.parents = [];
+    this.statics = [];
+    this.authorities = [];
+    this.children = [];
+    this.roots = [];
+    this.order = [];
+    this.index = new Map();
+    this.total = 0;
+    this.epoch = null;
+    this.rate = 1;
+    this.revision = -1;
+    this.poses = null;
+    this.heard = new Map(); // name → { stamp, when }: when the latest common stamp last changed
+    this.history = [];
+    this.historyBytes = 0;
+    this.clockOffset = 0;
+  }
+
+  /** Take in the names; true if another session speaks now. */
+  setNames(message) {
+    const another = this.epoch !== null && this.epoch !== message.epoch;
+    if (another) {
+      this.heard.clear();
+      this.forget();
+    }
+    Object.assign(this, {
+      epoch: message.epoch,
+      revision: message.revision,
+      names: message.names,
+      parents: message.parents,
+      statics: message.statics,
+      authorities: message.authorities,
+      total: message.total,
+      rate: message.rate,
+    });
+    this.index = new Map(this.names.map((name, index) => [name, index]));
+    this.children = this.names.map(() => []);
+    this.roots = [];
+    this.parents.forEach((parent, index) => (parent < 0 ? this.roots : this.children[parent]).push(index));
+    this.order = [...this.roots];
+    for (let at = 0; at < this.order.length; at++) this.order.push(...this.children[this.order[at]]);
+    // What no root reaches runs in a loop: listed, never walked.
+    const reached = new Set(this.order);
+    this.looped = this.names.map((_, index) => index).filter((index) => !reached.has(index));
+    this.rootOf = new Array(this.names.length).fill(-1);
+    for (const index of this.order) {
+      const parent = this.parents[index];
+      this.rootOf[index] = parent < 0 ? index : this.rootOf[parent];
+    }
+    return another;
+  }
+
+  forget() {
+    this.history = [];
+    this.historyBytes = 0;
+  }
+
+  /** Take in poses. In the present they also make the history trails are drawn from. */
+  setPoses(poses, when) {
+    this.poses = poses;
+    if (poses.at !== null) return;
+    const last = this.history[this.history.length - 1];
+    if (last && poses.now < last.now) this.forget();
+    this.history.push(poses);
+    this.historyBytes += poses.numbers.byteLength;
+    while (
+      this.history.length > 1 &&
+      (this.history[0].now < poses.now - HISTORY_SECONDS * this.rate || this.historyBytes > HISTORY_BYTES)
+    ) {
+      this.historyBytes -= this.history.shift().numbers.byteLength;
+    }
+    this.heardAt = when;
+  }
+
+  /** Compute every pose in the fixed frame; null where it is not known. */
+  solve(fixed) {
+    const count = this.names.length;
+    this.absolute = new Array(count).fill(null);
+    if (!this.poses || this.poses.count !== count) return;
+    const inRoot = new Array(count).fill(null);
+    for (const index of this.order) {
+      const parent = this.parents[index];
+      if (parent < 0) inRoot[index] = IDENTITY;
+      else if (inRoot[parent]) {
+        const pose = this.poses.relative(index);
+        inRoot[index] = known(pose) ? compose(inRoot[parent], normalized(pose)) : null;
+      }
+    }
+    const base = this.index.get(fixed);
+    if (base === undefined || !inRoot[base]) return;
+    const fixedFromRoot = invert(inRoot[base]);
+    for (const index of this.order) {
+      if (inRoot[index] && this.rootOf[index] === this.rootOf[base]) {
+        const pose = compose(fixedFromRoot, inRoot[index]);
+        this.absolute[index] = known(pose) ? pose : null;
+      }
+    }
+    this.listen(base);
+  }
+
+  /** Note for which frames the latest stamp they have in common with the fixed frame has changed. */
+  listen(base) {
+    if (this.poses.at !== null) return;
+    const newest = (index) => (this.statics[index] ? Infinity : this.poses.newestOf(index));
+    // The least stamp on the way from the fixed frame up to each of its ancestors.
+    const upward = new Map();
+    let least = Infinity;
+    for (let at = base; at >= 0; at = this.parents[at]) {
+      upward.set(at, least);
+      if (this.parents[at] >= 0) least = Math.min(least, newest(at));
+    }
+    const common = new Array(this.names.length).fill(Infinity);
+    for (const index of this.order) {
+      if (upward.has(index)) common[index] = upward.get(index);
+      else if (this.parents[index] >= 0) common[index] = Math.min(common[this.parents[index]], newest(index));
+      if (this.rootOf[index] !== this.rootOf[base]) continue;
+      const name = this.names[index];
+      const before = this.heard.get(name);
+      if (!before || before.stamp !== common[index]) {
+        this.heard.set(name, { stamp: common[index], when: this.heardAt });
+      }
+    }
+  }
+
+  /** Seconds since the frame was last heard of; 0 for static chains and for past moments. */
+  age(index) {
+    if (!this.poses || this.poses.at !== null) return 0;
+    const heard = this.heard.get(this.names[index]);
+    if (!heard || heard.stamp === Infinity) return 0;
+    return Math.max(0, (this.heardAt - heard.when) / 1000);
+  }
+
+  relative(index) {
+    if (!this.poses || this.parents[index] < 0) return null;
+    const pose = this.poses.relative(index);
+    return known(pose) ? normalized(pose) : null;
+  }
+
+  /** Where a frame was, in the fixed frame: [[x, y, z], …], oldest first, up to `until`. */
+  trail(index, fixed, seconds, until) {
+    const base = this.index.get(fixed);
+    if (base === undefined || this.rootOf[index] !== this.rootOf[base]) return [];
+    const points = [];
+    for (const poses of this.history) {
+      if (poses.revision !== this.revision || poses.now > until || poses.now < until - seconds * this.rate) continue;
+      const there = this.inRoot(poses, base);
+      const here = this.inRoot(poses, index);
+      if (there && here) points.push(compose(invert(there), here));
+    }
+    return points;
+  }
+
+  inRoot(poses, index) {
+    let pose = IDENTITY;
+    for (let at = index; this.parents[at] >= 0; at = this.parents[at]) {
+      const relative = poses.relative(at);
+      if (!known(relative)) return null;
+      pose = compose(normalized(relative), pose);
+    }
+    return pose;
+  }
+}

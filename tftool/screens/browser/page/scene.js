@@ -1,0 +1,403 @@
+// The picture: three.js for what has depth, two flat canvases for trails, names and the chain.
+import {
+  Color,
+  ConeGeometry,
+  CylinderGeometry,
+  DirectionalLight,
+  DynamicDrawUsage,
+  GridHelper,
+  HemisphereLight,
+  InstancedBufferAttribute,
+  InstancedMesh,
+  Matrix4,
+  MeshLambertMaterial,
+  MOUSE,
+  OrthographicCamera,
+  PerspectiveCamera,
+  Quaternion,
+  Scene,
+  SphereGeometry,
+  TOUCH,
+  Vector3,
+  WebGLRenderer,
+} from "three";
+import { OrbitControls } from "three/addons/controls/OrbitControls.js";
+
+export const THEMES = {
+  dark: {
+    background: "#14171d",
+    grid: ["#2f3743", "#222832"],
+    text: "#e8edf4",
+    halo: "rgba(20, 23, 29, 0.85)",
+    accent: "#ffb84d",
+    grey: 0.55,
+  },
+  light: {
+    background: "#f4f6fa",
+    grid: ["#c3cbd7", "#dfe4ec"],
+    text: "#1b2430",
+    halo: "rgba(244, 246, 250, 0.9)",
+    accent: "#c77700",
+    grey: 0.68,
+  },
+};
+const AXES = ["#f0454b", "#3fc45c", "#3d84ff"];
+const SHAFT = "#cfbf57";
+const HEAD = "#ff3d94";
+
+function fading(mesh) {
+  // three has no opacity per instance; one number more per instance gives it.
+  mesh.material.onBeforeCompile = (shader) => {
+    shader.vertexShader = `attribute float fade;\nvarying float vFade;\n${shader.vertexShader.replace(
+      "#include <begin_vertex>",
+      "#include <begin_vertex>\nvFade = fade;",
+    )}`;
+    shader.fragmentShader = `varying float vFade;\n${shader.fragmentShader.replace(
+      "#include <opaque_fragment>",
+      "diffuseColor.a *= vFade;\nif (diffuseColor.a < 0.01) discard;\n#include <opaque_fragment>",
+    )}`;
+  };
+  return mesh;
+}
+
+export class Stage {
+  constructor(under, main, over) {
+    this.under = under;
+    this.over = over;
+    this.main = main;
+    this.renderer = new WebGLRenderer({ canvas: main, antialias: true, alpha: true });
+    this.renderer.setClearAlpha(0);
+    this.scene = new Scene();
+    this.sun = new DirectionalLight("#ffffff", 1.6);
+    this.scene.add(new HemisphereLight("#ffffff", "#8590a0", 1.9), this.sun, this.sun.target);
+
+    const top = new OrthographicCamera(-1, 1, 1, -1, -1e5, 1e5);
+    top.up.set(0, 1, 0);
+    top.position.set(0, 0, 50);
+    const orbit = new PerspectiveCamera(50, 1, 0.01, 1e5);
+    orbit.up.set(0, 0, 1);
+    orbit.position.set(-6, -6, 5);
+    this.cameras = { top, orbit };
+    this.controls = {};
+    for (const [name, camera] of Object.entries(this.cameras)) {
+      const controls = new OrbitControls(camera, over);
+      controls.enableDamping = false;
+      controls.zoomToCursor = true;
+      controls.enabled = false;
+      controls.addEventListener("change", () => this.changed());
+      controls.addEventListener("start", () => this.taken());
+      this.controls[name] = controls;
+    }
+    this.controls.top.enableRotate = false;
+    this.controls.top.screenSpacePanning = true;
+    this.controls.top.mouseButtons = { LEFT: MOUSE.PAN, MIDDLE: MOUSE.DOLLY, RIGHT: MOUSE.PAN };
+    this.controls.top.touches = { ONE: TOUCH.PAN, TWO: TOUCH.DOLLY_PAN };
+    this.capacity = 0;
+    this.changed = () => {}; // the camera has moved
+    this.taken = () => {}; // somebody took the camera
+    this.view = "top";
+    this.setView("top");
+  }
+
+  get camera() {
+    return this.cameras[this.view];
+  }
+
+  setView(view) {
+    this.view = view;
+    for (const [name, controls] of Object.entries(this.controls)) controls.enabled = name === view;
+    this.changed();
+  }
+
+  setTheme(name) {
+    this.theme = THEMES[name];
+    this.gridSize = 0;
+    this.changed();
+  }
+
+  resize() {
+    const { clientWidth: width, clientHeight: height } = this.over;
+    const ratio = Math.min(2, devicePixelRatio || 1);
+    if (this.width === width && this.height === height && this.ratio === ratio) return;
+    Object.assign(this, { width, height, ratio });
+    this.renderer.setPixelRatio(ratio);
+    this.renderer.setSize(width, height, false);
+    for (const canvas of [this.under, this.over]) {
+      canvas.width = Math.round(width * ratio);
+      canvas.height = Math.round(height * ratio);
+    }
+    const { top, orbit } = this.cameras;
+    top.left = (-width / height) * 5;
+    top.right = (width / height) * 5;
+    top.top = 5;
+    top.bottom = -5;
+    orbit.aspect = width / height;
+    top.updateProjectionMatrix();
+    orbit.updateProjectionMatrix();
+  }
+
+  /** Look at a box; `inset` keeps the panels' pixels free: {left, right, top, bottom}. */
+  fit(box, inset) {
+    if (!this.width) return;
+    const low = new Vector3(...box.low);
+    const high = new Vector3(...box.high);
+    const middle = low.clone().add(high).multiplyScalar(0.5);
+    const size = high.clone().sub(low);
+    const free = {
+      x: Math.max(80, this.width - inset.left - inset.right),
+      y: Math.max(80, this.height - inset.top - inset.bottom),
+    };
+    const { top, orbit } = this.cameras;
+    const perPixel = Math.max((Math.max(size.x, 1) * 1.2) / free.x, (Math.max(size.y, 1) * 1.2) / free.y);
+    top.zoom = 10 / this.height / perPixel;
+    const shift = { x: ((inset.right - inset.left) / 2) * perPixel, y: ((inset.top - inset.bottom) / 2) * perPixel };
+    top.position.set(middle.x + shift.x, middle.y + shift.y, 50);
+    this.controls.top.target.set(middle.x + shift.x, middle.y + shift.y, 0);
+    top.updateProjectionMatrix();
+    this.controls.top.update();
+
+    const radius = Math.max(size.length() / 2, 0.7);
+    const share = Math.min(free.x, free.y) / Math.max(this.height, 1);
+    const distance = (radius * 0.9) / Math.tan((orbit.fov * Math.PI) / 360) / Math.max(share, 0.3);
+    this.controls.orbit.target.copy(middle);
+    orbit.position.copy(middle).add(new Vector3(-0.62, -0.62, 0.55).normalize().multiplyScalar(distance));
+    this.controls.orbit.update();
+    this.changed();
+  }
+
+  cameraState() {
+    const { camera } = this;
+    const target = this.controls[this.view].target;
+    return [...camera.position.toArray(), ...target.toArray(), camera.zoom].map((value) => +value.toPrecision(6));
+  }
+
+  setCameraState(state) {
+    const { camera } = this;
+    camera.position.fromArray(state, 0);
+    this.controls[this.view].target.fromArray(state, 3);
+    camera.zoom = state[6];
+    camera.updateProjectionMatrix();
+    this.controls[this.view].update();
+  }
+
+  grow(count) {
+    if (this.meshes && count <= this.capacity) return;
+    this.capacity = Math.max(64, 2 ** Math.ceil(Math.log2(count)));
+    for (const mesh of this.meshes ?? []) {
+      this.scene.remove(mesh);
+      mesh.geometry.dispose();
+      mesh.material.dispose();
+      mesh.dispose();
+    }
+    const rod = () => new CylinderGeometry(1, 1, 1, 10).translate(0, 0.5, 0);
+    const make = (geometry, color) => {
+      const material = new MeshLambertMaterial({ transparent: true });
+      const mesh = fading(new InstancedMesh(geometry, material, this.capacity));
+      geometry.setAttribute("fade", new InstancedBufferAttribute(new Float32Array(this.capacity), 1).setUsage(DynamicDrawUsage));
+      mesh.instanceColor = new InstancedBufferAttribute(new Float32Array(3 * this.capacity), 3).setUsage(DynamicDrawUsage);
+      mesh.instanceMatrix.setUsage(DynamicDrawUsage);
+      mesh.frustumCulled = false;
+      mesh.userData.color = new Color(color);
+      this.scene.add(mesh);
+      return mesh;
+    };
+    this.meshes = [
+      make(rod().rotateZ(-Math.PI / 2), AXES[0]),
+      make(rod(), AXES[1]),
+      make(rod().rotateX(Math.PI / 2), AXES[2]),
+      make(new SphereGeometry(1, 12, 8), "#e9edf3"),
+      make(rod(), SHAFT),
+      make(new ConeGeometry(1, 1, 12).translate(0, 0.5, 0), HEAD),
+    ];
+  }
+
+  /** Draw. `frames`: [{pose, parent pose or null, grey, alpha}, …]; `look`: what is switched on. */
+  draw(frames, look) {
+    this.resize();
+    this.grow(frames.length);
+    this.drawGrid(look);
+    const [xs, ys, zs, hubs, shafts, heads] = this.meshes;
+    const length = 0.2 * look.scale;
+    const radius = 0.02 * look.scale * 0.75;
+    let axes = 0;
+    let arrows = 0;
+    const matrix = new Matrix4();
+    const where = new Vector3();
+    const turn = new Quaternion();
+    const size = new Vector3();
+    const up = new Vector3(0, 1, 0);
+    const way = new Vector3();
+    const put = (mesh, index, frame) => {
+      mesh.setMatrixAt(index, matrix);
+      const { grey } = this.theme;
+      const { color } = mesh.userData;
+      const blend = (own) => own + (grey * grey - own) * frame.grey;
+      mesh.instanceColor.setXYZ(index, blend(color.r), blend(color.g), blend(color.b));
+      mesh.geometry.attributes.fade.setX(index, frame.alpha);
+    };
+    for (const frame of frames) {
+      if (frame.alpha <= 0) continue;
+      const { pose, parent } = frame;
+      if (look.axes) {
+        where.fromArray(pose, 0);
+        turn.fromArray(pose, 3);
+        put(xs, axes, (matrix.compose(where, turn, size.set(length, radius, radius)), frame));
+        put(ys, axes, (matrix.compose(where, turn, size.set(radius, length, radius)), frame));
+        put(zs, axes, (matrix.compose(where, turn, size.set(radius, radius, length)), frame));
+        put(hubs, axes, (matrix.compose(where, turn, size.set(radius * 1.35, radius * 1.35, radius * 1.35)), frame));
+        axes++;
+      }
+      if (look.arrows && parent) {
+        way.set(parent[0] - pose[0], parent[1] - pose[1], parent[2] - pose[2]);
+        const distance = way.length();
+        if (distance > 0.001) {
+          const tip = distance < 0.1 * look.scale ? 0.1 * look.scale * distance : 0.1 * look.scale;
+          const rod = Math.max(0, distance - tip);
+          turn.setFromUnitVectors(up, way.normalize());
+          where.fromArray(pose, 0);
+          put(shafts, arrows, (matrix.compose(where, turn, size.set(0.009 * look.scale, rod, 0.009 * look.scale)), frame));
+          where.addScaledVector(way, rod);
+          put(heads, arrows, (matrix.compose(where, turn, size.set(0.034 * look.scale, tip, 0.034 * look.scale)), frame));
+          arrows++;
+        }
+      }
+    }
+    for (const mesh of this.meshes) {
+      mesh.count = mesh === shafts || mesh === heads ? arrows : axes;
+      mesh.instanceMatrix.needsUpdate = true;
+      mesh.instanceColor.needsUpdate = true;
+      mesh.geometry.attributes.fade.needsUpdate = true;
+    }
+    this.sun.position.copy(this.camera.position).add(new Vector3(-3, 2, 8));
+    this.sun.target.position.copy(this.controls[this.view].target);
+    this.camera.updateMatrixWorld();
+    this.renderer.render(this.scene, this.camera);
+  }
+
+  drawGrid(look) {
+    let cell = 1;
+    while (look.extent / cell > 40) cell *= 10;
+    const cells = Math.max(10, 2 * Math.ceil((look.extent * 1.1) / cell));
+    if (this.gridSize !== cells * cell) {
+      if (this.grid) {
+        this.scene.remove(this.grid);
+        this.grid.geometry.dispose();
+        this.grid.material.dispose();
+      }
+      this.gridSize = cells * cell;
+      this.grid = new GridHelper(this.gridSize, cells, ...this.theme.grid);
+      this.grid.rotation.x = Math.PI / 2;
+      this.grid.position.z = -1e-4;
+      this.scene.add(this.grid);
+    }
+    this.grid.visible = look.grid;
+  }
+
+  /** Pixels from the top left corner, or null for what lies behind the camera. */
+  project(x, y, z) {
+    const point = this.point ?? (this.point = new Vector3());
+    point.set(x, y, z).applyMatrix4(this.camera.matrixWorldInverse);
+    if (this.view === "orbit" && point.z > -0.01) return null;
+    point.applyMatrix4(this.camera.projectionMatrix);
+    return [((point.x + 1) / 2) * this.width, ((1 - point.y) / 2) * this.height];
+  }
+
+  /** The background and the trails: [{points, color}, …]. */
+  drawUnder(trails) {
+    const pen = this.under.getContext("2d");
+    pen.setTransform(this.ratio, 0, 0, this.ratio, 0, 0);
+    pen.fillStyle = this.theme.background;
+    pen.fillRect(0, 0, this.width, this.height);
+    pen.lineCap = pen.lineJoin = "round";
+    pen.lineWidth = 2.2;
+    for (const { points, color } of trails) {
+      pen.strokeStyle = color;
+      const stages = 12;
+      for (let stage = 0; stage < stages; stage++) {
+        const from = Math.floor((stage * (points.length - 1)) / stages);
+        const to = Math.floor(((stage + 1) * (points.length - 1)) / stages);
+        if (to <= from) continue;
+        pen.globalAlpha = 0.08 + (0.85 * (stage + 1)) / stages;
+        pen.beginPath();
+        let down = false;
+        for (let at = from; at <= to; at++) {
+          const spot = this.project(points[at][0], points[at][1], points[at][2]);
+          if (spot) pen[down ? "lineTo" : "moveTo"](spot[0], spot[1]);
+          down = spot !== null;
+        }
+        pen.stroke();
+      }
+    }
+    pen.globalAlpha = 1;
+  }
+
+  /** Names, the chosen frame's ring and the pair's chain. Names are only ever painted as text. */
+  drawOver(labels, chain, ring) {
+    const pen = this.over.getContext("2d");
+    pen.setTransform(this.ratio, 0, 0, this.ratio, 0, 0);
+    pen.clearRect(0, 0, this.width, this.height);
+    const spots = chain.map((pose) => this.project(pose[0], pose[1], pose[2]));
+    if (spots.length > 1 && spots.every(Boolean)) {
+      pen.strokeStyle = pen.fillStyle = this.theme.accent;
+      pen.lineWidth = 2;
+      pen.setLineDash([2, 7]);
+      pen.lineCap = "round";
+      pen.beginPath();
+      spots.forEach(([x, y], at) => pen[at ? "lineTo" : "moveTo"](x, y));
+      pen.stroke();
+      pen.setLineDash([]);
+      spots.forEach(([x, y], at) => {
+        const end = at === 0 || at === spots.length - 1;
+        pen.beginPath();
+        pen.arc(x, y, end ? 5 : 3, 0, 7);
+        pen.fill();
+      });
+    }
+    if (ring) {
+      const spot = this.project(ring[0], ring[1], ring[2]);
+      if (spot) {
+        pen.strokeStyle = this.theme.accent;
+        pen.lineWidth = 2;
+        pen.beginPath();
+        pen.arc(spot[0], spot[1], 13, 0, 7);
+        pen.stroke();
+      }
+    }
+    pen.font = "600 12px system-ui, -apple-system, 'Segoe UI', Roboto, 'DejaVu Sans', sans-serif";
+    pen.textAlign = "center";
+    pen.textBaseline = "top";
+    pen.lineJoin = "round";
+    const taken = new Set();
+    for (const { name, pose, alpha, first } of labels) {
+      const spot = this.project(pose[0], pose[1], pose[2]);
+      if (!spot || spot[0] < -200 || spot[0] > this.width + 200 || spot[1] < -40 || spot[1] > this.height + 40) continue;
+      const text = name.length > 48 ? `${name.slice(0, 30)}…${name.slice(-16)}` : name;
+      const y = spot[1] + 10;
+      // One name per patch of the picture: a heap of names says nothing.
+      const half = pen.measureText(text).width / 2;
+      const cells = [];
+      for (let x = Math.floor((spot[0] - half) / 16); x <= Math.floor((spot[0] + half) / 16); x++) {
+        cells.push(`${x},${Math.floor(y / 14)}`);
+      }
+      if (!first && cells.some((cell) => taken.has(cell))) continue;
+      cells.forEach((cell) => taken.add(cell));
+      pen.globalAlpha = alpha;
+      pen.strokeStyle = this.theme.halo;
+      pen.lineWidth = 4;
+      pen.strokeText(text, spot[0], y);
+      pen.fillStyle = first ? this.theme.accent : this.theme.text;
+      pen.fillText(text, spot[0], y);
+    }
+    pen.globalAlpha = 1;
+  }
+
+  /** Everything visible, as one canvas. Call in the same task as `draw`. */
+  picture() {
+    const sheet = document.createElement("canvas");
+    sheet.width = this.under.width;
+    sheet.height = this.under.height;
+    const pen = sheet.getContext("2d");
+    for (const layer of [this.under, this.main, this.over]) pen.drawImage(layer, 0, 0, sheet.width, sheet.height);
+    return sheet;
+  }
+}

@@ -1,0 +1,101 @@
+// The connection to the server: decodes what comes, connects again when it ends.
+
+const HEADER = 48;
+const FIELDS = 11;
+const RETRY = 1000;
+
+/** What a binary message holds; null for anything else. */
+export function decode(buffer) {
+  if (buffer.byteLength < HEADER) return null;
+  const head = new DataView(buffer);
+  if (head.getUint32(0) !== 0x54465031) return null; // "TFP1"
+  const count = head.getUint32(12, true);
+  if (buffer.byteLength !== HEADER + count * FIELDS * 8) return null;
+  const at = head.getFloat64(24, true);
+  return {
+    sequence: head.getUint32(4, true),
+    revision: head.getUint32(8, true),
+    count,
+    now: head.getFloat64(16, true),
+    at: Number.isNaN(at) ? null : at,
+    oldest: head.getFloat64(32, true),
+    newest: head.getFloat64(40, true),
+    numbers: new Float64Array(buffer, HEADER),
+  };
+}
+
+export class Poses {
+  constructor(packet) {
+    Object.assign(this, packet);
+  }
+
+  /** Pose of frame `index` in its parent, numbers in a fresh array; NaN without data. */
+  relative(index) {
+    const start = index * FIELDS;
+    return Array.from(this.numbers.subarray(start, start + 7));
+  }
+
+  newestOf(index) {
+    return this.numbers[index * FIELDS + 7];
+  }
+
+  oldestOf(index) {
+    return this.numbers[index * FIELDS + 8];
+  }
+
+  rateOf(index) {
+    return this.numbers[index * FIELDS + 9];
+  }
+
+  samplesOf(index) {
+    return this.numbers[index * FIELDS + 10];
+  }
+}
+
+export class Wire {
+  /** Handlers: open(), ended(reason), names(message), pair(message), range(message), poses(Poses). */
+  constructor(handlers) {
+    this.handlers = handlers;
+    this.wanted = new Map(); // what to say again after a reconnection, by type
+    this.connect();
+  }
+
+  connect() {
+    const socket = new WebSocket(`ws://${location.host}/frames`);
+    socket.binaryType = "arraybuffer";
+    this.socket = socket;
+    socket.onopen = () => {
+      for (const message of this.wanted.values()) socket.send(message);
+      this.handlers.open();
+    };
+    socket.onmessage = ({ data }) => {
+      if (typeof data === "string") {
+        const message = JSON.parse(data);
+        const name = message.type === "frames" ? "names" : message.type;
+        this.handlers[name]?.(message);
+        return;
+      }
+      const packet = decode(data);
+      if (packet) this.handlers.poses(new Poses(packet));
+    };
+    socket.onclose = ({ code, reason }) => {
+      this.handlers.ended({ code, reason });
+      setTimeout(() => this.connect(), RETRY);
+    };
+  }
+
+  /** Say something now, and again whenever the connection is made anew. */
+  want(type, fields) {
+    const message = JSON.stringify({ type, ...fields });
+    this.wanted.set(type, message);
+    this.send(message);
+  }
+
+  got(sequence) {
+    this.send(JSON.stringify({ type: "got", sequence }));
+  }
+
+  send(message) {
+    if (this.socket.readyState === WebSocket.OPEN) this.socket.send(message);
+  }
+}

@@ -1,0 +1,242 @@
+"""What the page and its server say to each other, as bytes and text.
+
+Server to page:
+  text   {"type": "frames", ...}  the frames' names and parents, whenever they change
+  text   {"type": "pair", ...}    the transform of the chosen pair, or why there is none
+  text   {"type": "range", ...}   how far the buffer reaches, while a past moment is shown
+  binary                          every frame's pose at one moment; see `encode_poses`
+
+Page to server, text only:
+  {"type": "show", "at": seconds | null}        which moment; null follows the present
+  {"type": "pair", "target": …, "source": …}    which pair; null for none
+  {"type": "got", "sequence": n}                the page has drawn that many poses
+
+Moments travel as seconds since the clock's epoch, which a float holds to the nanosecond
+for a hundred days; the epoch itself travels as text.
+"""
+
+import json
+import math
+import struct
+import sys
+from array import array
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass
+from typing import Any
+
+from tftool.errors import InputError, TransformException
+from tftool.frames.buffer import Buffer
+from tftool.frames.sample import FrameInfo, Snapshot
+from tftool.geometry.conversions import rpy_from_quaternion
+from tftool.stamps import NANOSECONDS, Stamp, display
+
+MAGIC = b"TFP1"
+HEADER = struct.Struct("<4sIIIdddd")
+"""Magic, sequence, revision of the names, number of frames; now, moment shown (NaN for the
+present), oldest and newest moment of the buffer, in seconds since the epoch."""
+
+FIELDS = 11
+"""Numbers per frame: x y z, qx qy qz qw (NaN without data), newest, oldest, rate, samples."""
+
+MOST_FRAMES = 2000
+"""More than this is neither drawn nor listed by a browser at a useful rate."""
+
+MOST_BYTES = 16 * 1024
+"""The longest message a page has a reason to send: two names of some thousand letters."""
+
+
+# Page to server
+
+
+@dataclass(frozen=True, slots=True)
+class Show:
+    """Show a moment: seconds since the epoch, or None for the present."""
+
+    at: float | None
+
+
+@dataclass(frozen=True, slots=True)
+class Pair:
+    """Tell the transform of this pair from now on; None ends it."""
+
+    frames: tuple[str, str] | None
+
+
+@dataclass(frozen=True, slots=True)
+class Got:
+    """The page has drawn the poses of this sequence number."""
+
+    sequence: int
+
+
+def parse(message: str | bytes) -> Show | Pair | Got:
+    """Read what a page sent.
+
+    Raises:
+        InputError: If it is none of the three messages; says what is wrong.
+    """
+    if isinstance(message, bytes):
+        raise InputError("the page speaks text, not bytes")
+    try:
+        said = json.loads(message)
+    except (ValueError, RecursionError) as error:
+        raise InputError("that is not JSON") from error
+    kind = said.get("type") if isinstance(said, dict) else None
+    if kind == "show":
+        return Show(_moment(said.get("at")))
+    if kind == "pair":
+        target, source = said.get("target"), said.get("source")
+        if target is None and source is None:
+            return Pair(None)
+        if isinstance(target, str) and isinstance(source, str):
+            return Pair((target, source))
+        raise InputError("a pair is two names of frames, or null twice")
+    if kind == "got":
+        sequence = said.get("sequence")
+        if isinstance(sequence, int):
+            return Got(sequence)
+        raise InputError("a sequence is a whole number")
+    raise InputError('a message is an object whose "type" is show, pair or got')
+
+
+def _moment(value: Any) -> float | None:
+    if value is None:
+        return None
+    # Compared first: a whole number too large for a float cannot be converted.
+    if isinstance(value, (int, float)) and abs(value) < 1e12:
+        return float(value)
+    raise InputError("a moment is a number of seconds since the epoch, or null")
+
+
+# Server to page
+
+
+def since(epoch: Stamp, stamp: Stamp) -> float:
+    """Turn a stamp into seconds since the epoch."""
+    return (stamp - epoch) / NANOSECONDS
+
+
+def stamp_at(epoch: Stamp, moment: float) -> Stamp:
+    """Turn seconds since the epoch into a stamp; never 0, which would mean the latest."""
+    return max(1, epoch + round(moment * NANOSECONDS))
+
+
+def reach(frames: Iterable[FrameInfo]) -> tuple[Stamp, Stamp] | None:
+    """Tell the oldest and newest moment any link remembers; None when all are static."""
+    oldest = newest = 0
+    for frame in frames:
+        if frame.parent is not None and not frame.is_static and frame.samples:
+            oldest = frame.oldest if not newest else min(oldest, frame.oldest)
+            newest = max(newest, frame.newest)
+    return (oldest, newest) if newest else None
+
+
+def encode_names(
+    epoch: Stamp, revision: int, frames: Sequence[FrameInfo], total: int, rate: float
+) -> str:
+    """Write what of a snapshot seldom changes.
+
+    Args:
+        epoch: The clock's.
+        revision: Counts how often the names have changed.
+        frames: Those that are shown.
+        total: How many there are.
+        rate: How fast the clock runs, for playing back.
+    """
+    place = {frame.frame: index for index, frame in enumerate(frames)}
+    return json.dumps(
+        {
+            "type": "frames",
+            "epoch": str(epoch),
+            "revision": revision,
+            "names": [frame.frame for frame in frames],
+            "parents": [
+                -1 if frame.parent is None else place.get(frame.parent, -1) for frame in frames
+            ],
+            "statics": [int(frame.is_static) for frame in frames],
+            "authorities": [frame.authority or "no recorded authority" for frame in frames],
+            "total": total,
+            "rate": rate if math.isfinite(rate) else 1.0,
+        }
+    )
+
+
+def encode_poses(
+    epoch: Stamp, sequence: int, revision: int, snapshot: Snapshot, frames: Sequence[FrameInfo]
+) -> bytes:
+    """Write every frame's pose in its parent, and the facts that change with every sample."""
+    span = reach(snapshot.frames)
+    oldest, newest = span or (snapshot.now, snapshot.now)
+    head = HEADER.pack(
+        MAGIC,
+        sequence & 0xFFFFFFFF,
+        revision,
+        len(frames),
+        since(epoch, snapshot.now),
+        since(epoch, snapshot.at) if snapshot.at else math.nan,
+        since(epoch, oldest),
+        since(epoch, newest),
+    )
+    numbers = array("d")
+    for frame in frames:
+        if frame.transform is None:
+            numbers.extend(_NO_POSE)
+        else:
+            numbers.extend(frame.transform.translation)
+            numbers.extend(frame.transform.rotation)
+        if frame.is_static or not frame.samples:
+            numbers.extend((math.nan, math.nan))
+        else:
+            numbers.extend((since(epoch, frame.newest), since(epoch, frame.oldest)))
+        numbers.append(frame.rate)
+        numbers.append(frame.samples)
+    if sys.byteorder != "little":
+        numbers.byteswap()
+    return head + numbers.tobytes()
+
+
+_NO_POSE = (math.nan,) * 7
+
+
+def encode_range(epoch: Stamp, snapshot: Snapshot) -> str:
+    """Write how far the buffer reaches now."""
+    oldest, newest = reach(snapshot.frames) or (snapshot.now, snapshot.now)
+    return json.dumps(
+        {
+            "type": "range",
+            "now": since(epoch, snapshot.now),
+            "oldest": since(epoch, oldest),
+            "newest": since(epoch, newest),
+        }
+    )
+
+
+def encode_pair(buffer: Buffer, epoch: Stamp, target: str, source: str, at: Stamp) -> str:
+    """Write the transform of `source` in `target`, the very numbers `tftool echo` prints."""
+    answer: dict[str, Any] = {"type": "pair", "target": target, "source": source}
+    try:
+        found = buffer.lookup_transform(target, source, at)
+        chain = buffer.chain(target, source, at)
+    except TransformException as error:
+        return json.dumps({**answer, "found": False, "why": str(error)})
+    x, y, z, w = found.transform.rotation
+    answer |= {
+        "found": True,
+        "stamp": display(found.stamp),
+        "moment": since(epoch, found.stamp) if found.stamp else None,
+        "translation": _finite(found.transform.translation),
+        "rotation": _finite((x, y, z, w)),
+        "rpy": _finite(rpy_from_quaternion(found.transform.rotation)),
+        "chain": list(chain),
+    }
+    return json.dumps(answer)
+
+
+def _finite(values: Iterable[float]) -> list[float | None]:
+    # JSON knows no NaN and no infinity; the page shows a dash for null.
+    return [value if math.isfinite(value) else None for value in values]
+
+
+def names_key(frames: Sequence[FrameInfo]) -> tuple[tuple[str, str | None, bool, str | None], ...]:
+    """What has to change before the names are sent again."""
+    return tuple((frame.frame, frame.parent, frame.is_static, frame.authority) for frame in frames)
