@@ -450,7 +450,7 @@ def test_of_thousands_of_frames_those_nearest_to_their_root_are_shown():
 def test_a_page_that_was_not_built_is_said(monkeypatch, tmp_path):
     monkeypatch.setattr(server.assets.resources, "files", lambda package: tmp_path)
 
-    with pytest.raises(TftoolError, match="index.html is missing"):
+    with pytest.raises(TftoolError, match=r"index\.html is missing"):
         PageServer(World(WallClock()))
 
 
