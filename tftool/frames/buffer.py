@@ -4,10 +4,11 @@ from collections.abc import Callable
 
 from tftool.errors import TransformException
 from tftool.frames import export, names, refusals, sweep, velocity
-from tftool.frames.forest import ARRIVED, LOOP, REFUSED, Forest, Walk
+from tftool.frames.forest import Forest
 from tftool.frames.history import RESHAPED, TOO_OLD, Sample
-from tftool.frames.plans import MOST_PLANS, Plan, plan_of
-from tftool.frames.requests import AVAILABLE, EXPIRED, NEVER, PENDING, Callback, Question, Requests
+from tftool.frames.lookups import Lookups
+from tftool.frames.plans import Plan
+from tftool.frames.requests import NEVER, Callback, Requests
 from tftool.frames.sample import FrameInfo, Snapshot, TransformStamped
 from tftool.geometry import quaternions, rigid
 from tftool.geometry.rigid import Quaternion, Transform, Vector3
@@ -22,6 +23,7 @@ MAX_FRAMES = 16_384
 """How many names a buffer takes unless it is told to take more."""
 
 _EXACT = 8e-16
+_NO_PLANS: dict[str, Plan] = {}
 _new = tuple.__new__
 
 
@@ -50,16 +52,17 @@ class Buffer:
         Raises:
             ValueError: If `cache_time` is negative.
         """
-        cache_time = _whole(cache_time)
+        cache_time = refusals.whole(cache_time)
         if cache_time < 0:
             raise ValueError(f"cache_time must not be negative, but is {cache_time} ns")
         self.cache_time = cache_time
         self.max_frames = max_frames
         self._log = log or refusals.log_to_logging
         self._forest = Forest(cache_time)
-        self._plans: dict[str, dict[str, Plan]] = {}
-        self._planned = 0
-        self._requests = Requests(self._examine)
+        self._lookups = Lookups(self._forest, cache_time)
+        # The same dictionary, one step nearer: most lookups need nothing else.
+        self._plans = self._lookups.plans
+        self._requests = Requests(self._lookups.examine)
         self._listeners: tuple[Listener, ...] = ()
 
     # Setting
@@ -109,7 +112,7 @@ class Buffer:
             return False
         frame.authority = authority
         if outcome == RESHAPED:
-            self._drop_plans()
+            self._lookups.drop_plans()
         if self._listeners:
             self._tell(sample, stamp, parent, child, authority, False)
         if self._requests.pending:
@@ -130,28 +133,13 @@ class Buffer:
     def _set_slowly(self, transform: TransformStamped, authority: str, static: bool) -> bool:
         """Set what is new, odd or static: every check, each with its own line in the log."""
         stamp, parent, child, pose = transform
-        stamp = _whole(stamp)
+        stamp = refusals.whole(stamp)
         parent, child = names.stripped(parent), names.stripped(child)
-        x, y, z = pose.translation
         rotation = quaternions.canonical(quaternions.unit(pose.rotation))
-        errors: list[str] = []
-        if child == parent:
-            errors.append(refusals.self_transform(child, authority))
-        if not child:
-            errors.append(refusals.no_child(authority))
-        if not parent:
-            errors.append(refusals.no_parent(child, authority))
-        if any(number != number for number in (x, y, z, *rotation)):
-            errors.append(refusals.nan_input(child, authority, pose.translation, rotation))
-        if rotation[0] != rotation[0]:
-            errors.append(refusals.denormalized(child, authority, rotation))
-        if not refusals.fits(stamp):
-            errors.append(refusals.bad_stamp(child, stamp, authority))
+        errors = refusals.objections(child, parent, stamp, pose.translation, rotation, authority)
         forest = self._forest
-        if not errors:
-            new = forest.missing(child, parent)
-            if new and len(forest.frames) + new > self.max_frames:
-                errors.append(refusals.too_many_frames(child, authority, len(forest.frames)))
+        if not errors and not forest.has_room(child, parent, self.max_frames):
+            errors = [refusals.too_many_frames(child, authority, len(forest.frames))]
         if errors:
             for error in errors:
                 self._log("ERROR", error)
@@ -161,14 +149,14 @@ class Buffer:
         fresh = forest.hang(child, parent, static)
         frame = forest.children[child]
         assert frame.link is not None
-        sample = (x, y, z, *rotation)
+        sample = pose.translation + rotation
         outcome = frame.link.insert(stamp, frame.parent_number, sample)
         if outcome == TOO_OLD:
             self._log("WARN", refusals.old_data(child, stamp, authority))
             return False
         frame.authority = authority
         if fresh or outcome == RESHAPED:
-            self._drop_plans()
+            self._lookups.drop_plans()
         if self._listeners:
             self._tell(sample, stamp, parent, child, authority, static)
         if self._requests.pending:
@@ -181,7 +169,7 @@ class Buffer:
     def _tell(
         self, sample: Sample, stamp: Stamp, parent: str, child: str, authority: str, static: bool
     ) -> None:
-        told = _stamped(stamp, parent, child, sample)
+        told = _stamped(parent, child, stamp, sample)
         for listener in self._listeners:
             listener(told, static, authority)
 
@@ -190,7 +178,7 @@ class Buffer:
         for frame in self._forest.frames:
             if frame.link is not None:
                 frame.link.clear()
-        self._drop_plans()
+        self._lookups.drop_plans()
 
     def listen(self, callback: Listener) -> Callable[[], None]:
         """Have `callback` called after each accepted sample; call what is returned to stop."""
@@ -224,37 +212,20 @@ class Buffer:
             TypeError: If `time` is not a whole number.
         """
         if time.__class__ is not int:
-            time = _whole(time)
+            time = refusals.whole(time)
+        sample: Sample | None = None
         try:
             plan = self._plans[target_frame][source_frame]
         except KeyError:
-            return self._lookup_slowly(target_frame, source_frame, time)
-        moment = time or plan.latest()
-        sample = plan.solve(moment)
+            pass
+        else:
+            moment = time or plan.latest()
+            sample = plan.solve(moment)
         if sample is None:
-            return self._lookup_slowly(target_frame, source_frame, time)
+            moment, sample = self._lookups.pose(target_frame, source_frame, time)
         x, y, z, qx, qy, qz, qw = sample
         pose = _new(Transform, (_new(Vector3, (x, y, z)), _new(Quaternion, (qx, qy, qz, qw))))
         return _new(TransformStamped, (moment, target_frame, source_frame, pose))
-
-    def _lookup_slowly(self, target: str, source: str, time: Stamp) -> TransformStamped:
-        """Look up without a plan; leaves one behind where that is possible."""
-        if target == source:
-            if time == 0:
-                number = self._forest.numbers.get(target)
-                time = 0 if number is None else self._forest.newest_stamp(number)
-            return TransformStamped(time, target, source, rigid.IDENTITY)
-        target_number = self._number(target, "target_frame", "lookupTransform", target, source)
-        source_number = self._number(source, "source_frame", "lookupTransform", target, source)
-        time = time or self._latest_common(target_number, source_number)
-        walk = self._forest.walk(target_number, source_number, time)
-        if walk.ended != ARRIVED:
-            raise self._refusal(walk, time, target, source)
-        plan = plan_of(self._forest, walk)
-        sample = plan.solve(time)
-        assert sample is not None, "a link that answers for its parent answers for its pose"
-        self._remember_plan(target, source)
-        return _stamped(time, target, source, sample)
 
     def lookup_transform_full(
         self,
@@ -276,7 +247,7 @@ class Buffer:
             (source_frame, "source_frame"),
             (fixed_frame, "fixed_frame"),
         ):
-            self._number(frame, argument, "lookupTransform", target_frame, source_frame)
+            self._lookups.number(frame, argument, "lookupTransform", target_frame, source_frame)
         fixed_from_source = self.lookup_transform(fixed_frame, source_frame, source_time)
         target_from_fixed = self.lookup_transform(target_frame, fixed_frame, target_time)
         found = rigid.canonical(target_from_fixed.transform @ fixed_from_source.transform)
@@ -288,10 +259,15 @@ class Buffer:
         Raises:
             TransformException: If a name is unknown or invalid, or nothing joins the two.
         """
+        plan = self._plans.get(target_frame, _NO_PLANS).get(source_frame)
+        if plan is not None:
+            return plan.latest()
         call = "get_latest_common_time"
-        target = self._number(target_frame, "target_frame", call, target_frame, source_frame)
-        source = self._number(source_frame, "source_frame", call, target_frame, source_frame)
-        return self._latest_common(target, source)
+        number = self._lookups.number
+        return self._lookups.latest_common(
+            number(target_frame, "target_frame", call, target_frame, source_frame),
+            number(source_frame, "source_frame", call, target_frame, source_frame),
+        )
 
     def newest_common(self, target_frame: str, source_frame: str) -> Stamp:
         """As `get_latest_common_time`, but 0 where that would refuse."""
@@ -357,10 +333,12 @@ class Buffer:
 
     def can_transform(self, target_frame: str, source_frame: str, time: Stamp = 0) -> bool:
         """Whether `lookup_transform` would answer; it never raises for a name or a time."""
-        plan = self._plans.get(target_frame, {}).get(source_frame)
+        if time.__class__ is not int:
+            time = refusals.whole(time)
+        plan = self._plans.get(target_frame, _NO_PLANS).get(source_frame)
         if plan is not None and plan.covers(time or plan.latest()):
             return True
-        return self._why_not(target_frame, source_frame, time) is None
+        return self._lookups.why_not(target_frame, source_frame, time) is None
 
     def can_transform_full(
         self,
@@ -377,8 +355,8 @@ class Buffer:
 
     def why_not(self, target_frame: str, source_frame: str, time: Stamp = 0) -> str:
         """Why `can_transform` says no, in tf2's words; empty if it says yes."""
-        reason = self._why_not(target_frame, source_frame, time)
-        return "" if reason is None else reason if isinstance(reason, str) else str(reason)
+        reason = self._lookups.why_not(target_frame, source_frame, refusals.whole(time))
+        return "" if reason is None else str(reason)
 
     def why_not_full(
         self,
@@ -394,30 +372,12 @@ class Buffer:
             (source_frame, "source_frame"),
             (fixed_frame, "fixed_frame"),
         ):
-            if why := self._fault(frame):
+            if why := self._lookups.fault(frame):
                 return refusals.invalid_frame(frame, argument, why)
         # The other way round than in the lookup, as in tf2.
         return self.why_not(target_frame, fixed_frame, target_time) or self.why_not(
             fixed_frame, source_frame, source_time
         )
-
-    def _why_not(self, target: str, source: str, time: Stamp) -> str | TransformException | None:
-        if target == source:
-            return None
-        for frame, argument in ((target, "target_frame"), (source, "source_frame")):
-            if why := self._fault(frame):
-                return refusals.invalid_frame(frame, argument, why)
-        numbers = self._forest.numbers
-        target_number, source_number = numbers[target], numbers[source]
-        try:
-            time = time or self._latest_common(target_number, source_number)
-        except TransformException as refused:
-            return refused
-        walk = self._forest.walk(target_number, source_number, time)
-        if walk.ended == ARRIVED:
-            self._remember_plan(target, source)
-            return None
-        return self._refusal(walk, time, target, source)
 
     # Waiting
 
@@ -437,7 +397,7 @@ class Buffer:
             0 if it can be looked up now, NEVER if it never can again (in both cases
             `callback` is not kept), else a handle for `cancel`.
         """
-        return self._requests.add(callback, ((target_frame, source_frame, time),))
+        return self._requests.add(callback, ((target_frame, source_frame, refusals.whole(time)),))
 
     def request_full(
         self,
@@ -452,39 +412,14 @@ class Buffer:
         return self._requests.add(
             callback,
             (
-                (target_frame, fixed_frame, target_time),
-                (fixed_frame, source_frame, source_time),
+                (target_frame, fixed_frame, refusals.whole(target_time)),
+                (fixed_frame, source_frame, refusals.whole(source_time)),
             ),
         )
 
     def cancel(self, handle: int) -> None:
         """Let go of a request; its callback is not called any more."""
         self._requests.cancel(handle)
-
-    def _examine(self, question: Question, first: bool) -> tuple[int, tuple[str, ...]]:
-        target, source, time = question
-        if target == source:
-            return AVAILABLE, ()
-        numbers = self._forest.numbers
-        for name in (target, source):
-            if name not in numbers:
-                # Nothing but this name's coming up can help.
-                return PENDING, (name,)
-        target_number, source_number = numbers[target], numbers[source]
-        ended, latest = self._forest.latest_common(target_number, source_number)
-        # A question for the latest never becomes too old.
-        expired = latest != 0 and time != 0 and time + self.cache_time < latest
-        if expired and not first:
-            return EXPIRED, ()
-        newest = self._forest.walk(target_number, source_number, 0)
-        walk = self._forest.walk(target_number, source_number, time or latest)
-        if walk.ended == ARRIVED and (time or ended == ARRIVED):
-            return AVAILABLE, ()
-        if expired:
-            return EXPIRED, ()
-        frames = self._forest.frames
-        seen = dict.fromkeys([*walk.visited(), *newest.visited()])
-        return PENDING, tuple(frames[number].name for number in seen)
 
     # Looking at the whole
 
@@ -495,7 +430,7 @@ class Buffer:
             now: What the clock reads; ages are told against it.
             at: The moment to show; 0 for each frame at the latest moment of its chain.
         """
-        return sweep.snapshot(self._forest, now, at)
+        return sweep.snapshot(self._forest, refusals.whole(now), refusals.whole(at))
 
     def frames(self) -> list[str]:
         """Every name that ever came up, in that order; of one sample the child first."""
@@ -520,21 +455,7 @@ class Buffer:
         Raises:
             TransformException: As `lookup_transform`.
         """
-        if target_frame == source_frame:
-            return []
-        self.lookup_transform(target_frame, source_frame, time)
-        forest = self._forest
-        target, source = forest.numbers[target_frame], forest.numbers[source_frame]
-        time = time or self._latest_common(target, source)
-        walk = forest.walk(target, source, time)
-        numbers = list(walk.up)
-        # Where the two sides meet: above the last link of either.
-        last = (walk.up or walk.down)[-1]
-        link = forest.frames[last].link
-        assert link is not None
-        numbers.append(link.parent_at(time))
-        numbers.extend(reversed(walk.down))
-        return [forest.frames[number].name for number in numbers]
+        return self._lookups.chain(target_frame, source_frame, refusals.whole(time))
 
     def all_frames_as_yaml(self, current_time: Stamp = 0) -> str:
         """tf2's YAML of all frames; see `export.as_yaml`."""
@@ -551,72 +472,7 @@ class Buffer:
     def _infos(self) -> tuple[FrameInfo, ...]:
         return self.snapshot(0).frames
 
-    # Names, plans and refusals
 
-    def _number(self, frame: str, argument: str, call: str, target: str, source: str) -> int:
-        """A frame's number, or why there is none."""
-        if why := names.fault(frame):
-            raise refusals.invalid(frame, argument, call, why, target=target, source=source)
-        number = self._forest.numbers.get(frame)
-        if number is None:
-            raise refusals.unknown(
-                frame, argument, call, self._forest.numbers.keys(), target=target, source=source
-            )
-        return number
-
-    def _fault(self, frame: str) -> str:
-        """What is wrong with a frame's name, as `can_transform` has it; empty if nothing is."""
-        if why := names.fault(frame):
-            return why
-        return "" if frame in self._forest.numbers else "frame does not exist"
-
-    def _latest_common(self, target: int, source: int) -> Stamp:
-        ended, latest = self._forest.latest_common(target, source)
-        if ended == ARRIVED:
-            return latest
-        frames = self._forest.frames
-        target_name, source_name = frames[target].name, frames[source].name
-        if ended == LOOP:
-            raise refusals.loop(self.all_frames_as_string(), target_name, source_name)
-        raise refusals.unconnected(target_name, source_name)
-
-    def _refusal(self, walk: Walk, time: Stamp, target: str, source: str) -> TransformException:
-        """What a walk that did not arrive is refused with."""
-        if walk.ended == LOOP:
-            return refusals.loop(self.all_frames_as_string(), target, source)
-        if walk.ended == REFUSED:
-            frame = self._forest.frames[walk.refused]
-            assert frame.link is not None
-            return refusals.extrapolation(
-                frame.link.refusal(time), frame.name, time, target, source
-            )
-        return refusals.unconnected(target, source)
-
-    def _remember_plan(self, target: str, source: str) -> None:
-        """Keep a plan by the newest samples, if no link on the way leads elsewhere at times."""
-        forest = self._forest
-        walk = forest.walk(forest.numbers[target], forest.numbers[source], 0)
-        if walk.ended != ARRIVED:
-            return
-        for number in walk.visited():
-            link = forest.frames[number].link
-            if link is not None and link.mixed:
-                return
-        if self._planned >= MOST_PLANS:
-            self._drop_plans()
-        self._plans.setdefault(target, {})[source] = plan_of(forest, walk)
-        self._planned += 1
-
-    def _drop_plans(self) -> None:
-        if self._planned:
-            self._plans = {}
-            self._planned = 0
-
-
-def _stamped(stamp: Stamp, target: str, source: str, sample: Sample) -> TransformStamped:
+def _stamped(target: str, source: str, stamp: Stamp, sample: Sample) -> TransformStamped:
     x, y, z, qx, qy, qz, qw = sample
     return TransformStamped(stamp, target, source, rigid.transform((x, y, z), (qx, qy, qz, qw)))
-
-
-def _whole(stamp: object) -> Stamp:
-    return stamp if stamp.__class__ is int else refusals.whole_nanoseconds(stamp)

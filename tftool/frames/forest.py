@@ -101,9 +101,10 @@ class Forest:
         self.frames.append(frame)
         return frame
 
-    def missing(self, child: str, parent: str) -> int:
-        """How many of two names would be new."""
-        return (child not in self.numbers) + (parent not in self.numbers)
+    def has_room(self, child: str, parent: str, limit: int) -> bool:
+        """Whether both names are known, or fit in without there being more than `limit`."""
+        new = (child not in self.numbers) + (parent not in self.numbers)
+        return new == 0 or len(self.frames) + new <= limit
 
     def hang(self, child: str, parent: str, static: bool) -> bool:
         """Make sure that a child has a link of this kind, and note whom it hangs from.

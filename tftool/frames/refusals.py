@@ -107,12 +107,14 @@ def extrapolation(
     )
 
 
-def whole_nanoseconds(stamp: object) -> Stamp:
-    """A moment that is not plainly an `int`, as one.
+def whole(stamp: object) -> Stamp:
+    """A moment as an `int`, whatever kind of whole number it comes as.
 
     Raises:
         TypeError: If it is a float, or nothing like a whole number.
     """
+    if stamp.__class__ is int:
+        return stamp
     try:
         return int(stamp.__index__())  # type: ignore[attr-defined]
     except AttributeError:
@@ -127,6 +129,40 @@ def fits(stamp: Stamp) -> bool:
 
 
 # What a rejected sample is logged as. Numbers as C's %f writes them.
+
+
+def objections(
+    child: str,
+    parent: str,
+    stamp: Stamp,
+    translation: tuple[float, float, float],
+    rotation: tuple[float, float, float, float],
+    authority: str,
+) -> list[str]:
+    """Everything that is wrong with a sample, a line each; none if it can be taken.
+
+    Args:
+        child: Without its leading slash.
+        parent: Without its leading slash.
+        stamp: Nanoseconds.
+        translation: As it came.
+        rotation: Scaled to length one; NaN if that cannot be done.
+        authority: Who sent it.
+    """
+    lines: list[str] = []
+    if child == parent:
+        lines.append(self_transform(child, authority))
+    if not child:
+        lines.append(no_child(authority))
+    if not parent:
+        lines.append(no_parent(child, authority))
+    if any(number != number for number in translation + rotation):
+        lines.append(nan_input(child, authority, translation, rotation))
+    if rotation[3] != rotation[3]:
+        lines.append(denormalized(child, authority, rotation))
+    if not fits(stamp):
+        lines.append(bad_stamp(child, stamp, authority))
+    return lines
 
 
 def self_transform(child: str, authority: str) -> str:
