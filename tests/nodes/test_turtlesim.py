@@ -136,6 +136,62 @@ def test_a_push_against_the_wall_is_told_once_a_second_and_counted_every_time():
     assert len(told) == 3
 
 
+@settings(max_examples=25, deadline=None)
+@given(st.floats(0.001, 0.015), st.floats(0.001, 0.015), twists)
+def test_when_within_a_tick_a_command_comes_does_not_matter(early, late, twist):
+    def lived(moment):
+        world = new_world()
+        sim = Turtlesim(world)
+        At(world, (0.1 * TICK + moment * 0.9, drive(world, twist)))
+        play(world, 1.5)
+        return sim.turtles["turtle1"].place
+
+    assert lived(early) == lived(late)
+
+
+@settings(max_examples=50, deadline=None)
+@given(
+    st.lists(
+        st.one_of(
+            st.tuples(st.just("spawn"), st.sampled_from(["", "turtle1", "turtle3", "a b", "zoe"])),
+            st.tuples(st.just("kill"), st.sampled_from(["turtle1", "turtle2", "zoe", "nobody"])),
+            st.tuples(st.just("reset"), st.just("")),
+        ),
+        max_size=12,
+    )
+)
+def test_names_are_given_taken_and_counted_as_a_naive_model_says(operations):
+    world = new_world()
+    sim = Turtlesim(world)
+    names, counter, answers = {"turtle1"}, 1, []
+
+    async def walk_through():
+        nonlocal names, counter
+        for operation, name in operations:
+            if operation == "kill":
+                await world.call("kill", Kill(name))
+                names.discard(name)
+            elif operation == "reset":
+                await world.call("reset", Reset())
+                names, counter = {"turtle1"}, 1
+            else:
+                wanted = name
+                while not wanted:
+                    counter += 1
+                    if f"turtle{counter}" not in names:
+                        wanted = f"turtle{counter}"
+                given_name = "" if wanted in names or " " in wanted else wanted
+                names |= {given_name} - {""}
+                answers.append((await world.call("spawn", Spawn(1, 1, 0, name)), given_name))
+
+    At(world, (0.0, walk_through))
+    play(world, 1.0)
+
+    assert list(sim.turtles) == sorted(names)
+    assert all(answer.name == expected for answer, expected in answers)
+    assert {name.partition("/")[0] for name in world.services() if "/" in name} == set()
+
+
 # The colour sensor
 
 
@@ -407,6 +463,30 @@ def test_a_speed_beyond_all_bounds_ends_at_the_wall():
     assert 0.0 <= y <= FIELD
     assert -math.pi <= theta < math.pi
     assert sim.turtles["turtle1"].pose.linear_velocity == math.inf
+
+
+def test_a_simulator_may_be_sent_away_by_whoever_hears_a_pose():
+    world = new_world()
+    sim = Turtlesim(world, turtles=[Spawn(1, 1, 0, "turtle2")])
+    heard = []
+
+    def send_away(pose):
+        heard.append(pose)
+        if len(heard) == 10:
+            world.remove(sim)
+
+    world.topic("turtle1/pose", Pose2D).subscribe(send_away)
+    play(world, 1.0)
+
+    assert len(heard) == 10
+    assert "spawn" not in world.services()
+
+
+def test_a_parameter_that_was_forced_too_far_still_is_a_colour():
+    sim = Turtlesim(new_world())
+    sim.parameters.set("background_r", 999)
+
+    assert sim.background == Color(255, 86, 255)
 
 
 def test_who_waits_for_an_answer_is_told_when_the_simulator_leaves():

@@ -111,8 +111,10 @@ class Turtlesim(Node):
 
     @property
     def background(self) -> Color:
-        """The field's colour as the parameters say now."""
-        r, g, b = (int(self.get_parameter(name)) for name in _BACKGROUND_PARAMETERS)
+        """The field's colour as the parameters say now, held within 0 to 255."""
+        r, g, b = (
+            min(max(int(self.get_parameter(name)), 0), 255) for name in _BACKGROUND_PARAMETERS
+        )
         return Color(r, g, b)
 
     def color_under(self, name: str) -> Color:
@@ -189,9 +191,11 @@ class Turtlesim(Node):
 
     def _update(self, now: Stamp) -> None:
         for name, turtle in tuple(self._turtles.items()):
+            outlet = self._outlets.get(name)
+            if outlet is None:  # somebody who heard of a pose sent the simulator away
+                return
             before = turtle.pose
             stroke = turtle.update(now, self._say, self._draw)
-            outlet = self._outlets[name]
             outlet.pose.publish(turtle.pose)
             if outlet.color.subscribers:
                 outlet.color.publish(self.color_under(name))
