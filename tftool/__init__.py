@@ -1,3 +1,110 @@
 """TF2 without ROS: coordinate frames over time, and the turtles to learn them with."""
 
+from importlib import import_module
+from typing import TYPE_CHECKING, Any
+
+if TYPE_CHECKING:
+    from tftool.errors import (
+        BackwardExtrapolationException,
+        ConnectivityException,
+        ExtrapolationException,
+        ForwardExtrapolationException,
+        InputError,
+        InvalidArgumentException,
+        LookupException,
+        NoDataForExtrapolationException,
+        NodeFailed,
+        TftoolError,
+        TimeoutException,
+        TransformException,
+        UsageError,
+    )
+    from tftool.frames.buffer import Buffer
+    from tftool.frames.sample import FrameInfo, Snapshot, TransformStamped
+    from tftool.geometry.conversions import quaternion_from_rpy, rpy_from_quaternion
+    from tftool.geometry.rigid import Quaternion, Transform, Vector3
+    from tftool.runtime.clock import Clock, Phase, SimClock, WallClock, run
+    from tftool.runtime.node import Node
+    from tftool.runtime.supervisor import live
+    from tftool.runtime.world import World
+    from tftool.stamps import LATEST, as_seconds, seconds
+
 __version__ = "0.1.0"
+
+__all__ = [
+    "LATEST",
+    "BackwardExtrapolationException",
+    "Buffer",
+    "Clock",
+    "ConnectivityException",
+    "ExtrapolationException",
+    "ForwardExtrapolationException",
+    "FrameInfo",
+    "InputError",
+    "InvalidArgumentException",
+    "LookupException",
+    "NoDataForExtrapolationException",
+    "Node",
+    "NodeFailed",
+    "Phase",
+    "Quaternion",
+    "SimClock",
+    "Snapshot",
+    "TftoolError",
+    "TimeoutException",
+    "Transform",
+    "TransformException",
+    "TransformStamped",
+    "UsageError",
+    "Vector3",
+    "WallClock",
+    "World",
+    "as_seconds",
+    "live",
+    "quaternion_from_rpy",
+    "rpy_from_quaternion",
+    "run",
+    "seconds",
+]
+
+# Where each name lives. It is imported when it is first asked for, so that `import tftool`
+# costs nothing, and a command pays for what it uses.
+_HOMES = {
+    "tftool.errors": (
+        "BackwardExtrapolationException",
+        "ConnectivityException",
+        "ExtrapolationException",
+        "ForwardExtrapolationException",
+        "InputError",
+        "InvalidArgumentException",
+        "LookupException",
+        "NoDataForExtrapolationException",
+        "NodeFailed",
+        "TftoolError",
+        "TimeoutException",
+        "TransformException",
+        "UsageError",
+    ),
+    "tftool.frames.buffer": ("Buffer",),
+    "tftool.frames.sample": ("FrameInfo", "Snapshot", "TransformStamped"),
+    "tftool.geometry.conversions": ("quaternion_from_rpy", "rpy_from_quaternion"),
+    "tftool.geometry.rigid": ("Quaternion", "Transform", "Vector3"),
+    "tftool.runtime.clock": ("Clock", "Phase", "SimClock", "WallClock", "run"),
+    "tftool.runtime.node": ("Node",),
+    "tftool.runtime.supervisor": ("live",),
+    "tftool.runtime.world": ("World",),
+    "tftool.stamps": ("LATEST", "as_seconds", "seconds"),
+}
+_HOME_OF = {name: home for home, names in _HOMES.items() for name in names}
+
+
+def __getattr__(name: str) -> Any:
+    if name not in _HOME_OF:
+        raise AttributeError(f"module 'tftool' has no attribute '{name}'")
+    value = getattr(import_module(_HOME_OF[name]), name)
+    globals()[name] = value
+    return value
+
+
+def __dir__() -> list[str]:
+    return sorted({*globals(), *__all__})

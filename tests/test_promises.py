@@ -1,0 +1,73 @@
+import subprocess
+import sys
+
+import pytest
+
+import tftool
+
+# What whoever builds on tftool may rely on. Adding a name is a promise, taking one away breaks it.
+PROMISED = [
+    "BackwardExtrapolationException",
+    "Buffer",
+    "Clock",
+    "ConnectivityException",
+    "ExtrapolationException",
+    "ForwardExtrapolationException",
+    "FrameInfo",
+    "InputError",
+    "InvalidArgumentException",
+    "LATEST",
+    "LookupException",
+    "NoDataForExtrapolationException",
+    "Node",
+    "NodeFailed",
+    "Phase",
+    "Quaternion",
+    "SimClock",
+    "Snapshot",
+    "TftoolError",
+    "TimeoutException",
+    "Transform",
+    "TransformException",
+    "TransformStamped",
+    "UsageError",
+    "Vector3",
+    "WallClock",
+    "World",
+    "as_seconds",
+    "live",
+    "quaternion_from_rpy",
+    "rpy_from_quaternion",
+    "run",
+    "seconds",
+]
+
+
+def test_the_promised_names_are_these():
+    assert sorted(tftool.__all__) == PROMISED
+    assert set(PROMISED) <= set(dir(tftool))
+
+
+@pytest.mark.parametrize("name", PROMISED)
+def test_every_promised_name_is_there_under_its_own_name(name):
+    value = getattr(tftool, name)
+
+    assert getattr(value, "__name__", name) == name
+
+
+def test_another_name_is_refused_as_python_does():
+    with pytest.raises(AttributeError, match="no attribute 'Bufer'"):
+        _ = tftool.Bufer
+
+
+def test_the_scalar_path_imports_neither_numpy_nor_asyncio():
+    code = (
+        "import sys\n"
+        "from tftool import Buffer, Transform, TransformStamped, seconds\n"
+        "Buffer().set_transform(TransformStamped(seconds(1), 'a', 'b', Transform()), 'me')\n"
+        "print(sorted({'numpy', 'asyncio', 'rich', 'yaml', 'typer'} & set(sys.modules)))\n"
+    )
+
+    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
+
+    assert done.stdout == "[]\n"
