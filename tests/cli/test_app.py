@@ -49,12 +49,12 @@ def test_version(tftool):
 
 
 def test_a_near_miss_is_told_what_was_meant(tftool):
-    result = tftool("ecko")
+    result = tftool("monitr")
 
     assert result.status == 2
     assert result.out == ""
-    assert "'ecko'" in result.err
-    assert "Did you mean 'echo'?" in result.err
+    assert "'monitr'" in result.err
+    assert "Did you mean 'monitor'?" in result.err
     assert result.err.count("\n") == 1
 
 

@@ -28,6 +28,9 @@ def check(
 
     The exit status is 0 when everything held, 1 when something did not, 3 when a
     file could not be read.
+
+    tftool check turtles
+    tftool check scenarios/*.yaml --junit report.xml
     """
     # Heavy imports wait until this command is the chosen one.
     from rich.console import Console
