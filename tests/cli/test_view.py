@@ -1,0 +1,81 @@
+import re
+import socket
+import sys
+import webbrowser
+
+import pytest
+
+
+@pytest.fixture
+def page(simulated):
+    pytest.importorskip("websockets", reason="the extra `view` is not installed")
+
+
+def test_view_says_where_the_page_is_and_ends_when_told(page, tftool):
+    result = tftool("view", "turtles", "--for", "2", "--port", "0")
+
+    assert (result.status, result.err) == (0, "")
+    assert re.fullmatch(
+        r"The frames of scenario 'turtles' are at http://127\.0\.0\.1:\d+/\n", result.out
+    )
+
+
+def test_view_takes_the_next_port_when_one_is_taken_and_says_so(page, tftool):
+    with socket.create_server(("127.0.0.1", 0)) as holder:
+        taken = holder.getsockname()[1]
+        result = tftool("view", "static", "--for", "1", "--port", taken)
+
+    said = re.fullmatch(rf"Port {taken} is not free: taking (\d+)\.\n", result.err)
+    assert result.status == 0
+    assert int(said[1]) > taken
+    assert f"http://127.0.0.1:{said[1]}/" in result.out
+
+
+@pytest.mark.parametrize(("opens", "told"), [(True, ""), (False, "No browser could be started")])
+def test_view_opens_the_page_on_request(page, tftool, monkeypatch, opens, told):
+    asked = []
+
+    def browser(url):
+        asked.append(url)
+        return opens
+
+    monkeypatch.setattr(webbrowser, "open", browser)
+    result = tftool("view", "static", "--for", "1", "--port", "0", "--open")
+
+    assert result.status == 0
+    assert asked[0] in result.out
+    assert told in result.err
+
+
+def test_view_without_its_extra_says_what_to_install(tftool, monkeypatch):
+    for name in [name for name in sys.modules if name.startswith("websockets")]:
+        monkeypatch.delitem(sys.modules, name)
+    monkeypatch.delitem(sys.modules, "tftool.screens.browser.server", raising=False)
+    monkeypatch.setitem(sys.modules, "websockets", None)
+
+    result = tftool("view")
+
+    assert result.status == 2
+    assert result.err == "tftool: 'view' needs an extra: pip install 'tftool-tf2[view]'\n"
+
+
+@pytest.mark.parametrize(
+    ("words", "told"),
+    [
+        (["--port", "99999"], "not in the range"),
+        (["--port", "-1"], "not in the range"),
+        (["--rate", "0"], "0 is not between 0.1 and 120"),
+        (["--rate", "nan"], "nan is not between"),
+        (["--for", "-2"], "-2 is not a positive number"),
+    ],
+)
+def test_view_refuses_numbers_that_make_no_sense(tftool, words, told):
+    result = tftool("view", *words)
+
+    assert result.status == 2
+    assert told in result.err
+    assert result.err.count("\n") == 1
+
+
+def test_view_of_an_unknown_scenario_is_refused(page, tftool):
+    assert tftool("view", "no_such_world").status == 3
