@@ -1,6 +1,5 @@
 """`tftool view`: the frames in 3-D, in a browser."""
 
-import asyncio
 import sys
 from typing import TYPE_CHECKING, Annotated
 
@@ -64,6 +63,8 @@ def view(
 async def _show(
     session: "Session", page: "PageServer", duration: Duration | None, open_browser: bool
 ) -> None:
+    import asyncio
+
     from tftool.cli.session import notice
 
     async with page:
@@ -88,6 +89,7 @@ async def _show(
 
 
 async def _opened(url: str) -> bool:
+    import asyncio
     import webbrowser
 
     # Some browsers are started and waited for: not in the loop the world lives in.
