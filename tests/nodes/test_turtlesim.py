@@ -21,6 +21,7 @@ from tftool.messages import (
     Twist2D,
 )
 from tftool.motion.unicycle import CENTRE, FIELD, float32
+from tftool.nodes import turtlesim as turtlesim_module
 from tftool.nodes.trail import BLANK
 from tftool.nodes.turtle import PEN_COLOR
 from tftool.nodes.turtlesim import BACKGROUND, Turtlesim
@@ -392,6 +393,17 @@ def test_a_name_that_cannot_be_is_refused_in_one_readable_line(name):
     assert "use letters, digits and '_'" in last.text
     assert last.text.isprintable()
     assert len(last.text) < 200
+
+
+def test_there_is_an_end_to_turtles(monkeypatch):
+    monkeypatch.setattr(turtlesim_module, "MOST_TURTLES", 3)
+    world = new_world()
+    sim = Turtlesim(world)
+    At(world, *((0.1 * tenth, lambda: world.call("spawn", Spawn(1, 1))) for tenth in range(5)))
+    play(world, 1.0)
+
+    assert len(sim.turtles) == 3
+    assert log_texts(world)[-1] == ("No turtle was spawned: there are 3 already, kill one first")
 
 
 def test_killing_a_name_full_of_control_codes_is_told_in_one_readable_line():
