@@ -5,13 +5,13 @@ from collections.abc import Callable, Iterable
 from tftool.errors import (
     BackwardExtrapolationException,
     ConnectivityException,
+    ExtrapolationException,
     ForwardExtrapolationException,
     InvalidArgumentException,
     LookupException,
     NoDataForExtrapolationException,
-    TransformException,
 )
-from tftool.frames.history import FORWARD, NO_DATA, Refusal
+from tftool.frames.history import BACKWARD, FORWARD, NO_DATA, Refusal
 from tftool.stamps import Stamp, display
 
 # Stamps are kept in 64 bits.
@@ -68,37 +68,41 @@ def loop(frames: str, target: str, source: str) -> LookupException:
     )
 
 
-def extrapolation(
-    refusal: Refusal, frame: str, time: Stamp, target: str, source: str
-) -> TransformException:
-    """For a link, that of `frame`, which has nothing for the moment."""
+def shortfall(refusal: Refusal, time: Stamp) -> str:
+    """What a link says that has nothing for a moment."""
     kind, available = refusal
-    asked = display(time)
-    has = display(available)
-    tail = f", when looking up transform from frame [{source}] to frame [{target}]"
+    asked, has = display(time), display(available)
     if kind == NO_DATA:
-        return NoDataForExtrapolationException(
+        return (
             f"Lookup would require extrapolation at time {asked}, but only time {has} is in the "
-            f"buffer{tail}",
-            requested=time,
-            available=available,
-            frame=frame,
-            target=target,
-            source=source,
+            "buffer"
         )
     if kind == FORWARD:
-        return ForwardExtrapolationException(
+        return (
             f"Lookup would require extrapolation into the future.  Requested time {asked} but the "
-            f"latest data is at time {has}{tail}",
-            requested=time,
-            available=available,
-            frame=frame,
-            target=target,
-            source=source,
+            f"latest data is at time {has}"
         )
-    return BackwardExtrapolationException(
+    return (
         f"Lookup would require extrapolation into the past.  Requested time {asked} but the "
-        f"earliest data is at time {has}{tail}",
+        f"earliest data is at time {has}"
+    )
+
+
+_EXTRAPOLATIONS: dict[int, type[ExtrapolationException]] = {
+    NO_DATA: NoDataForExtrapolationException,
+    FORWARD: ForwardExtrapolationException,
+    BACKWARD: BackwardExtrapolationException,
+}
+
+
+def extrapolation(
+    refusal: Refusal, frame: str, time: Stamp, target: str, source: str
+) -> ExtrapolationException:
+    """For a link, that of `frame`, which has nothing for the moment."""
+    kind, available = refusal
+    return _EXTRAPOLATIONS[kind](
+        f"{shortfall(refusal, time)}, when looking up transform from frame [{source}] "
+        f"to frame [{target}]",
         requested=time,
         available=available,
         frame=frame,
