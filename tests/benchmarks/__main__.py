@@ -2,8 +2,12 @@
 
 import platform
 
-from tests.benchmarks import turtle_world
+from tests.benchmarks import start_up, turtle_world
+
+REPORTS = (start_up.report, turtle_world.report)
+"""What is measured; add yours."""
 
 if __name__ == "__main__":
     print(f"{platform.python_implementation()} {platform.python_version()}, {platform.machine()}")  # noqa: T201
-    print(turtle_world.report())  # noqa: T201
+    for report in REPORTS:
+        print(report())  # noqa: T201

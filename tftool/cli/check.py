@@ -1,6 +1,5 @@
 """`tftool check`: play scenarios on simulated time and judge their expectations."""
 
-import json
 import sys
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
@@ -33,6 +32,8 @@ def check(
     tftool check scenarios/*.yaml --junit report.xml
     """
     # Heavy imports wait until this command is the chosen one.
+    import json
+
     from rich.console import Console
 
     from tftool.errors import UsageError

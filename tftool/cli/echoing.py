@@ -133,6 +133,7 @@ class Echo:
         self.count = count
         self.patience = patience
         self.tells = tells
+        self._hinted = False
 
     async def run(self) -> None:
         """Print answers until there are enough.
@@ -209,8 +210,9 @@ class Echo:
         frames = self.world.buffer.frames()
         asked = (self.question.target, self.question.source, self.question.fixed_frame)
         missing = [frame for frame in asked if frame is not None and frame not in frames]
-        if not missing or not frames:
+        if not missing or not frames or self._hinted:
             return
+        self._hinted = True
         near = get_close_matches(missing[0], frames, 1)
         named = ", ".join(visible(frame) for frame in frames[:MOST_NAMED])
         more = f" and {len(frames) - MOST_NAMED} more" if len(frames) > MOST_NAMED else ""

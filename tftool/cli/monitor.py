@@ -6,7 +6,7 @@ from typing import Annotated
 import typer
 
 from tftool.cli.options import CacheTime, ForPrograms, positive
-from tftool.errors import UsageError
+from tftool.errors import InputError, UsageError
 from tftool.stamps import seconds
 
 
@@ -53,7 +53,14 @@ def monitor(
     if as_tf2 and for_programs:
         raise UsageError("--tf2 and --json are two ways of writing: choose one.")
     frames, place = _sorted_out(words or [])
-    session = open_session(place, cache_time=None if cache_time is None else seconds(cache_time))
+    try:
+        session = open_session(
+            place, cache_time=None if cache_time is None else seconds(cache_time)
+        )
+    except InputError as error:
+        if frames is None:
+            error.args = (f"{error} For the chain between two frames, name both.",)
+        raise
     if for_programs:
         style = Style.JSON
     elif as_tf2:

@@ -1,0 +1,107 @@
+import json
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+import yaml
+
+ROOT = Path(__file__).parents[2]
+
+
+def test_the_tree_of_a_scenario_is_the_same_each_time(tftool):
+    result = tftool("tree", "turtles")
+
+    assert result.status == 0
+    assert result.err == ""
+    lines = result.out.split("\n")
+    assert lines[0] == "Recorded at time: 1005.000000"
+    assert lines[3] == "world"
+    assert lines[4].split() == [
+        "├──", "turtle1", "dynamic", "broadcaster1", "62.700", "Hz", "4.992", "s",
+        "1000.000000", "1004.992000", "0.008", "s",
+    ]  # fmt: skip
+    assert tftool("tree", "turtles").out == result.out
+
+
+def test_without_a_source_it_shows_the_hosted_turtles(tftool):
+    result = tftool("tree")
+
+    assert result.err == "No session is running here: hosting scenario 'turtles'.\n"
+    assert "turtle2" in result.out
+
+
+def test_the_moment_can_be_chosen(tftool):
+    result = tftool("tree", "turtles", "--at", "0.5")
+
+    assert "turtle2" not in result.out
+    assert result.out.startswith("Recorded at time: 1000.500000\n")
+
+
+def test_several_trees_are_all_shown(tftool):
+    assert "2 separate trees:" in tftool("tree", "two_trees", "--at", "1").out
+
+
+@pytest.mark.parametrize("way", ["format", "suffix"])
+@pytest.mark.parametrize(
+    ("form", "suffix", "opening"),
+    [
+        ("tree", "txt", b"Recorded at time"),
+        ("json", "json", b"{"),
+        ("yaml", "yml", b"turtle1:\n"),
+        ("dot", "gv", b"digraph G {"),
+        ("mermaid", "mmd", b""),
+        ("svg", "svg", b"<"),
+        ("pdf", "pdf", b"%PDF"),
+    ],
+)
+def test_a_file_gets_what_its_suffix_or_the_format_says(
+    tftool, tmp_path, way, form, suffix, opening
+):
+    file = tmp_path / (f"frames.{suffix}" if way == "suffix" else "frames")
+    words = ["-o", file] if way == "suffix" else ["-o", file, "--format", form]
+
+    result = tftool("tree", "turtles", *words)
+
+    assert (result.status, result.out) == (0, "")
+    content = file.read_bytes()
+    assert content.startswith(opening)
+    assert b"turtle1" in content or form == "pdf"
+
+
+def test_data_for_programs_is_what_it_says_it_is(tftool):
+    frames = json.loads(tftool("tree", "turtles", "--format", "json").out)["frames"]
+    links = yaml.safe_load(tftool("tree", "turtles", "--format", "yaml").out)
+
+    assert {frame["frame"] for frame in frames} == {"world", "turtle1", "turtle2"}
+    assert links["turtle2"]["parent"] == "world"
+
+
+def test_a_pdf_goes_down_a_pipe_as_bytes():
+    done = subprocess.run(
+        [sys.executable, "-m", "tftool", "tree", "turtles", "--format", "pdf", "-o", "-"],
+        cwd=ROOT,
+        capture_output=True,
+        check=True,
+    )
+
+    assert done.stdout.startswith(b"%PDF")
+
+
+@pytest.mark.parametrize(
+    ("words", "status", "sentence"),
+    [
+        (["-o", "frames.png"], 2, "'frames.png' does not say what to write"),
+        (["-o", "/nowhere/frames.svg"], 3, "'/nowhere/frames.svg' cannot be written: No such"),
+        (["--watch"], 2, "--watch needs a terminal"),
+        (["--watch", "--format", "json"], 2, "leave out --format"),
+        (["--at", "1e9"], 2, "is after its end"),
+        (["nosuch"], 3, "no scenario is named 'nosuch'"),
+    ],
+)
+def test_what_cannot_be_shown_says_why(tftool, words, status, sentence):
+    result = tftool("tree", *words)
+
+    assert result.status == status
+    assert sentence in result.err
+    assert result.out == ""
