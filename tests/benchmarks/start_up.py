@@ -11,13 +11,14 @@ ROUNDS = 21
 
 BARE = [sys.executable, "-c", "pass"]
 TFTOOL = [sys.executable, "-m", "tftool"]
+EXAMPLE = ["0", "0", "3", "0", "0", "3.14", "A", "B"]
 
 # What is run, and the milliseconds it may take beyond the bare start.
 COMMANDS = {
     "tftool --help": ([*TFTOOL, "--help"], 60.0),
     "tftool echo --help": ([*TFTOOL, "echo", "--help"], 60.0),
     "tftool static --once": (
-        [*TFTOOL, "static", "--once", *["0", "0", "3", "0", "0", "3.14", "A", "B"]],
+        [*TFTOOL, "static", "--once", *EXAMPLE],
         250.0,
     ),
     "tftool echo --once": ([*TFTOOL, "echo", "turtle2", "turtle1", "--once"], 250.0),
