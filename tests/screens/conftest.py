@@ -1,0 +1,91 @@
+import pytest
+
+from tftool.geometry.rigid import Transform
+from tftool.nodes.broadcasters import Broadcaster
+from tftool.nodes.follower import Follower
+from tftool.nodes.teleop import Teleop
+from tftool.nodes.turtlesim import Turtlesim
+from tftool.runtime.clock import Phase, SimClock, run
+from tftool.runtime.node import Node
+from tftool.runtime.supervisor import live
+from tftool.runtime.world import World
+from tftool.screens.scene import Scene
+from tftool.stamps import seconds
+
+
+class Looker(Node):
+    """Looks as often as a screen does, on simulated time."""
+
+    phase = Phase.WATCH
+
+    def __init__(self, world, scene):
+        super().__init__(world, "looker")
+        self.scene = scene
+
+    async def run(self):
+        self.scene.look()
+        async for _ in self.every(seconds(0.05)):
+            self.scene.look()
+
+
+class Driver(Node):
+    """Presses teleop's keys at their seconds."""
+
+    def __init__(self, world, teleop, presses):
+        super().__init__(world, "driver")
+        self.teleop, self.presses = teleop, presses
+
+    async def run(self):
+        start = self.clock.now()
+        for second, key in self.presses:
+            await self.clock.sleep_until(start + seconds(second))
+            self.teleop.press(key)
+
+
+DANCE = tuple((4.0 + 0.5 * n, "left" if n % 3 == 2 else "up") for n in range(20))
+
+
+@pytest.fixture(scope="session")
+def turtles():
+    """Make the turtles' world as it is after some seconds: its scene, looked at all along."""
+
+    def make(lasting=14.0, presses=DANCE, *, followed=True, extra=lambda world: None):
+        world = World(SimClock())
+        simulator = Turtlesim(world)
+        Broadcaster(world, "broadcaster1", turtle="turtle1")
+        if followed:
+            Broadcaster(world, "broadcaster2", turtle="turtle2")
+            Follower(world, "follower")
+        teleop = Teleop(world)
+        Driver(world, teleop, presses)
+        scene = Scene(world, simulator)
+        Looker(world, scene)
+        extra(world)
+        run(world.clock, live(world, until=world.clock.now() + seconds(lasting)))
+        return scene
+
+    return make
+
+
+@pytest.fixture(scope="session")
+def danced(turtles):
+    """The turtles after 14 s; whoever uses it only looks."""
+    return turtles()
+
+
+@pytest.fixture
+def frames():
+    """Make a world with nothing but frames: name -> (parent, x, y), all static."""
+
+    def make(links):
+        from tftool.frames.sample import TransformStamped
+
+        world = World(SimClock())
+        for name, (parent, x, y) in links.items():
+            pose = Transform((x, y, 0.0))
+            world.broadcast(
+                [TransformStamped(seconds(1000), parent, name, pose)], "me", static=True
+            )
+        return Scene(world)
+
+    return make

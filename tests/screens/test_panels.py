@@ -1,0 +1,330 @@
+import math
+
+import pytest
+from rich.cells import cell_len
+
+from tftool.frames.sample import FrameInfo, Snapshot, TransformStamped
+from tftool.geometry.rigid import Transform
+from tftool.runtime.log import LogRecord
+from tftool.screens import panels
+from tftool.screens.panels import Hint, Journal, Look
+from tftool.screens.scene import Moment, Pair
+from tftool.stamps import seconds
+from tftool.views import theme
+from tftool.views.canvas import Picture
+
+NASTY = ["[bold]x[/]", "\x1b[31mred", "a\nb", "x" * 500, "שלום", "🐢🐢", "\u202eevil"]
+PLAIN = Look()
+ASCII = Look(ascii_only=True)
+
+
+def info(frame, parent, *, static=False, samples=627, rate=62.6, root="world", authority="b1"):
+    return FrameInfo(
+        frame=frame,
+        parent=parent,
+        is_static=static,
+        authority=None if parent is None else authority,
+        samples=samples,
+        rate=10000.0 if static else rate,
+        oldest=0,
+        newest=0,
+        buffer_length=0,
+        age=0,
+        transform=Transform(),
+        root=root,
+        root_from_frame=Transform(),
+    )
+
+
+def moment(*frames, ages=None, pair=None, behind=0):
+    snapshot = Snapshot(seconds(1010), 0, frames)
+    return Moment(
+        stamp=seconds(1010),
+        behind=behind,
+        elapsed=seconds(10),
+        snapshot=snapshot,
+        ages=ages or {},
+        picture=Picture(),
+        pair=pair or Pair("turtle2", "turtle1"),
+    )
+
+
+WORLD = info("world", None)
+TREE = moment(
+    WORLD,
+    info("turtle1", "world"),
+    info("carrot1", "turtle1", static=True, authority="carrot"),
+    info("turtle2", "world"),
+)
+
+
+def tree(shown, cursor="turtle1", width=34, height=9, look=PLAIN):
+    listed = panels.rows(shown.snapshot, ascii_only=look.ascii_only)
+    return panels.tree(shown, listed, cursor, width, height, look)
+
+
+def words(lines):
+    return [line.plain.rstrip() for line in lines]
+
+
+def test_the_tree_shows_every_link_with_its_rate_and_age():
+    assert words(tree(TREE)) == [
+        "  frame            Hz          age",
+        "  world",
+        "▸ ├turtle1       62.6        0.0 s",
+        "  │└carrot1                 static",
+        " ◎└turtle2       62.6        0.0 s",
+    ]
+    assert words(tree(TREE, width=36))[3] == "  │  └─ carrot1               static"
+
+
+def test_the_tree_in_plain_characters():
+    assert words(tree(TREE, look=ASCII, width=24)) == [
+        "  frame        Hz    age",
+        "  world",
+        "> |turtle1   62.6  0.0 s",
+        "  |`carrot1       static",
+        " *`turtle2   62.6  0.0 s",
+    ]
+
+
+def test_with_room_the_tree_says_who_sends():
+    lines = words(tree(TREE, width=70))
+
+    assert lines[0].endswith("age  from")
+    assert lines[3].endswith("static  carrot")
+
+
+def test_several_trees_stand_one_under_the_other():
+    shown = moment(WORLD, info("a", "world"), info("map", None, root="map"), info("b", "map"))
+
+    assert [row.info.frame for row in panels.rows(shown.snapshot)] == ["world", "a", "map", "b"]
+
+
+def test_frames_in_a_loop_are_listed_too():
+    shown = moment(info("a", "b", root=None), info("b", "a", root=None))
+
+    assert words(tree(shown, width=30))[1:] == [
+        "  a                  in a loop",
+        "  b                  in a loop",
+    ]
+
+
+def test_a_chain_as_deep_as_can_be_is_listed():
+    frames = [WORLD, *(info(f"f{n}", f"f{n - 1}" if n else "world") for n in range(5000))]
+
+    shown = moment(*frames)
+
+    assert len(panels.rows(shown.snapshot)) == 5001
+    assert all(cell_len(line.plain) <= 34 for line in tree(shown, "f4999"))
+
+
+@pytest.mark.parametrize("cursor", ["f0", "f50", "f99", "nobody"])
+def test_the_cursor_stays_in_view(cursor):
+    shown = moment(WORLD, *(info(f"f{n}", "world") for n in range(100)))
+
+    lines = words(tree(shown, cursor, height=8))
+
+    assert len(lines) == 8
+    assert any(line.startswith("▸") for line in lines) is (cursor != "nobody")
+
+
+@pytest.mark.parametrize(
+    ("age", "shown"),
+    [(0.0, "0.0 s"), (6.0, "stale 6.0 s"), (15.5, "dead 15.5 s"), (5000.0, "dead 5000 s")],
+)
+def test_an_old_link_says_so(age, shown):
+    lines = tree(moment(WORLD, info("a", "world"), ages={"a": age}))
+
+    assert words(lines)[2].endswith(" " + shown)
+
+
+def test_an_old_link_fades():
+    def ink(age):
+        lines = tree(moment(WORLD, info("a", "world"), ages={"a": age}))
+        return lines[2].spans[-1].style.color.triplet.hex
+
+    assert ink(0.0) == theme.hexadecimal(theme.DARK.text)
+    assert ink(10.0) == "#b2b2b2"
+    assert len({ink(age) for age in (0.0, 7.0, 10.0, 13.0, 16.0)}) == 5
+
+
+def test_a_rate_of_one_sample_is_none():
+    lines = words(tree(moment(WORLD, info("a", "world", samples=1, rate=10000.0))))
+
+    assert "–" in lines[2]
+
+
+def test_without_frames_there_is_a_sentence():
+    assert words(tree(moment())) == ["No frames yet."]
+
+
+@pytest.mark.parametrize("name", NASTY)
+@pytest.mark.parametrize("width", [1, 12, 24, 60])
+def test_no_name_breaks_a_panel(name, width):
+    found = TransformStamped(1, name, name, Transform((1.0, 2.0, 3.0)))
+    shown = moment(
+        WORLD,
+        info(name, "world", authority=name),
+        pair=Pair(name, name, found),
+    )
+    journal = Journal([LogRecord(seconds(1001), "WARN", name, name)])
+
+    lines = [
+        *(tree(shown, name, width=width) if width > 20 else []),
+        *panels.pair(shown, width, 20, PLAIN),
+        *(journal.lines(seconds(1010), 0, width, 5, PLAIN) if width > 20 else []),
+        panels.header(name, shown, 1.0, width, PLAIN) if width > 24 else None,
+    ]
+
+    for line in filter(None, lines):
+        assert line.plain.isprintable()
+        assert "\n" not in line.plain
+        assert cell_len(line.plain) <= max(width, 6)
+
+
+def found(x=3.0, y=4.0, yaw=0.0, stamp=seconds(1009.5)):
+    pose = Transform((x, y, 0.0), (0.0, 0.0, math.sin(yaw / 2), math.cos(yaw / 2)))
+    return TransformStamped(stamp, "turtle2", "turtle1", pose)
+
+
+def echo(sample, width=40, height=6, look=PLAIN):
+    return words(panels.pair(moment(pair=Pair("turtle2", "turtle1", sample)), width, height, look))
+
+
+def test_a_pair_is_told_in_numbers_and_words():
+    assert echo(found(yaw=math.pi / 2)) == [
+        "turtle1 in turtle2",
+        "xyz  3.000 4.000 0.000",
+        "quat 0.000 0.000 0.707 0.707",
+        "rpy  0.0° 0.0° 90.0°",
+        "away 5.000 m, 53.1° left",
+        "time 1009.500",
+    ]
+
+
+def test_a_pair_in_a_narrow_panel_is_told_shorter():
+    assert echo(found(-3.0, -4.0), width=24, look=ASCII) == [
+        "turtle1 in turtle2",
+        "xyz -3.00 -4.00 0.00",
+        "q 0.00 0.00 0.00 1.00",
+        "rpy 0.0d 0.0d 0.0d",
+        "5.000 m, 126.9d right",
+        "t 1009.500",
+    ]
+
+
+def test_with_room_a_pair_is_told_as_tf2_echo_does():
+    lines = echo(found(), width=62, height=12)
+
+    assert lines[0] == "turtle1 in turtle2"
+    assert lines[1] == "At time 1009.500000000"
+    assert lines[2] == "- Translation: [3.000, 4.000, 0.000]"
+    assert lines[-1] == "- Away: 5.000 m, 53.1° left"
+    assert len(lines) <= 12
+
+
+@pytest.mark.parametrize(
+    ("x", "y", "said"),
+    [(2.0, 0.0, "2.000 m, ahead"), (0.0, -2.0, "2.000 m, 90.0° right"), (0.0, 0.0, "0.000 m")],
+)
+def test_where_the_source_is_in_words(x, y, said):
+    assert f"away {said}" in echo(found(x, y, stamp=0))
+    assert not any(line.startswith("time") for line in echo(found(x, y, stamp=0)))
+
+
+def test_nothing_is_never_less_than_nothing():
+    assert "xyz  0.000 0.000 0.000" in echo(found(-0.0001, -0.0))
+
+
+def test_a_refusal_is_told_in_full():
+    pair = Pair("turtle2", "turtle1", refusal='"turtle2" passed to lookupTransform does not exist.')
+
+    lines = words(panels.pair(moment(pair=pair), 24, 8, PLAIN))
+
+    assert " ".join(lines[1:]) == pair.refusal
+    assert len(lines) > 2
+
+
+def record(second, text, level="INFO", node="sim"):
+    return LogRecord(seconds(1000 + second), level, node, text)
+
+
+def log(journal, until=60, width=40, height=5, look=PLAIN, back=0):
+    return words(
+        journal.lines(seconds(1000 + until), seconds(1000), width, height, look, back=back)
+    )
+
+
+def test_the_log_shows_the_newest_lines_with_their_time():
+    journal = Journal([record(n, f"line {n}") for n in range(10)])
+
+    assert log(journal, height=2) == ["   8.0 sim: line 8", "   9.0 sim: line 9"]
+    assert log(journal, height=2, back=3) == ["   5.0 sim: line 5", "   6.0 sim: line 6"]
+    assert log(journal, height=2, back=99) == ["   0.0 sim: line 0", "   1.0 sim: line 1"]
+
+
+def test_a_warning_that_repeats_is_one_line_with_a_count():
+    journal = Journal(
+        record(n, f"Oh no! I hit the wall! (Clamping from [x={n}.5])", "WARN") for n in range(63)
+    )
+
+    lines = log(journal, until=99, width=70)
+
+    assert lines == ["  62.0 sim: Oh no! I hit the wall! (Clamping from [x=62.5]) ×63"]
+    assert log(journal, until=99, width=60, look=ASCII)[0].endswith("x63")
+
+
+def test_two_turtles_that_spawn_are_two_lines():
+    journal = Journal(
+        [record(0, "Spawning turtle [turtle1]"), record(1, "Spawning turtle [turtle2]")]
+    )
+
+    assert len(log(journal)) == 2
+
+
+def test_the_log_of_an_earlier_moment_ends_there():
+    journal = Journal([record(1, "early"), record(5, "late")])
+
+    assert log(journal, until=3) == ["   1.0 sim: early"]
+    assert log(journal, until=0) == ["Nothing was said yet."]
+
+
+def test_a_long_line_is_broken_at_blanks_and_cut_after_three():
+    journal = Journal([record(0, "word " * 60)])
+
+    assert log(journal, width=30, height=9) == [
+        "0.0 sim: word word word word",
+        "  word word word word word",
+        "  word word word word word",
+    ]
+
+
+def header(width=40, rate=1.0, behind=0, look=PLAIN):
+    return panels.header("tftool demo", moment(behind=behind), rate, width, look).plain
+
+
+def test_the_top_line_says_what_time_it_is():
+    assert header() == " tftool demo             10.0 s  ● live "
+    assert header(rate=2.0).endswith("10.0 s  ● live ×2 ")
+    assert header(behind=seconds(2.5)).endswith("10.0 s  ◀◀ 2.5 s ago ")
+    assert header(rate=math.inf, look=ASCII).endswith("10.0 s  * live ")
+
+
+def test_the_key_help_shows_what_fits_and_always_how_to_quit():
+    hints = [Hint("a", "one"), Hint("b", "very very long"), Hint("c", "two"), Hint("q", "quit")]
+
+    assert panels.footer(hints, 80, PLAIN).plain == " a one  b very very long  c two  q quit"
+    assert panels.footer(hints, 24, PLAIN).plain == " a one  c two  q quit"
+    assert panels.footer(hints, 5, PLAIN).plain == " q quit"
+
+
+def test_names_are_darker_on_a_light_panel():
+    light = Look(theme.LIGHT).of_name("turtle1")
+
+    assert light.g < PLAIN.of_name("turtle1").g
+
+
+def test_a_word_wider_than_the_panel_is_cut_into_pieces():
+    assert words(panels.wrapped("ab🐢🐢cd", 3)) == ["ab", "🐢", "🐢c", "d"]
+    assert words(panels.wrapped("🐢", 1)) == ["🐢", ""]

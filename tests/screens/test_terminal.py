@@ -1,0 +1,476 @@
+import asyncio
+
+import pytest
+from rich.cells import cell_len
+
+from tftool.errors import NodeFailed, TftoolError, UsageError
+from tftool.frames.sample import TransformStamped
+from tftool.geometry.rigid import Transform
+from tftool.runtime.clock import WallClock, run
+from tftool.runtime.node import Node
+from tftool.runtime.supervisor import live
+from tftool.runtime.world import World
+from tftool.screens.scene import Scene
+from tftool.screens.terminal import Panel, Setting, TurtleApp, setting_from, show
+from tftool.stamps import seconds
+from tftool.views import theme
+
+BANNER = ("Reading from keyboard", "'q' to quit.")
+
+
+def screen(app):
+    """What is on the screen, line by line."""
+    return [strip.text for strip in app.screen._compositor.render_strips(app.size)]
+
+
+def visit(scene, size, steps, press=None, **setting):
+    """Show a scene on a screen of some size, and let `steps` press keys on it."""
+    app = TurtleApp(scene, press, Setting(title="tftool demo turtles", **setting))
+
+    async def main():
+        async with app.run_test(size=size) as pilot:
+            await settled(pilot)
+            await steps(app, pilot)
+
+    asyncio.run(main())
+    if app.failure is not None:
+        raise app.failure
+    return app
+
+
+async def settled(pilot):
+    await pilot.pause()
+    pilot.app.redraw()
+    await pilot.pause()
+
+
+def shown(scene, size=(100, 30), keys=(), press=None, **setting):
+    """The screen after some keys."""
+    lines = []
+
+    async def steps(app, pilot):
+        await pilot.press(*keys)
+        await settled(pilot)
+        lines.extend(screen(app))
+
+    visit(scene, size, steps, press, **setting)
+    return lines
+
+
+@pytest.mark.parametrize(
+    "size", [(60, 20), (80, 24), (100, 30), (120, 30), (200, 60), (90, 60), (60, 60), (300, 80)]
+)
+def test_everything_is_on_the_screen_at_any_usual_size(danced, size):
+    lines = shown(danced, size)
+
+    text = "\n".join(lines)
+    for there in ("Field", "Tree", "Echo", "Log", "live", "turtle1 in turtle2", "62.6", "q quit"):
+        assert there in text
+    assert [cell_len(line) for line in lines] == [size[0]] * size[1]
+
+
+@pytest.mark.parametrize("size", [(30, 10), (45, 15), (55, 50)])
+def test_with_little_room_there_is_the_field_alone(danced, size):
+    text = "\n".join(shown(danced, size))
+
+    assert "Field" in text
+    assert "turt" in text
+    assert "Tree" not in text
+
+
+@pytest.mark.parametrize("size", [(20, 5), (29, 40), (200, 9)])
+def test_with_no_room_there_is_one_sentence(danced, size):
+    words = " ".join(" ".join(shown(danced, size)).split())
+
+    assert words == f"This terminal is {size[0]}x{size[1]}; tftool needs 30x10 or more."
+
+
+@pytest.mark.parametrize("size", [(1, 1), (2, 1), (3, 2)])
+def test_no_terminal_is_too_small_to_say_so_without_breaking(danced, size):
+    assert len(shown(danced, size)) == size[1]
+
+
+def test_a_resized_terminal_is_filled_again(danced):
+    async def steps(app, pilot):
+        for size in ((20, 5), (60, 20), (200, 60)):
+            await pilot.resize_terminal(*size)
+            await settled(pilot)
+        assert "Echo" in "\n".join(screen(app))
+        assert [cell_len(line) for line in screen(app)] == [200] * 60
+
+    visit(danced, (100, 30), steps)
+
+
+def test_keys_drive_as_in_teleop(danced):
+    pressed = []
+
+    shown(
+        danced,
+        keys=("up", "down", "left", "right", *"gtredcvbf", *"GTREDCVBF"),
+        press=pressed.append,
+    )
+
+    assert pressed == ["up", "down", "left", "right", *"gtredcvbf", *"gtredcvbf"]
+
+
+def test_where_nothing_can_be_driven_keys_do_nothing(danced):
+    assert "drive" not in "\n".join(shown(danced, keys=("up", "g")))
+
+
+def test_a_key_that_is_refused_is_told_in_the_log(turtles):
+    def refuse(key):
+        raise UsageError(f"no {key} today")
+
+    assert "screen: no up today" in "\n".join(shown(turtles(2.0, ()), keys=("up",), press=refuse))
+
+
+def test_the_echo_says_what_a_lookup_says(danced):
+    x, y, z = danced.world.buffer.lookup_transform("turtle2", "turtle1").transform.translation
+
+    assert f"xyz  {x:.3f} {y:.3f} {z:.3f}" in "\n".join(shown(danced))
+
+
+def test_tab_picks_the_panel(danced):
+    async def steps(app, pilot):
+        order = [app.focused.id]
+        for _ in range(4):
+            await pilot.press("tab")
+            order.append(app.focused.id)
+        await pilot.press("shift+tab")
+        assert order == ["field", "tree", "pair", "log", "field"]
+        assert app.focused.id == "log"
+
+    visit(danced, (100, 30), steps)
+
+
+def test_a_pair_is_picked_by_moving_through_the_tree(danced):
+    pressed = []
+
+    up = "\n".join(shown(danced, keys=("tab", "up"), press=pressed.append))
+    down = "\n".join(shown(danced, keys=("tab", "down"), press=pressed.append))
+    measured = "\n".join(shown(danced, keys=("tab", "up", "enter", "down"), press=pressed.append))
+
+    assert "world in turtle2" in up
+    assert "turtle2 in turtle2" in down
+    assert "turtle1 in world" in measured
+    assert pressed == []
+
+
+def test_letters_move_through_the_tree_while_arrows_drive(danced):
+    pressed = []
+
+    text = "\n".join(shown(danced, keys=("k", "k", "k", "up"), press=pressed.append))
+
+    assert "world in turtle2" in text
+    assert pressed == ["up"]
+
+
+def test_x_asks_the_other_way_round(danced):
+    assert "turtle2 in turtle1" in "\n".join(shown(danced, keys=("x",)))
+
+
+def test_left_and_right_do_nothing_in_the_tree(danced):
+    pressed = []
+
+    shown(danced, keys=("tab", "left", "right"), press=pressed.append)
+
+    assert pressed == []
+
+
+def test_the_log_scrolls_with_the_arrows(danced):
+    newest = shown(danced, (80, 24), keys=("tab", "tab", "tab"))
+    older = shown(danced, (80, 24), keys=("tab", "tab", "tab", "up", "up"))
+    back = shown(danced, (80, 24), keys=("tab", "tab", "tab", "up", "up", "down", "down"))
+
+    assert "Successfully" in "\n".join(newest)
+    assert "Successfully" not in "\n".join(older)
+    assert back == newest
+
+
+def test_time_travel_shows_everything_at_that_moment(danced):
+    at = danced.world.clock.now() - seconds(2.2)
+    found = danced.world.buffer.lookup_transform("turtle2", "turtle1", at)
+    x, y, z = found.transform.translation
+
+    text = "\n".join(shown(danced, keys=("{", "{", "[", "[")))
+
+    assert "11.8 s  ◀◀ 2.2 s ago" in text
+    assert f"xyz  {x:.3f} {y:.3f} {z:.3f}" in text
+    assert "time 1011.800" in text
+    assert "l live" in text
+
+
+def test_one_comes_back_from_the_past(danced):
+    live_screen = shown(danced)
+
+    assert shown(danced, keys=("[", "[", "]", "]")) == live_screen
+    assert shown(danced, keys=("{", "l")) == live_screen
+    assert shown(danced, keys=("]", "}")) == live_screen
+    assert shown(danced, keys=("[",)) != live_screen
+
+
+def test_one_cannot_go_further_back_than_the_buffer(danced):
+    text = "\n".join(shown(danced, keys=("{",) * 20))
+
+    assert "10.0 s ago" in text
+
+
+def test_in_the_past_another_pair_can_be_picked(danced):
+    at = danced.world.clock.now() - seconds(1)
+    x, y, z = danced.world.buffer.lookup_transform("turtle1", "turtle2", at).transform.translation
+
+    text = "\n".join(shown(danced, keys=("{", "x")))
+
+    assert "turtle2 in turtle1" in text
+    assert f"xyz  {x:.3f} {y:.3f} {z:.3f}" in text
+
+
+def test_the_key_help_comes_and_goes(danced):
+    plain = shown(danced)
+
+    assert "swap the two frames" in "\n".join(shown(danced, keys=("?",)))
+    assert shown(danced, keys=("?", "?")) == plain
+    assert shown(danced, keys=("?", "escape")) == plain
+
+
+def test_light_and_dark_change_places(danced):
+    grounds = []
+
+    async def steps(app, pilot):
+        for _ in range(3):
+            strips = app.screen._compositor.render_strips(app.size)
+            grounds.append(next(s.style.bgcolor.triplet.hex for s in strips[0]))
+            await pilot.press("m")
+            await settled(pilot)
+
+    visit(danced, (80, 24), steps)
+
+    dark, light = (theme.hexadecimal(one.ground) for one in (theme.DARK, theme.LIGHT))
+    assert grounds == [dark, light, dark]
+
+
+def test_in_plain_characters_the_whole_screen_is(danced):
+    for keys in ((), ("?",), ("tab",), ("{",)):
+        assert "\n".join(shown(danced, keys=keys, ascii_only=True)).isascii()
+
+
+def test_without_colours_the_field_has_a_frame(danced):
+    text = "\n".join(shown(danced, colors=False))
+
+    assert "┌────" in text
+    assert any(f"▐{arrow}▌" in text for arrow in "→↗↑↖←↙↓↘")
+
+
+def test_for_teleop_there_is_the_banner_and_the_field(danced):
+    text = "\n".join(shown(danced, drive_only=True, banner=BANNER))
+
+    assert "Reading from keyboard" in text
+    assert "'q' to quit." in text
+    assert "Log" in text
+    assert "Tree" not in text
+    assert "Reading" not in "\n".join(shown(danced, (60, 20), drive_only=True, banner=BANNER))
+
+
+@pytest.mark.parametrize("size", [(60, 20), (200, 60)])
+def test_no_name_breaks_the_screen(frames, size):
+    names = ["[bold]x[/]", "\x1b[31mred", "a\nb", "x" * 500, "שלום", "🐢🐢", "\u202eevil", "[/", ""]
+    links = {name: ("map", 1.0, 2.0) for name in names if name}
+    scene = frames({**links, "b\x07": ("x" * 500, 1.0, 0.0)})
+
+    async def steps(app, pilot):
+        for key in ("tab", *["up"] * 10, "enter", "down", "x", "tab", "tab"):
+            await pilot.press(key)
+            await settled(pilot)
+            lines = screen(app)
+            assert all(line.isprintable() for line in lines)
+            assert [cell_len(line) for line in lines] == [size[0]] * size[1]
+
+    visit(scene, size, steps)
+
+
+def test_a_world_without_turtles_shows_its_frames_and_a_pair_of_them(frames):
+    scene = frames({"base": ("map", 1.0, 2.0), "laser": ("base", 0.5, 0.0)})
+
+    text = "\n".join(shown(scene))
+
+    assert "laser in map" in text
+    assert "◆" in text
+
+
+def test_an_empty_world_says_so(frames):
+    text = "\n".join(shown(frames({})))
+
+    assert "No frames yet." in text
+    assert "Nothing was said yet." in text
+
+
+def test_five_thousand_frames_are_shown(frames):
+    scene = frames({f"f{n}": (f"f{n // 3}", 0.1, 1.0) for n in range(1, 5000)})
+
+    assert "f4999 in f0" in "\n".join(shown(scene))
+
+
+def test_nothing_is_painted_while_nothing_changes(danced, monkeypatch):
+    painted = []
+    refresh = Panel.refresh
+
+    def noting(self, *regions, **how):
+        if regions:
+            painted.append((self.id, regions))
+        return refresh(self, *regions, **how)
+
+    async def steps(app, pilot):
+        monkeypatch.setattr(Panel, "refresh", noting)
+        for _ in range(6):
+            app._tick()
+        app.redraw()
+
+    visit(danced, (100, 30), steps)
+
+    assert painted == []
+
+
+def test_only_lines_that_changed_are_painted(turtles, monkeypatch):
+    scene = turtles(2.0, ())
+    painted = []
+
+    async def steps(app, pilot):
+        monkeypatch.setattr(
+            Panel, "refresh", lambda self, *regions, **how: painted.extend(r.y for r in regions)
+        )
+        app.panel("field").show([*app.panel("field")._strips[:3]])
+
+    visit(scene, (100, 30), steps)
+
+    assert painted == list(range(3, 26))
+
+
+def test_q_ends_it(danced):
+    async def steps(app, pilot):
+        await pilot.press("q")
+        await pilot.pause()
+
+    app = visit(danced, (80, 24), steps)
+
+    assert app.return_code == 0
+    assert not app.interrupted
+
+
+class Waiting(Node):
+    """Lives for ever."""
+
+    async def run(self):
+        await self.clock.sleep(seconds(1e6))
+
+
+class Failing(Node):
+    """Fails at once."""
+
+    async def run(self):
+        await self.clock.sleep(1)
+        raise ValueError("out of paint")
+
+
+def live_app(kind, **how):
+    world = World(WallClock())
+    kind(world, "painter")
+    return TurtleApp(Scene(world), **how), world
+
+
+def test_a_node_that_fails_ends_the_screen_and_is_named():
+    app, world = live_app(Failing)
+
+    with pytest.raises(NodeFailed, match="node 'painter' failed: ValueError: out of paint"):
+        run(world.clock, show(app, live(world), headless=True))
+
+    assert not app.is_running
+
+
+def test_a_screen_that_fails_says_so_in_a_sentence(monkeypatch):
+    app, world = live_app(Waiting)
+    monkeypatch.setattr(app.scene, "moment", lambda *_: 1 / 0)
+
+    with pytest.raises(TftoolError, match="the screen failed: ZeroDivisionError: division by zero"):
+        run(world.clock, show(app, live(world), headless=True))
+
+
+@pytest.mark.parametrize(("action", "interrupted"), [("leave", False), ("interrupt", True)])
+def test_leaving_ends_the_world_too(action, interrupted):
+    app, world = live_app(Waiting)
+    ended = []
+
+    async def life():
+        try:
+            await live(world)
+        finally:
+            ended.append(True)
+
+    async def main():
+        showing = asyncio.ensure_future(show(app, life(), headless=True))
+        while not app.is_running:
+            await world.clock.sleep(seconds(0.01))
+        getattr(app, f"action_{action}")()
+        await showing
+
+    if interrupted:
+        with pytest.raises(KeyboardInterrupt):
+            run(world.clock, main())
+    else:
+        run(world.clock, main())
+
+    assert ended == [True]
+
+
+def test_a_world_that_ends_ends_the_screen():
+    app, world = live_app(Waiting)
+
+    run(world.clock, show(app, live(world, until=world.clock.now() + seconds(0.05)), headless=True))
+
+    assert not app.is_running
+
+
+def test_a_cancelled_screen_ends_both():
+    app, world = live_app(Waiting)
+
+    async def main():
+        showing = asyncio.ensure_future(show(app, live(world), headless=True))
+        while not app.is_running:
+            await world.clock.sleep(seconds(0.01))
+        showing.cancel()
+        with pytest.raises(asyncio.CancelledError):
+            await showing
+
+    run(world.clock, main())
+
+    assert not app.is_running
+
+
+def test_frames_that_come_later_get_a_line_of_the_tree(frames):
+    scene = frames({"a": ("map", 1.0, 1.0)})
+
+    async def steps(app, pilot):
+        before = app.panel("tree").size.height
+        for name in "bcdef":
+            link = TransformStamped(seconds(1000), "map", name, Transform())
+            scene.world.broadcast([link], "me", static=True)
+        app.redraw()
+        await settled(pilot)
+        assert app.panel("tree").size.height == before + 5
+
+    visit(scene, (100, 40), steps)
+
+
+@pytest.mark.parametrize(
+    ("environment", "encoding", "expected"),
+    [
+        ({"TERM": "xterm-256color"}, "utf-8", Setting()),
+        ({"TERM": "linux"}, "utf-8", Setting(ascii_only=True)),
+        ({"TERM": "xterm"}, "iso-8859-1", Setting(ascii_only=True)),
+        ({"LC_ALL": "C"}, "UTF-8", Setting(ascii_only=True)),
+        ({"NO_COLOR": "1"}, "UTF8", Setting(colors=False)),
+        ({"NO_COLOR": ""}, "UTF8", Setting()),
+        ({"COLORFGBG": "0;15"}, "utf-8", Setting(light=True)),
+    ],
+)
+def test_the_terminal_is_asked_what_it_can_show(environment, encoding, expected):
+    assert setting_from(environment, encoding, Setting()) == expected

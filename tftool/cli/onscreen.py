@@ -1,0 +1,83 @@
+"""What `demo` and `teleop` share: is there a terminal, and the app on it."""
+
+import os
+import sys
+from collections.abc import Coroutine
+from typing import TYPE_CHECKING, Annotated, Any
+
+import typer
+
+from tftool.runtime.clock import run
+from tftool.runtime.world import World
+
+if TYPE_CHECKING:
+    from tftool.nodes.teleop import Teleop
+    from tftool.nodes.turtlesim import Turtlesim
+    from tftool.screens.terminal import Setting
+
+Ascii = Annotated[
+    bool, typer.Option("--ascii", help="Draw with plain characters, for fonts that have no others.")
+]
+Light = Annotated[
+    bool, typer.Option("--light", help="For a terminal with a light ground; m changes it.")
+]
+
+
+def has_terminal() -> bool:
+    """Whether somebody can see a full-screen app and press keys in it."""
+    if os.environ.get("TERM") == "dumb":
+        return False
+    # textual draws on stderr, so that one counts too.
+    return all(
+        stream is not None and stream.isatty() for stream in (sys.stdin, sys.stdout, sys.stderr)
+    )
+
+
+def simulator_of(world: World) -> "Turtlesim | None":
+    """The turtle simulator of a world, where it has one."""
+    from tftool.nodes.turtlesim import Turtlesim
+
+    return next((node for node in world.nodes if isinstance(node, Turtlesim)), None)
+
+
+def driver_of(world: World, turtle: str) -> "Teleop":
+    """The node that takes keys for `turtle`; it is added where there is none.
+
+    Raises:
+        UsageError: If that cannot be a turtle's name.
+    """
+    from tftool.nodes.teleop import Teleop
+
+    for node in world.nodes:
+        if isinstance(node, Teleop) and node.turtle == turtle:
+            return node
+    names = {node.name for node in world.nodes}
+    name = "teleop_turtle" if "teleop_turtle" not in names else f"teleop_{turtle}"
+    return Teleop(world, name, turtle=turtle)
+
+
+def run_app(
+    world: World,
+    life: Coroutine[Any, Any, None],
+    driver: "Teleop | None",
+    setting: "Setting",
+) -> None:
+    """Show a world on the terminal while it lives.
+
+    Args:
+        world: What to show.
+        life: Lives the world through; it is cancelled when the user quits.
+        driver: Who takes the keys.
+        setting: How to show it.
+
+    Raises:
+        NodeFailed: If a node raised.
+        KeyboardInterrupt: If a signal or Ctrl-C ended it.
+    """
+    from tftool.screens.scene import Scene
+    from tftool.screens.terminal import TurtleApp, setting_from, show
+
+    setting = setting_from(os.environ, sys.stdout.encoding or "ascii", setting)
+    scene = Scene(world, simulator_of(world))
+    app = TurtleApp(scene, None if driver is None else driver.press, setting)
+    run(world.clock, show(app, life))

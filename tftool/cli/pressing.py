@@ -1,0 +1,64 @@
+"""Keys given on the command line, pressed one after the other on simulated time."""
+
+import math
+
+from tftool.cli.onscreen import driver_of, simulator_of
+from tftool.cli.session import open_session
+from tftool.errors import UsageError
+from tftool.nodes.teleop import KEYS
+from tftool.runtime.clock import SimClock
+from tftool.stamps import seconds
+
+START = seconds(5)
+"""When the first key is pressed: by then every turtle of the world is there."""
+
+LOOK = seconds(0.1)
+PATIENCE = seconds(10)
+"""For how long a key's turtle is waited for; no key's effect lasts as long."""
+
+
+def press_all(turtle: str, keys: str) -> str:
+    """Press keys, each when what the one before it did is over.
+
+    Args:
+        turtle: Whom they drive.
+        keys: Words between blanks: "up up left g".
+
+    Returns:
+        A sentence that says where the turtle is then.
+
+    Raises:
+        UsageError: If there is no such key, or no such turtle.
+    """
+    words = keys.replace(",", " ").split()
+    for word in words:
+        if word.lower() not in KEYS:
+            raise UsageError(f"{word!r} is no key of teleop; there are {', '.join(KEYS)}.")
+    if not words:
+        raise UsageError('--keys needs at least one key, such as --keys "up up left".')
+    session = open_session(clock=SimClock())
+    world = session.world
+    driver, simulator = driver_of(world, turtle), simulator_of(world)
+
+    async def press() -> str:
+        await world.clock.sleep(START)
+        if simulator is None or turtle not in simulator.turtles:
+            there = ", ".join(simulator.turtles) if simulator is not None else "none"
+            raise UsageError(f"There is no turtle {turtle!r} here; there are {there}.")
+        for word in words:
+            if driver.press(word) == "quit":
+                break
+            end = world.clock.now() + PATIENCE
+            await world.clock.sleep(LOOK)
+            while world.clock.now() < end:
+                pose = simulator.turtles[turtle].pose
+                if pose.linear_velocity == 0.0 and pose.angular_velocity == 0.0:
+                    break
+                await world.clock.sleep(LOOK)
+        pose = simulator.turtles[turtle].pose
+        return (
+            f"{turtle} is at x {pose.x:.3f}, y {pose.y:.3f}, "
+            f"heading {math.degrees(pose.theta):.1f}°."
+        )
+
+    return session.run(press())

@@ -1,0 +1,374 @@
+"""The text in the panels of the terminal app: pure, from a moment to lines of a given width."""
+
+import math
+import re
+from collections import deque
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass
+from typing import NamedTuple
+
+from rich.cells import cell_len
+from rich.style import Style
+from rich.text import Text
+
+from tftool.frames.sample import FrameInfo, Snapshot
+from tftool.geometry.conversions import rpy_from_quaternion
+from tftool.messages import Color
+from tftool.runtime.log import LogRecord
+from tftool.screens.scene import Moment
+from tftool.stamps import Stamp, as_seconds
+from tftool.views import echo, theme
+from tftool.views.plain import fitted, padded, plain
+
+
+class Look(NamedTuple):
+    """How a screen paints: its palette, and whether it may use more than ASCII."""
+
+    palette: theme.Palette = theme.DARK
+    ascii_only: bool = False
+
+    @property
+    def more(self) -> str:
+        """What stands for text that was left out."""
+        return "~" if self.ascii_only else "…"
+
+    def ink(self, color: Color, *, bold: bool = False) -> Style:
+        """A style with this ink."""
+        return Style(color=theme.hexadecimal(color), bold=bold or None)
+
+    def of_name(self, name: str) -> Color:
+        """A name's colour, dark enough to be read on a light panel."""
+        color = theme.of_name(name)
+        return theme.blend(color, theme.INK, 0.55) if self.palette is theme.LIGHT else color
+
+
+class Row(NamedTuple):
+    """A frame's place in the tree: what is drawn before its name."""
+
+    guide: str
+    info: FrameInfo
+
+
+def rows(snapshot: Snapshot, *, ascii_only: bool = False) -> list[Row]:
+    """List all trees from top to bottom, one after the other.
+
+    Frames in a loop, which no root reaches, come last.
+    """
+    through, last, down, blank = (
+        ("|- ", "`- ", "|  ", "   ") if ascii_only else ("├─ ", "└─ ", "│  ", "   ")
+    )
+    found: list[Row] = []
+    # A stack and not a recursion: a tree may be as deep as there are frames.
+    waiting = [(root, "", "") for root in reversed(snapshot.roots())]
+    while waiting:
+        name, before, guide = waiting.pop()
+        found.append(Row(before + guide, snapshot.frame(name)))
+        below = before + ("" if not guide else blank if guide == last else down)
+        children = snapshot.children(name)
+        waiting += [
+            (child, below, last if child == children[-1] else through)
+            for child in reversed(children)
+        ]
+    found += [Row("", snapshot.frame(name)) for name in snapshot.loops()]
+    return found
+
+
+def tree(
+    moment: Moment, listed: Sequence[Row], cursor: str, width: int, height: int, look: Look
+) -> list[Text]:
+    """Show every link with its rate and age, fading when it goes stale.
+
+    Args:
+        moment: What to show.
+        listed: Its frames, as `rows` gives them.
+        cursor: The frame the cursor is on; it is kept in view.
+        width: Cells across.
+        height: Lines.
+        look: How to paint.
+    """
+    dim, accent = look.ink(look.palette.dim), look.ink(look.palette.accent, bold=True)
+    if not listed:
+        return _wrapped("No frames yet.", width, dim)
+    columns = _Columns.of(width)
+    head = padded("  frame", columns.name) + f"{'Hz':>{columns.rate}}{'age':>{columns.age}}"
+    lines = [Text(fitted(head + ("  from" if columns.sender else ""), width, more=""), dim)]
+    at = next((index for index, row in enumerate(listed) if row.info.frame == cursor), 0)
+    space = max(1, height - 1)
+    first = max(0, min(at - space // 2, len(listed) - space))
+    visible = listed[first : first + space]
+    room = columns.name - 2
+    # One cell a level instead of three, where names would be cut otherwise.
+    tight = any(len(row.guide) + len(row.info.frame) > room for row in visible)
+    for row in visible:
+        info = row.info
+        age = moment.ages.get(info.frame, 0.0)
+        ink = theme.faded(look.palette.text, age, look.palette.panel)
+        # A dead frame keeps its line, hardly to be seen: where else could one read that it is dead?
+        style = look.ink(ink or theme.blend(look.palette.panel, look.palette.dim, 0.5))
+        picked = info.frame == cursor
+        fresh = info.parent is not None and age <= theme.FRAME_TIMEOUT / 3
+        mark = (">" if look.ascii_only else "▸") if picked else " "
+        mark += ("*" if look.ascii_only else "◎") if info.frame == moment.pair.target else " "
+        guide = fitted(row.guide[:: 3 if tight else 1], max(0, room - 6), more=look.more)
+        name = padded(info.frame, max(1, room - cell_len(guide)), more=look.more)
+        line = Text.assemble(
+            (mark, accent),
+            (guide, dim),
+            (name, look.ink(look.of_name(info.frame), bold=picked) if fresh else style),
+            (_facts(info, age, columns, look), dim if info.is_static else style),
+        )
+        if columns.sender:
+            sender = padded(info.authority or "", columns.sender, more=look.more)
+            line.append("  " + sender, dim)
+        lines.append(line)
+    return lines
+
+
+class _Columns(NamedTuple):
+    """How wide the columns of the tree are; the sender's is 0 where there is no room."""
+
+    name: int
+    rate: int
+    age: int
+    sender: int
+
+    @classmethod
+    def of(cls, width: int) -> "_Columns":
+        rate, age = (5, 7) if width < 34 else (7, 13)
+        sender = min(24, width - 46) if width >= 58 else 0
+        used = rate + age + (sender + 2 if sender else 0)
+        return cls(max(4, width - used), rate, age, sender)
+
+
+def _facts(info: FrameInfo, age: float, columns: _Columns, look: Look) -> str:
+    """Rate and age of a link, as wide as their columns."""
+    width = columns.rate + columns.age
+    if info.root is None:
+        return f"{'in a loop':>{width}}"
+    if info.parent is None:
+        return " " * width
+    if info.is_static:
+        return f"{'static':>{width}}"
+    none = "-" if look.ascii_only else "–"
+    rate = f"{info.rate:.1f}" if info.samples > 1 and info.rate < 9999.0 else none
+    shown = f"{age:.1f} s" if age < 100.0 else f"{age:.0f} s"
+    if columns.age > 10 and age > theme.FRAME_TIMEOUT / 3:
+        shown = ("dead " if age > theme.FRAME_TIMEOUT else "stale ") + shown
+    return f"{rate:>{columns.rate}}{shown:>{columns.age}}"
+
+
+PAIR_LINES = 6
+"""Lines `pair` needs to say everything shortly."""
+
+BLOCK_LINES = 12
+"""Lines, and columns, from which it says everything as tf2_echo does."""
+BLOCK_WIDTH = 62
+
+
+def pair(moment: Moment, width: int, height: int, look: Look) -> list[Text]:
+    """Say where the source is in the target: shortly, or with room as tf2_echo does."""
+    asked, dim = moment.pair, look.ink(look.palette.dim)
+    text = look.ink(look.palette.text)
+    half = max(1, (width - 4) // 2)
+    source, target = (
+        (fitted(name, half, more=look.more), look.ink(look.of_name(name), bold=True))
+        for name in (asked.source, asked.target)
+    )
+    lines = [Text.assemble(source, (" in ", dim), target)]
+    if asked.found is None:
+        return lines + _wrapped(asked.refusal, width, look.ink(look.palette.warning))
+    away = _away(*asked.found.transform.translation, look)
+    if width >= BLOCK_WIDTH and height >= BLOCK_LINES:
+        block = echo.block(asked.found).splitlines()
+        return [*lines, *(Text(line, text) for line in [*block, f"- Away: {away}"])]
+    (x, y, z), rotation = asked.found.transform
+    degrees = (math.degrees(angle) for angle in rpy_from_quaternion(rotation))
+    narrow = width < 30
+    digits = 2 if narrow else 3
+    facts = [
+        ("xyz", _numbers((x, y, z), digits)),
+        ("q" if narrow else "quat", _numbers(rotation, digits)),
+        ("rpy", " ".join(_number(value, 1) + _degree(look) for value in degrees)),
+        ("" if narrow else "away", away),
+    ]
+    if asked.found.stamp:
+        facts.append(("t" if narrow else "time", f"{as_seconds(asked.found.stamp):.3f}"))
+    for name, value in facts:
+        label = f"{name} " if narrow and name else "" if narrow else f"{name:5}"
+        shown = fitted(value, width - len(label), more=look.more)
+        lines.append(Text.assemble((label, dim), (shown, text)))
+    return lines
+
+
+def _away(x: float, y: float, z: float, look: Look) -> str:
+    """Say how far that is, and in which direction from straight ahead."""
+    away, bearing = math.hypot(x, y, z), math.degrees(math.atan2(y, x))
+    if away < 0.001:
+        return f"{away:.3f} m"
+    if abs(bearing) < 0.05:
+        return f"{away:.3f} m, ahead"
+    side = "left" if bearing > 0 else "right"
+    return f"{away:.3f} m, {abs(bearing):.1f}{_degree(look)} {side}"
+
+
+def _number(value: float, digits: int) -> str:
+    shown = f"{value:.{digits}f}"
+    # Nothing is not less than nothing.
+    return shown.lstrip("-") if not shown.strip("-0.") else shown
+
+
+def _numbers(values: Iterable[float], digits: int) -> str:
+    return " ".join(_number(value, digits) for value in values)
+
+
+def _degree(look: Look) -> str:
+    return "d" if look.ascii_only else "°"
+
+
+@dataclass(slots=True)
+class _Entry:
+    first: LogRecord
+    last: LogRecord
+    kind: str
+    times: int = 1
+
+
+class Journal:
+    """The log as a person wants it: what repeats is one line with a count."""
+
+    KEPT = 300
+    # What a node warns of again and again differs in its numbers.
+    _NUMBERS = re.compile(r"-?\d+(\.\d+)?")
+
+    def __init__(self, records: Iterable[LogRecord] = ()) -> None:
+        self.revision = 0
+        self._entries: deque[_Entry] = deque(maxlen=self.KEPT)
+        for record in records:
+            self.add(record)
+
+    def add(self, record: LogRecord) -> None:
+        """Take in a line of the world's log."""
+        self.revision += 1
+        warns = record.level in {"WARN", "ERROR"}
+        text = self._NUMBERS.sub("#", record.text) if warns else record.text
+        kind = f"{record.level}\n{record.node}\n{text}"
+        # Those that repeat themselves take turns: the last few lines are looked at.
+        for entry in list(self._entries)[-4:]:
+            if entry.kind == kind:
+                entry.last = record
+                entry.times += 1
+                return
+        self._entries.append(_Entry(record, record, kind))
+
+    def lines(
+        self, until: Stamp, start: Stamp, width: int, height: int, look: Look, *, back: int = 0
+    ) -> list[Text]:
+        """Show the newest lines up to a moment, the newest at the bottom.
+
+        Args:
+            until: The moment shown.
+            start: The moment that counts as 0.
+            width: Cells across.
+            height: Lines.
+            look: How to paint.
+            back: How many of the newest lines to leave out.
+        """
+        told = [entry for entry in self._entries if entry.first.stamp <= until]
+        told = told[: max(len(told) - back, 1)]
+        if not told:
+            return [Text("Nothing was said yet.", look.ink(look.palette.dim))]
+        shown: list[Text] = []
+        for entry in reversed(told):
+            lines = self._entry(entry, start, width, look)
+            shown[:0] = lines[: max(0, height - len(shown))]
+            if len(shown) >= height:
+                break
+        return shown
+
+    def _entry(self, entry: _Entry, start: Stamp, width: int, look: Look) -> list[Text]:
+        palette = look.palette
+        color = {"WARN": palette.warning, "ERROR": palette.error}.get(
+            entry.last.level, palette.text
+        )
+        when = f"{as_seconds(entry.last.stamp - start):.1f} "
+        indent = 2 if width < 40 else 7
+        when = when.rjust(indent)
+        times = f" {'x' if look.ascii_only else '×'}{entry.times}" if entry.times > 1 else ""
+        words = f"{entry.last.node}: {entry.last.text}"
+        # The first line shares its place with the time, the others stand a little in.
+        lines = _wrapped(words, max(8, width - indent), look.ink(color), max(8, width - len(when)))
+        lines[0] = Text.assemble((when, look.ink(palette.dim)), lines[0])
+        lines[1:] = [Text.assemble(" " * indent, line) for line in lines[1:3]]
+        if times:
+            lines[-1].truncate(max(0, width - len(times)))
+            lines[-1].append(times, look.ink(palette.accent, bold=True))
+        return lines
+
+
+def wrapped(words: str, width: int) -> list[Text]:
+    """Break a sentence into lines of at most `width` cells."""
+    return _wrapped(words, max(1, width), Style())
+
+
+def _wrapped(words: str, width: int, style: Style, first: int | None = None) -> list[Text]:
+    """Break a sentence into lines, the first of another width, at blanks where there are any."""
+    lines: list[str] = []
+    line, room = "", width if first is None else first
+    for word in plain(words).split(" "):
+        longer = f"{line} {word}" if line else word
+        if cell_len(longer) <= room:
+            line = longer
+            continue
+        if line:
+            lines.append(line)
+            room = width
+        line = word
+        while cell_len(line) > room:
+            head = fitted(line, room, more="") or line[:1]
+            lines.append(head)
+            line, room = line[len(head) :], width
+    return [Text(one, style) for one in [*lines, line]]
+
+
+def header(title: str, moment: Moment, rate: float, width: int, look: Look) -> Text:
+    """One line: what runs, what time it is there, and whether that is now."""
+    palette = look.palette
+    clock = f"{as_seconds(moment.elapsed):.1f} s"
+    if moment.behind:
+        sign = "<<" if look.ascii_only else "◀◀"
+        state, ink = f"{sign} {as_seconds(moment.behind):.1f} s ago", palette.warning
+    else:
+        state, ink = ("* live" if look.ascii_only else "● live"), palette.accent
+    if rate != 1.0 and math.isfinite(rate):
+        state += f" {'x' if look.ascii_only else '×'}{rate:g}"
+    right = Text.assemble(
+        (clock + "  ", look.ink(palette.text)), (state, look.ink(ink, bold=True)), " "
+    )
+    left = padded(" " + title, max(0, width - right.cell_len), more=look.more)
+    return Text.assemble((left, look.ink(palette.text, bold=True)), right)
+
+
+class Hint(NamedTuple):
+    """A key and what it does; the footer shows as many hints as it has room for."""
+
+    keys: str
+    does: str
+
+
+def footer(hints: Sequence[Hint], width: int, look: Look) -> Text:
+    """One line of key help: the first hints that fit, and always the last."""
+    strong, weak = look.ink(look.palette.accent, bold=True), look.ink(look.palette.dim)
+
+    def written(hint: Hint) -> Text:
+        return Text.assemble((hint.keys, strong), (" " + hint.does, weak))
+
+    *optional, last = [written(hint) for hint in hints]
+    line, room = Text(" "), width - 1 - last.cell_len
+    for hint in optional:
+        if hint.cell_len + 2 > room:
+            continue
+        line.append_text(hint)
+        line.append("  ")
+        room -= hint.cell_len + 2
+    line.append_text(last)
+    return line

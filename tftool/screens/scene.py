@@ -1,0 +1,255 @@
+"""What a screen shows of a world at one moment, now or as far back as the buffer reaches."""
+
+import math
+from collections import deque
+from dataclasses import dataclass, replace
+
+from tftool.errors import TransformException
+from tftool.frames.sample import Snapshot, TransformStamped
+from tftool.geometry.planar import heading
+from tftool.messages import Color
+from tftool.nodes.turtlesim import Turtlesim
+from tftool.runtime.world import World
+from tftool.stamps import LATEST, Duration, Stamp, as_seconds, seconds
+from tftool.views import canvas, theme
+
+FLASH = seconds(0.4)
+"""How long a wall stays lit after it was run into."""
+
+
+@dataclass(frozen=True, slots=True)
+class Pair:
+    """Two frames, and where the source is in the target, or why that cannot be said."""
+
+    target: str
+    source: str
+    found: TransformStamped | None = None
+    refusal: str = ""
+
+
+@dataclass(frozen=True, slots=True)
+class Moment:
+    """Everything on a screen, frozen.
+
+    Attributes:
+        stamp: The moment shown.
+        behind: How long before now that is; 0 when live.
+        elapsed: How long after the start of the clock that is.
+        snapshot: All frames at that moment.
+        ages: For each frame, seconds since its latest stamp changed; 0 for static ones.
+        picture: The field.
+        pair: The transform asked for.
+    """
+
+    stamp: Stamp
+    behind: Duration
+    elapsed: Duration
+    snapshot: Snapshot
+    ages: dict[str, float]
+    picture: canvas.Picture
+    pair: Pair
+
+
+@dataclass(frozen=True, slots=True)
+class _Seen:
+    """What only the simulator knows of the field at `stamp`: the trail by its length."""
+
+    stamp: Stamp
+    turtles: tuple[canvas.Turtle, ...]
+    walls: frozenset[str]
+    background: Color
+    wipes: int
+    drawn: int
+
+
+class Scene:
+    """Looks at a world whenever it is told to, and remembers what only a simulator knows.
+
+    Args:
+        world: The world to look at.
+        simulator: Who draws its turtles, where there is one.
+    """
+
+    def __init__(self, world: World, simulator: Turtlesim | None = None) -> None:
+        self.world = world
+        self.simulator = simulator
+        self._news: dict[str, tuple[Stamp, Stamp]] = {}
+        self._seen: deque[_Seen] = deque()
+        # Trails that were wiped, for as long as one can go back to them.
+        self._wiped: dict[int, tuple[int, tuple[canvas.Stroke, ...]]] = {}
+        self._strokes: tuple[canvas.Stroke, ...] = ()
+        self._hits: dict[str, int] = {}
+        self._lit: dict[str, Stamp] = {}
+        self._view: tuple[float, float, float] | None = None
+
+    def look(self) -> None:
+        """Remember how things stand; called a few dozen times a second."""
+        now = self.world.clock.now()
+        simulator = self.simulator
+        if simulator is None:
+            return
+        trail = simulator.trail
+        before = self._seen[-1] if self._seen else None
+        if before is None or (trail.wipes, trail.drawn) != (before.wipes, before.drawn):
+            if before is not None and trail.wipes != before.wipes:
+                self._wiped[before.wipes] = before.drawn, self._strokes
+            self._strokes = tuple(trail.segments)
+        turtles = tuple(
+            canvas.Turtle(turtle.name, turtle.pose.x, turtle.pose.y, turtle.pose.theta)
+            for turtle in simulator.turtles.values()
+        )
+        for turtle in simulator.turtles.values():
+            if turtle.wall_hits > self._hits.get(turtle.name, 0):
+                self._lit.update(dict.fromkeys(_sides(turtle.pose.x, turtle.pose.y), now))
+            self._hits[turtle.name] = turtle.wall_hits
+        walls = frozenset(side for side, lit in self._lit.items() if now - lit < FLASH)
+        self._seen.append(
+            _Seen(now, turtles, walls, simulator.background, trail.wipes, trail.drawn)
+        )
+        # One older than the buffer reaches stays: it says how things were at its very end.
+        reach = now - self.world.buffer.cache_time
+        while len(self._seen) > 1 and self._seen[1].stamp <= reach:
+            self._seen.popleft()
+        for wipes in [one for one in self._wiped if one < self._seen[0].wipes]:
+            del self._wiped[wipes]
+
+    def oldest(self) -> Stamp:
+        """The earliest moment that can be gone back to."""
+        now = self.world.clock.now()
+        snapshot = self.world.buffer.snapshot(now)
+        held = [info.oldest for info in snapshot.frames if info.oldest and not info.is_static]
+        return min(max(min(held, default=now), now - self.world.buffer.cache_time), now)
+
+    def moment(self, at: Stamp | None, target: str, source: str) -> Moment:
+        """Everything at the moment `at`, or at present when None."""
+        now = self.world.clock.now()
+        stamp = now if at is None else at
+        snapshot = self.world.buffer.snapshot(stamp, LATEST if at is None else at)
+        ages = self._ages(snapshot, now, at)
+        return Moment(
+            stamp=stamp,
+            behind=now - stamp,
+            elapsed=stamp - self.world.clock.epoch,
+            snapshot=snapshot,
+            ages=ages,
+            picture=self._picture(snapshot, ages, at),
+            pair=self._pair(target, source, LATEST if at is None else at),
+        )
+
+    def again(self, moment: Moment, target: str, source: str) -> Moment:
+        """The same moment with another pair; it need not be in the buffer any more."""
+        snapshot = moment.snapshot
+        for frame in (target, source):
+            if frame not in snapshot:
+                refusal = f"there was no frame '{frame}' then"
+                return replace(moment, pair=Pair(target, source, refusal=refusal))
+        to, of = snapshot.frame(target), snapshot.frame(source)
+        if to.root_from_frame is None or of.root_from_frame is None or to.root != of.root:
+            refusal = f"'{target}' and '{source}' were not connected then"
+            return replace(moment, pair=Pair(target, source, refusal=refusal))
+        target_from_source = to.root_from_frame.inverse() @ of.root_from_frame
+        found = TransformStamped(moment.stamp, target, source, target_from_source)
+        return replace(moment, pair=Pair(target, source, found))
+
+    def _pair(self, target: str, source: str, at: Stamp) -> Pair:
+        if not target or not source:
+            return Pair(target, source, refusal="there are no frames yet")
+        try:
+            found = self.world.buffer.lookup_transform(target, source, at)
+        except TransformException as refusal:
+            return Pair(target, source, refusal=str(refusal))
+        return Pair(target, source, found)
+
+    def _ages(self, snapshot: Snapshot, now: Stamp, at: Stamp | None) -> dict[str, float]:
+        """Give the age of every frame as rviz counts it: since its stamp last changed.
+
+        In the past what counts is the stamp itself: nobody noted when it came.
+        """
+        ages: dict[str, float] = {}
+        for info in snapshot.frames:
+            if info.is_static or info.parent is None:
+                ages[info.frame] = 0.0
+            elif at is not None:
+                ages[info.frame] = max(0.0, as_seconds(at - info.newest))
+            else:
+                news = self._news.get(info.frame)
+                if news is None or news[0] != info.newest:
+                    # First seen late: it is at least not younger than its stamp, within reason.
+                    since = now if news is not None else min(now, max(info.newest, 1))
+                    news = self._news[info.frame] = info.newest, since
+                ages[info.frame] = as_seconds(now - news[1])
+        return ages
+
+    def _picture(
+        self, snapshot: Snapshot, ages: dict[str, float], at: Stamp | None
+    ) -> canvas.Picture:
+        seen = self._at(at)
+        if seen is None:
+            marks = _marks(snapshot, ages, frozenset())
+            left, bottom, size = self._fit(marks)
+            return canvas.Picture(marks=marks, left=left, bottom=bottom, size=size)
+        turtles = seen.turtles
+        if at is not None:
+            turtles = tuple(_placed(turtle, snapshot) for turtle in turtles)
+        drawn, strokes = self._wiped.get(seen.wipes, (self._seen[-1].drawn, self._strokes))
+        forgotten = drawn - len(strokes)
+        return canvas.Picture(
+            turtles=turtles,
+            marks=_marks(snapshot, ages, frozenset(turtle.name for turtle in turtles)),
+            strokes=strokes[: max(0, seen.drawn - forgotten)] if at is not None else strokes,
+            forgotten=forgotten,
+            wipes=seen.wipes,
+            background=seen.background,
+            walls=seen.walls,
+        )
+
+    def _at(self, at: Stamp | None) -> _Seen | None:
+        if not self._seen:
+            return None
+        if at is None:
+            return self._seen[-1]
+        return next((seen for seen in reversed(self._seen) if seen.stamp <= at), self._seen[0])
+
+    def _fit(self, marks: tuple[canvas.Mark, ...]) -> tuple[float, float, float]:
+        """A square of whole metres around everything seen so far; it only ever grows."""
+        points = [(mark.x, mark.y) for mark in marks] or [(0.0, 0.0)]
+        if self._view is not None:
+            left, bottom, size = self._view
+            points += [(left + 1, bottom + 1), (left + size - 1, bottom + size - 1)]
+        left = math.floor(min(x for x, _ in points)) - 1.0
+        bottom = math.floor(min(y for _, y in points)) - 1.0
+        right = math.ceil(max(x for x, _ in points)) + 1.0
+        top = math.ceil(max(y for _, y in points)) + 1.0
+        self._view = left, bottom, max(right - left, top - bottom)
+        return self._view
+
+
+def _sides(x: float, y: float) -> list[str]:
+    far = canvas.EDGE - 1e-5
+    sides = {"left": x <= 0.0, "bottom": y <= 0.0, "right": x >= far, "top": y >= far}
+    return [side for side, met in sides.items() if met]
+
+
+def _placed(turtle: canvas.Turtle, snapshot: Snapshot) -> canvas.Turtle:
+    """Put a turtle where its frame was: between two looks the buffer knows better."""
+    pose = snapshot.frame(turtle.name).root_from_frame if turtle.name in snapshot else None
+    if pose is None:
+        return turtle
+    return replace(turtle, x=pose.translation.x, y=pose.translation.y, theta=heading(pose))
+
+
+def _marks(
+    snapshot: Snapshot, ages: dict[str, float], turtles: frozenset[str]
+) -> tuple[canvas.Mark, ...]:
+    """Every other frame seen from above, until it is stale."""
+    marks = []
+    for info in snapshot.frames:
+        pose = info.root_from_frame
+        if info.frame in turtles or pose is None or ages[info.frame] > theme.FRAME_TIMEOUT:
+            continue
+        x, y = pose.translation.x, pose.translation.y
+        # A root lies at its own origin, the field's corner: no news to those who see a field.
+        if (turtles and info.parent is None) or not math.isfinite(x + y) or abs(x) + abs(y) > 1e6:
+            continue
+        marks.append(canvas.Mark(info.frame, x, y))
+    return tuple(marks)
