@@ -163,7 +163,7 @@ SUBJECTS: Mapping[str, Subject] = MappingProxyType(
         "pose": Subject(questions.PoseOf, TurtlePoseForm(), _pose),
         "logged": Subject(
             questions.Logged,
-            RangeForm(NUMBER, default=Range(NUMBER, above=0.0)),
+            RangeForm(NUMBER, default=Range(NUMBER, above=0.0), tolerance=0.0),
             lambda asked, scene: scene.lines.get(asked, 0),
         ),
     }

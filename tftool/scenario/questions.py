@@ -28,14 +28,14 @@ class Lookup:
         return _two_times(self.time, self.target_time, self.source_time, self.fixed)
 
     def __str__(self) -> str:
-        return f"{self.source} in {self.target}{self.when}"
+        if self.fixed is None:
+            return f"{self.source} in {self.target}{self.when}"
+        source, target = _at(self.source, self.source_time), _at(self.target, self.target_time)
+        return f"{source} in {target}, through {self.fixed},"
 
     @property
     def when(self) -> str:
-        """The moments asked about, in words."""
-        if self.fixed is not None:
-            at_source, at_target = self.source_time or Moment(), self.target_time or Moment()
-            return f" ({at_source} in {at_target}, through {self.fixed})"
+        """The one moment asked about, in words; empty for the latest."""
         return "" if self.time is None else f" ({self.time})"
 
 
@@ -72,14 +72,24 @@ class Distance(Between):
     """How far the origins of two frames are apart."""
 
     def __str__(self) -> str:
-        return f"distance from {self.start} to {self.end}{self.lookup.when}"
+        if self.fixed is None:
+            return f"distance from {self.start} to {self.end}{self.lookup.when}"
+        start, end = _at(self.start, self.start_time), _at(self.end, self.end_time)
+        return f"distance from {start} to {end}, through {self.fixed},"
 
 
 class Bearing(Between):
     """In which direction, seen from one frame, another one lies."""
 
     def __str__(self) -> str:
-        return f"bearing of {self.end} from {self.start}{self.lookup.when}"
+        if self.fixed is None:
+            return f"bearing of {self.end} from {self.start}{self.lookup.when}"
+        start, end = _at(self.start, self.start_time), _at(self.end, self.end_time)
+        return f"bearing of {end} from {start}, through {self.fixed},"
+
+
+def _at(frame: str, time: Moment | None) -> str:
+    return f"{frame} ({time or Moment()})"
 
 
 def _two_times(

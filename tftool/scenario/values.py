@@ -279,7 +279,7 @@ class Moment:
 
     def __str__(self) -> str:
         if self.kind == "latest":
-            return "the latest common time"
+            return "latest"
         amount = f"{abs(self.offset) / NANOSECONDS:g} s"
         if self.kind == "start":
             return amount

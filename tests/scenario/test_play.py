@@ -1,0 +1,257 @@
+"""Worlds built from scenarios: the same every time, and everything a script can do."""
+
+import pytest
+
+from tftool.errors import NodeFailed, ScenarioError, UsageError
+from tftool.messages import Pose2D
+from tftool.runtime.clock import SimClock, run
+from tftool.runtime.node import Node
+from tftool.runtime.world import TransformMessage
+from tftool.scenario import builtin
+from tftool.scenario.load import load, parse
+from tftool.scenario.play import build, run_scenario
+from tftool.stamps import seconds
+
+
+def play(text, **options):
+    """Live through a scenario on simulated time."""
+    clock = SimClock()
+    played = build(parse(text, "s.yaml"), clock, **options)
+    run(clock, played.live())
+    return played
+
+
+def logged(played):
+    """What was said, and by whom."""
+    return [(record.node, record.text) for record in played.world.log.records]
+
+
+def history(name):
+    """Everything a scenario broadcasts and says, to the last bit."""
+    clock = SimClock()
+    played = build(load(builtin.find(name)), clock)
+    heard = []
+    for topic in (played.world.tf, played.world.tf_static):
+        topic.subscribe(heard.append)
+    played.world.log.listen(heard.append)
+    run(clock, played.live())
+    return heard, played.verdict()
+
+
+@pytest.mark.parametrize("name", ["turtles", "time_travel", "robot", "lost_leader"])
+def test_two_runs_are_equal_to_the_last_bit(name):
+    first, first_verdict = history(name)
+    second, second_verdict = history(name)
+
+    assert len(first) > 1000
+    assert first == second
+    assert repr(first) == repr(second)
+    assert first_verdict == second_verdict
+
+
+def test_it_lasts_as_long_as_it_says_its_last_instant_included():
+    played = play("duration: 2.5 s\nexpect:\n  - {at: 2.5 s, trees: 0}\n")
+
+    assert played.world.clock.now() == played.start + seconds(2.5)
+    assert played.verdict().ok
+    assert played.verdict().lasted == seconds(2.5)
+
+
+def test_what_was_not_reached_is_said_and_does_not_count():
+    clock = SimClock()
+    text = "duration: 9 s\nexpect:\n  - {at: 1 s, trees: 0}\n  - {at: 8 s, trees: 7}\n"
+    played = build(parse(text, "s.yaml"), clock)
+
+    run(clock, played.live(until=clock.now() + seconds(2)))
+
+    held, missed = played.verdict().outcomes
+    assert held.ok
+    assert (missed.ok, missed.reached, missed.found) == (False, False, "not reached")
+    assert played.verdict().ok
+
+
+def test_an_endless_play_ends_when_the_world_is_stopped():
+    clock = SimClock()
+    played = build(parse("duration: 1 s\nnodes: [turtlesim]\n", "s.yaml"), clock)
+
+    class Stopper(Node):
+        async def run(self):
+            await self.clock.sleep(seconds(5))
+            self.world.stop()
+
+    Stopper(played.world, "stopper")
+    run(clock, played.live(endless=True))
+
+    assert clock.elapsed() == seconds(5)
+
+
+def test_a_node_that_fails_is_part_of_the_verdict():
+    scenario = parse(
+        "duration: 5 s\nscript:\n  - {at: 2 s, clear: }\nexpect:\n"
+        "  - {at: 1 s, trees: 0}\n  - {at: 3 s, trees: 0}\n",
+        "s.yaml",
+    )
+
+    verdict = run_scenario(scenario)
+
+    assert verdict.failure == "node 'script' failed: TftoolError: no node serves 'clear'"
+    assert verdict.lasted == seconds(2)
+    assert [one.reached for one in verdict.outcomes] == [True, False]
+    assert not verdict.ok
+
+
+def test_a_node_that_fails_ends_the_play_with_its_name():
+    clock = SimClock()
+    played = build(parse("duration: 5 s\nscript: [{at: 2 s, reset: }]\n", "s.yaml"), clock)
+
+    with pytest.raises(NodeFailed, match="node 'script' failed"):
+        run(clock, played.live())
+
+
+def test_arguments_change_the_world():
+    scenario = load(builtin.find("turtles"))
+
+    played = build(scenario, SimClock(), {"source_frame": "carrot1"})
+
+    assert played.world.node("follower").leader == "carrot1"
+    assert build(scenario, SimClock()).world.node("follower").leader == "turtle1"
+
+
+def test_arguments_that_do_not_fit_are_refused():
+    scenario = load(builtin.find("turtles"))
+
+    with pytest.raises(UsageError, match="has no argument 'source'; did you mean 'source_frame'"):
+        build(scenario, SimClock(), {"source": "carrot1"})
+    with pytest.raises(ScenarioError, match="'turtle2' cannot follow itself"):
+        build(scenario, SimClock(), {"source_frame": "turtle2"})
+
+
+def test_without_its_script_a_scenario_only_builds_its_world():
+    played = play(
+        "duration: 1 s\nnodes: [turtlesim]\nscript: [{at: 0 s, kill: turtle1}]\n"
+        "expect: [{at: 1 s, turtles: []}]\n",
+        script=False,
+    )
+
+    assert [node.name for node in played.world.nodes] == ["turtlesim", "expectations"]
+    assert list(played.world.node("turtlesim").turtles) == ["turtle1"]
+    assert played.verdict().outcomes == ()
+
+
+# The script.
+
+FIELD = "duration: 5 s\nnodes:\n  - turtlesim\n  - broadcaster: {turtle: turtle1}\nscript:\n"
+
+
+def pose(played, turtle="turtle1"):
+    """Where a turtle ended up."""
+    return played.world.topic(f"{turtle}/pose", Pose2D).latest
+
+
+def test_a_drive_moves_for_its_time_and_stops():
+    # 2 m/s for a second are 62 or 63 ticks of 16 ms; from 1 s to 2 s there are 62.
+    played = play(FIELD + "  - {at: 1.008 s, drive: {linear: 2 m/s}, for: 992 ms}\n")
+
+    assert pose(played).x == pytest.approx(5.544445 + 62 * 0.032, abs=1e-5)
+    assert pose(played).linear_velocity == 0.0
+
+
+def test_keys_reach_the_turtle_through_teleop():
+    played = play(FIELD + "  - {at: 1 s, keys: up left, every: 2 s}\n")
+
+    # One key moves for 63 ticks, so 2.016 m, and turns by 2.016 rad.
+    assert pose(played).x == pytest.approx(5.544445 + 2.016, abs=1e-5)
+    assert pose(played).theta == pytest.approx(2.016, abs=1e-5)
+    assert "teleop" in [node.name for node in played.world.nodes]
+
+
+def test_a_teleop_of_the_scenario_takes_the_keys():
+    played = play(
+        "duration: 3 s\nnodes:\n  - turtlesim\n  - teleop: {scale_linear: 1 m/s}\n"
+        "script:\n  - {at: 1 s, keys: up}\n"
+    )
+
+    assert pose(played).x == pytest.approx(5.544445 + 1.008, abs=1e-5)
+
+
+def test_services_are_called():
+    played = play(
+        FIELD
+        + """\
+  - {at: 0.5 s, spawn: {name: bob, x: 1 m, y: 2 m, theta: 90 deg}}
+  - {at: 0.5 s, spawn: }
+  - {at: 1 s, teleport: {x: 3 m, y: 4 m, theta: 1 rad}}
+  - {at: 2 s, hop: {turtle: bob, linear: 1 m, angular: -90 deg}}
+  - {at: 3 s, kill: turtle2}
+  - {at: 3 s, set_pen: {r: 1, g: 2, b: 3, width: 9}}
+"""
+    )
+
+    turtles = played.world.node("turtlesim").turtles
+    assert list(turtles) == ["bob", "turtle1"]
+    assert (pose(played).x, pose(played).y) == (3.0, 4.0)
+    assert pose(played).theta == pytest.approx(1.0, abs=1e-6)
+    assert pose(played, "bob").x == pytest.approx(2.0, abs=1e-6)
+    assert pose(played, "bob").y == pytest.approx(2.0, abs=1e-6)
+    assert turtles["turtle1"].width == 9
+
+
+def test_clear_and_reset_are_called():
+    played = play(FIELD + "  - {at: 1 s, clear: }\n  - {at: 2 s, reset: {}}\n")
+
+    assert ("turtlesim", "Clearing turtlesim.") in logged(played)
+    assert ("turtlesim", "Resetting turtlesim.") in logged(played)
+
+
+def test_a_rotation_turns_the_turtle():
+    played = play(FIELD + "  - {at: 1 s, rotate: {theta: 90 deg}}\n")
+
+    # It stops up to 0.02 rad short.
+    assert pose(played).theta == pytest.approx(1.552, abs=1e-4)
+
+
+def test_a_transform_is_broadcast_once_or_for_a_time():
+    played = play(
+        "duration: 5 s\nscript:\n"
+        "  - {at: 1 s, broadcast: {parent: a, child: b, x: 1 m, yaw: 90 deg}}\n"
+        "  - {at: 1 s, broadcast: {parent: a, child: c, y: 1 m}, every: 0.5 s, for: 2 s}\n"
+        "  - {at: 3 s, broadcast: {parent: a, child: d, stamp: 2 s}}\n"
+        "  - {at: 3 s, broadcast: {parent: a, child: e, stamp: now - 1 s}}\n"
+        "  - {at: 4 s, static: {parent: a, child: f, z: 1 m}}\n"
+    )
+
+    snapshot = played.world.buffer.snapshot(played.world.clock.now())
+    samples = {info.frame: (info.samples, info.newest - played.start) for info in snapshot.frames}
+    assert samples["b"] == (1, seconds(1))
+    assert samples["c"] == (5, seconds(3))
+    assert samples["d"] == (1, seconds(2))
+    assert samples["e"] == (1, seconds(2))
+    assert snapshot.frame("f").is_static
+    assert snapshot.frame("b").authority == "script"
+
+
+def test_a_stopped_node_says_no_more():
+    text = (
+        "duration: 5 s\nnodes:\n  - turtlesim\n  - broadcaster: {turtle: turtle1, name: b}\n"
+        "script:\n  - {at: 2 s, stop: b}\n  - {at: 2 s, say: b is gone}\n"
+    )
+    clock = SimClock()
+    played = build(parse(text, "s.yaml"), clock)
+    heard = []
+    played.world.topic("tf", TransformMessage).subscribe(heard.append)
+    run(clock, played.live())
+
+    # 2 s are 125 ticks, the first at the start.
+    assert [message.authority for message in heard] == ["b"] * 126
+    assert ("script", "b is gone") in logged(played)
+
+
+def test_steps_of_one_instant_are_done_in_the_order_of_the_file():
+    played = play(
+        "duration: 1 s\nscript:\n"
+        + "".join(
+            f"  - {{at: {at} s, say: '{text}'}}\n" for at, text in [(1, "b"), (0, "a"), (1, "c")]
+        )
+    )
+
+    assert [text for _, text in logged(played)] == ["a", "b", "c"]
