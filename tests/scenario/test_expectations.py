@@ -98,7 +98,7 @@ def test_what_is_true_holds(expectation):
         ),
         (
             "{during: [1 s, 9 s], pose: turtle1, value: {x: 5.544445 m}}",
-            "from 1 s to 9 s: pose of turtle1 is x 5.54444 (± 1e-06 m, 1e-06 rad)",
+            "from 1 s to 9 s: pose of turtle1 is x 5.54444",
             "x 1, y 2, theta 1.5708, linear 0, angular 0",
             2.1,
         ),
@@ -118,7 +118,7 @@ def test_what_is_true_holds(expectation):
         (
             "{at: 3 s, lookup: {target: map, source: post, time: now - 1 s}, value: {x: 1, yaw: 0},"
             " tolerance: {angle: 1 mrad}}",
-            "at 3 s: post in map (now - 1 s) is x 1, yaw 0 (± 1e-06 m, 0.001 rad)",
+            "at 3 s: post in map (now - 1 s) is x 1, yaw 0 (± 0.001 rad)",
             "x 3, y 4, z 0, rotation (0, 0, 0.707107, 0.707107)",
             3,
         ),
@@ -142,7 +142,7 @@ def test_what_is_true_holds(expectation):
         ("{at: 3 s, turtles: [bob]}", "at 3 s: turtles are bob", "turtle1", 3),
         (
             "{at: 3 s, pose: bob, value: {x: 1}}",
-            "at 3 s: pose of bob is x 1 (± 1e-06 m, 1e-06 rad)",
+            "at 3 s: pose of bob is x 1",
             "nothing was published",
             3,
         ),
@@ -154,7 +154,7 @@ def test_what_is_true_holds(expectation):
         ),
         (
             "{at: 3 s, distance: {from: map, to: post, to_time: now - 1 s, fixed: map}, is: 4}",
-            "at 3 s: distance from map (latest) to post (now - 1 s), through map, is 4 m ± 1e-06",
+            "at 3 s: distance from map (latest) to post (now - 1 s), through map, is 4 m",
             "5 m",
             3,
         ),

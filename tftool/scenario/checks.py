@@ -95,7 +95,7 @@ class Range(Check):
             low, high = self.between
             parts.append(f"between {low:g} and {self._shown(high)}")
         if self.equal is not None:
-            off = f" ± {self.tolerance:g}" if self.tolerance else ""
+            off = "" if self.tolerance in (0.0, NEAR) else f" ± {self.tolerance:g}"
             parts.append(f"is {self._shown(self.equal)}{off}")
         return " and ".join(parts)
 

@@ -24,6 +24,15 @@ class Tolerance:
     position: float = NEAR
     angle: float = NEAR
 
+    def words(self, *, position: bool, angle: bool) -> str:
+        """What was allowed for, in brackets; nothing where only rounding is."""
+        parts = []
+        if position and self.position != NEAR:
+            parts.append(f"{self.position:g} m")
+        if angle and self.angle != NEAR:
+            parts.append(f"{self.angle:g} rad")
+        return f" (± {', '.join(parts)})" if parts else ""
+
 
 def _tolerance(node: Node, reading: Reading) -> Tolerance:
     """A number for everything, or a mapping: {position: 1 mm, angle: 0.1 deg}."""
@@ -99,12 +108,12 @@ class Pose(Check):
             for name, want in (("x", self.x), ("y", self.y), ("z", self.z))
             if want is not None
         ]
-        if self.rotation is not None:
+        moved, turned = bool(parts), self.rotation is not None
+        if turned:
             parts.append(self.rotation_words)
         if not parts:
             return "can be looked up"
-        off = self.tolerance
-        return f"is {', '.join(parts)} (± {off.position:g} m, {off.angle:g} rad)"
+        return f"is {', '.join(parts)}{self.tolerance.words(position=moved, angle=turned)}"
 
 
 def _pose_text(pose: Transform) -> str:
@@ -209,8 +218,9 @@ class TurtlePose(Check):
 
     def __str__(self) -> str:
         parts = ", ".join(f"{key} {want:.6g}" for key, want in self.wanted.items())
-        off = self.tolerance
-        return f"is {parts} (± {off.position:g} m, {off.angle:g} rad)"
+        turned = any(key in _ANGLES for key in self.wanted)
+        moved = any(key not in _ANGLES for key in self.wanted)
+        return f"is {parts}{self.tolerance.words(position=moved, angle=turned)}"
 
 
 _TURTLE_PARTS = {

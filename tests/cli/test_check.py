@@ -1,0 +1,122 @@
+"""`tftool check`: status, stdout, stderr, and the files it writes."""
+
+import json
+from xml.etree import ElementTree
+
+import pytest
+
+GOOD = "duration: 2 s\nnodes: [turtlesim]\nexpect:\n  - {at: 1 s, turtles: [turtle1]}\n"
+BAD = (
+    "duration: 2 s\nexpect:\n"
+    "  - {at: 1 s, trees: 0}\n"
+    "  - {by: 2 s, distance: {from: a, to: b}, below: 1 m}\n"
+)
+WRONG = "duration: soon\nnodes: [turtlsim]\n"
+
+
+@pytest.fixture
+def scenarios(tmp_path, monkeypatch):
+    """A folder with a true, a false and a wrong scenario, and the way there."""
+    monkeypatch.chdir(tmp_path)
+    for name, text in {"good": GOOD, "bad": BAD, "wrong": WRONG}.items():
+        (tmp_path / f"{name}.yaml").write_text(text)
+    return tmp_path
+
+
+def test_what_holds_ends_with_0(tftool, scenarios):
+    result = tftool("check", "good.yaml")
+
+    assert (result.status, result.err) == (0, "")
+    assert "at 1 s: turtles are turtle1" in result.out
+    assert result.out.endswith("\n1 scenario, none failed: 1 of 1 expectation held\n")
+
+
+def test_what_does_not_hold_ends_with_1_and_says_what_was_found_and_when(tftool, scenarios):
+    result = tftool("check", "good.yaml", "bad.yaml")
+
+    assert (result.status, result.err) == (1, "")
+    shown = " ".join(result.out.split())
+    assert "by 2 s: distance from a to b below 1 m LookupException:" in shown
+    assert "does not exist. at 2 s" in shown
+    assert shown.count("FAILED") == 1
+    assert result.out.endswith("\n2 scenarios, 1 failed (bad): 2 of 3 expectations held\n")
+
+
+def test_what_cannot_be_read_ends_with_3_and_the_rest_is_judged(tftool, scenarios):
+    result = tftool("check", "wrong.yaml", "good.yaml", "gone.yaml")
+
+    assert result.status == 3
+    assert result.err == (
+        "tftool: wrong.yaml has 2 mistakes:\n"
+        "wrong.yaml:1:11: 'soon' is not a duration such as 2 s\n"
+        "     1 | duration: soon\n"
+        "       |           ^^^^\n"
+        "wrong.yaml:2:9: there is no node 'turtlsim'; did you mean 'turtlesim'?\n"
+        "     2 | nodes: [turtlsim]\n"
+        "       |         ^^^^^^^^\n"
+        "tftool: cannot read 'gone.yaml': No such file or directory\n"
+    )
+    assert "at 1 s: turtles are turtle1" in result.out
+    assert result.out.endswith("\n3 scenarios, 2 failed (wrong, gone): 1 of 1 expectation held\n")
+
+
+def test_built_in_scenarios_are_known_by_name(tftool, scenarios):
+    result = tftool("check", "static", "two_trees")
+
+    assert result.status == 0
+    assert "2 scenarios, none failed" in result.out
+
+
+def test_a_misspelt_name_is_told(tftool, scenarios):
+    result = tftool("check", "turtels")
+
+    assert result.status == 3
+    assert result.err == (
+        "tftool: no scenario is named 'turtels'; did you mean 'turtles'? "
+        "A path to a file does as well.\n"
+    )
+
+
+def test_json_is_for_programs(tftool, scenarios):
+    result = tftool("check", "good.yaml", "bad.yaml", "--json")
+
+    rows = json.loads(result.out)
+    assert result.status == 1
+    assert [(row["scenario"], row["file"], row["ok"]) for row in rows] == [
+        ("good", "good.yaml", True),
+        ("bad", "bad.yaml", False),
+    ]
+    assert rows[1]["expectations"][1]["expected"] == "below 1 m"
+    assert rows[1]["expectations"][1]["at"] == 2.0
+
+
+def test_junit_is_for_build_servers(tftool, scenarios):
+    result = tftool("check", "good.yaml", "bad.yaml", "wrong.yaml", "--junit", "report.xml")
+
+    root = ElementTree.parse(scenarios / "report.xml").getroot()
+    assert result.status == 3
+    assert (root.attrib["tests"], root.attrib["failures"], root.attrib["errors"]) == ("4", "1", "1")
+
+
+def test_a_report_that_cannot_be_written_is_told(tftool, scenarios):
+    result = tftool("check", "good.yaml", "--junit", "no/such/folder.xml")
+
+    assert result.status == 2
+    assert result.err == "tftool: cannot write 'no/such/folder.xml': No such file or directory\n"
+
+
+def test_names_from_strangers_do_nothing_on_the_terminal(tftool, scenarios):
+    (scenarios / "[bold]x.yaml").write_text('duration: 1 s\nexpect: [{at: 1 s, frame: "[red]a"}]\n')
+
+    result = tftool("check", "[bold]x.yaml")
+
+    assert result.status == 1
+    assert "[bold]x" in result.out
+    assert "frame [red]a exists" in result.out
+
+
+def test_without_a_scenario_it_says_how_it_is_used(tftool):
+    result = tftool("check")
+
+    assert result.status == 2
+    assert "Missing argument" in result.err
