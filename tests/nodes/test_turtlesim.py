@@ -5,7 +5,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from tests.nodes.harness import After, At, log_texts, new_world, play
+from tests.nodes.harness import After, At, Before, log_texts, new_world, play
 from tftool.errors import TftoolError, UsageError
 from tftool.messages import (
     Clear,
@@ -20,10 +20,10 @@ from tftool.messages import (
     TeleportRelative,
     Twist2D,
 )
-from tftool.motion.unicycle import CENTRE, FIELD, float32
+from tftool.motion.unicycle import CENTRE, FIELD, Placement, float32
 from tftool.nodes import turtlesim as turtlesim_module
 from tftool.nodes.trail import BLANK
-from tftool.nodes.turtle import PEN_COLOR
+from tftool.nodes.turtle import PEN_COLOR, Turtle
 from tftool.nodes.turtlesim import BACKGROUND, Turtlesim
 from tftool.runtime.clock import SimClock, WallClock, run
 from tftool.runtime.supervisor import live
@@ -61,6 +61,28 @@ def test_a_command_moves_nothing_in_the_instant_it_is_given():
 
     still = float32(CENTRE)
     assert poses == [still, still, still, float32(CENTRE + 0.016), float32(CENTRE + 0.032)]
+
+
+def test_a_command_given_in_a_ticks_instant_waits_for_the_next_tick_whoever_is_first():
+    world = new_world()
+    Before(world, (2 * TICK, drive(world, Twist2D(1.0))))
+    Turtlesim(world)
+    poses = []
+    world.topic("turtle1/pose", Pose2D).subscribe(lambda pose: poses.append(pose.x))
+    play(world, 3 * TICK)
+
+    still = float32(CENTRE)
+    assert poses == [still, still, still, float32(CENTRE + 0.016)]
+
+
+@pytest.mark.parametrize(("age", "speed"), [(seconds(1), 1.0), (seconds(1) + 1, 0.0)])
+def test_a_command_lives_for_exactly_one_second(age, speed):
+    turtle = Turtle("turtle1", Placement(1.0, 1.0, 0.0), seconds(5))
+    quiet = [].append
+    turtle.command(Twist2D(1.0), False, seconds(10), lambda level, text: quiet(text))
+    turtle.update(seconds(10) + age, lambda level, text: quiet(text), quiet)
+
+    assert turtle.pose.linear_velocity == speed
 
 
 @settings(max_examples=25, deadline=None)
