@@ -1,5 +1,6 @@
 """What the page is told, and what it may say."""
 
+import itertools
 import json
 import math
 import struct
@@ -11,7 +12,7 @@ from tftool.frames.buffer import Buffer
 from tftool.frames.sample import TransformStamped
 from tftool.geometry.rigid import Transform
 from tftool.screens.browser import protocol
-from tftool.screens.browser.protocol import Got, Pair, Show, parse
+from tftool.screens.browser.protocol import Got, Pair, Past, Show, parse
 from tftool.stamps import seconds
 
 EPOCH = seconds(1000)
@@ -26,6 +27,7 @@ EPOCH = seconds(1000)
         ('{"type": "pair", "target": "a", "source": "b"}', Pair(("a", "b"))),
         ('{"type": "pair", "target": null, "source": null}', Pair(None)),
         ('{"type": "got", "sequence": 7}', Got(7)),
+        ('{"type": "past"}', Past()),
     ],
 )
 def test_what_the_page_may_say(said, means):
@@ -39,10 +41,10 @@ def test_what_the_page_may_say(said, means):
         ("", "not JSON"),
         ("{", "not JSON"),
         ("[" * 100_000, "not JSON"),
-        ("null", "show, pair or got"),
-        ("[]", "show, pair or got"),
-        ('{"type": "shutdown"}', "show, pair or got"),
-        ('{"type": ["show"]}', "show, pair or got"),
+        ("null", "show, pair, got or past"),
+        ("[]", "show, pair, got or past"),
+        ('{"type": "shutdown"}', "show, pair, got or past"),
+        ('{"type": ["show"]}', "show, pair, got or past"),
         ('{"type": "show", "at": "now"}', "a number of seconds"),
         ('{"type": "show", "at": NaN}', "a number of seconds"),
         ('{"type": "show", "at": 1e300}', "a number of seconds"),
@@ -162,3 +164,15 @@ def test_the_buffers_reach_is_nothing_while_all_is_static():
         "oldest": 4.0,
         "newest": 4.0,
     }
+
+
+def test_what_the_buffer_remembers_is_told_at_even_steps_and_fewer_for_many_frames():
+    frames = buffer().snapshot(seconds(1004)).frames
+
+    few = protocol.moments(frames)
+    many = protocol.moments(frames * 10_000)
+
+    assert (len(few), few[0], few[-1]) == (120, seconds(1001), seconds(1003))
+    assert len({after - before for before, after in itertools.pairwise(few)}) <= 2
+    assert many == [seconds(1001), seconds(1003)]
+    assert protocol.moments([]) == []

@@ -262,6 +262,49 @@ def test_a_page_in_the_past_still_hears_how_far_the_buffer_reaches():
     serve(test)
 
 
+def test_what_the_buffer_remembers_is_told_on_request_for_trails():
+    async def test(world, page):
+        for second in (1, 2, 3):
+            put(world, float(second), stamp=world.clock.epoch + seconds(second))
+        async with open_page(page) as connection:
+            client = Page(connection)
+            await client.hear()
+            await client.say(type="past")
+            await client.say(type="past")  # the second is one too many, and ignored
+            told = []
+            while len(told) < 120:
+                await client.hear()
+                if client.sequence == 0:
+                    told.append((client.at, client.poses["turtle"][0]))
+            assert told[0] == (1.0, 1.0)
+            assert told[-1] == (3.0, 3.0)
+            assert all(x == pytest.approx(at) for at, x in told)
+
+    serve(test)
+
+
+def test_a_frame_that_changed_its_parent_is_shown_under_the_parent_of_the_moment():
+    async def test(world, page):
+        epoch = world.clock.epoch
+        for second, parent in ((1, "a"), (2, "a"), (3, "b"), (4, "b")):
+            put(world, 1.0, parent=parent, stamp=epoch + seconds(second))
+        async with open_page(page) as connection:
+            client = Page(connection)
+            parents = []
+            await client.hear()
+            for at in (None, 1.5, None, 1.5):
+                wanted = str(math.nan if at is None else at)
+                await client.say(type="show", at=at)
+                while str(client.at) != wanted:
+                    await client.hear()
+                names = client.told["frames"]["names"]
+                place = client.told["frames"]["parents"][names.index("turtle")]
+                parents.append((names[place], client.revision))
+            assert parents == [("b", 1), ("a", 2), ("b", 1), ("a", 2)]
+
+    serve(test)
+
+
 def test_a_pair_is_told_with_every_picture():
     async def test(world, page):
         put(world, 1.0, stamp=world.clock.epoch)

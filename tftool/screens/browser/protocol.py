@@ -10,6 +10,8 @@ Page to server, text only:
   {"type": "show", "at": seconds | null}        which moment; null follows the present
   {"type": "pair", "target": …, "source": …}    which pair; null for none
   {"type": "got", "sequence": n}                the page has drawn that many poses
+  {"type": "past"}                              send what the buffer remembers, for trails;
+                                                it comes as poses of sequence number 0
 
 Moments travel as seconds since the clock's epoch, which a float holds to the nanosecond
 for a hundred days; the epoch itself travels as text.
@@ -34,6 +36,9 @@ MAGIC = b"TFP1"
 HEADER = struct.Struct("<4sIIIdddd")
 """Magic, sequence, revision of the names, number of frames; now, moment shown (NaN for the
 present), oldest and newest moment of the buffer, in seconds since the epoch."""
+
+HISTORY = 120
+"""Moments that tell what the buffer remembers; fewer where there are many frames."""
 
 FIELDS = 11
 """Numbers per frame: x y z, qx qy qz qw (NaN without data), newest, oldest, rate, samples."""
@@ -69,11 +74,16 @@ class Got:
     sequence: int
 
 
-def parse(message: str | bytes) -> Show | Pair | Got:
+@dataclass(frozen=True, slots=True)
+class Past:
+    """Send poses from all over the buffer once."""
+
+
+def parse(message: str | bytes) -> Show | Pair | Got | Past:
     """Read what a page sent.
 
     Raises:
-        InputError: If it is none of the three messages; says what is wrong.
+        InputError: If it is none of the four messages; says what is wrong.
     """
     if isinstance(message, bytes):
         raise InputError("the page speaks text, not bytes")
@@ -96,7 +106,9 @@ def parse(message: str | bytes) -> Show | Pair | Got:
         if isinstance(sequence, int):
             return Got(sequence)
         raise InputError("a sequence is a whole number")
-    raise InputError('a message is an object whose "type" is show, pair or got')
+    if kind == "past":
+        return Past()
+    raise InputError('a message is an object whose "type" is show, pair, got or past')
 
 
 def _moment(value: Any) -> float | None:
@@ -129,6 +141,16 @@ def reach(frames: Iterable[FrameInfo]) -> tuple[Stamp, Stamp] | None:
             oldest = frame.oldest if not newest else min(oldest, frame.oldest)
             newest = max(newest, frame.newest)
     return (oldest, newest) if newest else None
+
+
+def moments(frames: Sequence[FrameInfo]) -> list[Stamp]:
+    """Choose moments spread evenly over what the links remember, oldest first."""
+    span = reach(frames)
+    if span is None or span[0] == span[1]:
+        return []
+    oldest, newest = span
+    count = max(2, min(HISTORY, 40_000 // len(frames)))
+    return [oldest + (newest - oldest) * step // (count - 1) for step in range(count)]
 
 
 def encode_names(

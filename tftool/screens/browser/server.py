@@ -23,9 +23,10 @@ from websockets.http11 import Request, Response
 
 from tftool.errors import InputError, TftoolError
 from tftool.frames.buffer import Buffer
-from tftool.frames.sample import FrameInfo, Snapshot
+from tftool.frames.sample import Snapshot
 from tftool.runtime.clock import Clock, Phase
 from tftool.screens.browser import assets, protocol
+from tftool.screens.browser.client import Client, Picture, Poses, Tree
 from tftool.stamps import NANOSECONDS, Stamp
 from tftool.views.forest import grow
 
@@ -36,11 +37,11 @@ ROUTER_PORT = 7447
 """Belongs to the ROS router of a machine that has one; never ours."""
 
 MOST_CLIENTS = 32
-IN_FLIGHT = 2
-"""Poses a page may be sent before it says it has drawn the first of them."""
-
 RANGE_EVERY = 10
 """Ticks between two words about the buffer's reach to a page that shows the past."""
+
+TREES_KEPT = 8
+"""Shapes of the tree whose names need not be written again."""
 
 # What the library has to say of strangers' broken handshakes is not for the user's terminal.
 _LOGGER = logging.getLogger("tftool.view")
@@ -60,98 +61,6 @@ class Source(Protocol):
     def buffer(self) -> Buffer:
         """Where the frames are."""
         ...
-
-
-class Client:
-    """One open page: what it looks at, and what it is sent next.
-
-    Attributes:
-        at: The moment it looks at; None follows the present.
-        pair: Target and source whose transform it is told.
-        sent: Poses sent so far.
-        skipped: Poses not sent because the page was busy.
-    """
-
-    def __init__(self, socket: ServerConnection) -> None:
-        self.socket = socket
-        self.at: Stamp | None = None
-        self.pair: tuple[str, str] | None = None
-        self.sent = 0
-        self.skipped = 0
-        self._asked = False
-        self._drawn = 0
-        self._revision = -1
-        self._next: list[str | bytes] = []
-        self._wake = asyncio.Event()
-
-    def hear(self, message: str | bytes, epoch: Stamp) -> None:
-        """Take in what the page said.
-
-        Raises:
-            InputError: If it is not one of the page's messages.
-        """
-        said = protocol.parse(message)
-        if isinstance(said, protocol.Got):
-            self._drawn = max(self._drawn, min(said.sequence, self.sent))
-            self._wake.set()
-        elif isinstance(said, protocol.Pair):
-            self.pair = said.frames
-            self._asked = True
-        else:
-            self.at = None if said.at is None else protocol.stamp_at(epoch, said.at)
-            self._asked = True
-
-    def wants(self) -> bool:
-        """Whether poses are to be made for it; asking about the past is answered once."""
-        asked, self._asked = self._asked, False
-        return asked or self.at is None
-
-    def offer(self, revision: int, names: str, pair: str | None, poses: "Poses") -> None:
-        """Put up the newest picture; one that was not taken yet is dropped."""
-        if self._next:
-            self.skipped += 1
-        self._next = [] if self._revision == revision else [names]
-        if pair is not None:
-            self._next.append(pair)
-        self._next.append(poses(self.sent + 1))
-        self._pending_revision = revision
-        self._wake.set()
-
-    async def tell(self, text: str) -> None:
-        """Send a word that is no picture, if nothing waits to be drawn."""
-        if self._ready():
-            await self.socket.send(text)
-
-    async def feed(self) -> None:
-        """Send what is offered whenever the page is ready for it; ends with the connection."""
-        while True:
-            await self._wake.wait()
-            self._wake.clear()
-            if not self._next or not self._ready():
-                continue
-            messages, self._next = self._next, []
-            self._revision = self._pending_revision
-            self.sent += 1
-            for message in messages:
-                await self.socket.send(message)
-
-    def _ready(self) -> bool:
-        return self.sent - self._drawn < IN_FLIGHT
-
-
-class Poses:
-    """One snapshot, written once for all pages but for the number each one counts by."""
-
-    def __init__(
-        self, epoch: Stamp, revision: int, snapshot: Snapshot, frames: list[FrameInfo]
-    ) -> None:
-        self._written = protocol.encode_poses(epoch, 0, revision, snapshot, frames)
-
-    def __call__(self, sequence: int) -> bytes:
-        """The bytes for a page that has been sent `sequence` − 1 pictures."""
-        start = len(protocol.MAGIC)
-        number = (sequence & 0xFFFFFFFF).to_bytes(4, "little")
-        return self._written[:start] + number + self._written[start + 4 :]
 
 
 class PageServer:
@@ -177,10 +86,8 @@ class PageServer:
         self._period = _period(source.clock, rate)
         self._server: Server | None = None
         self._files = assets.load()
-        self._names = ""
+        self._trees: dict[object, Tree] = {}
         self._revision = 0
-        self._key: object = None
-        self._shown: list[int] = []
         self._ticks = 0
 
     @property
@@ -236,50 +143,62 @@ class PageServer:
         while True:
             await clock.sleep_until(due, Phase.WATCH)
             began = clock.now()
-            await self._tick(began)
+            self._tick(began)
             ended = clock.now()
             # Thousands of frames may take longer than a period: never more than half the time.
             due = max(due + self._period, ended + (ended - began))
 
-    async def _tick(self, now: Stamp) -> None:
+    def _tick(self, now: Stamp) -> None:
         self._ticks += 1
-        following: tuple[Snapshot, Poses] | None = None
+        following: Picture | None = None
         for client in list(self.clients):
             if client.wants():
                 if client.at is not None:
-                    self._offer(client, client.at, *self._picture(now, client.at))
+                    self._offer(client, self._picture(now, client.at))
                     continue
                 following = following or self._picture(now, 0)
-                self._offer(client, 0, *following)
+                self._offer(client, following)
             elif self._ticks % RANGE_EVERY == 0:
                 following = following or self._picture(now, 0)
-                try:
-                    epoch = self.source.clock.epoch
-                    await client.tell(protocol.encode_range(epoch, following[0]))
-                except ConnectionClosed:
-                    continue  # its own task is about to notice
+                client.tell(protocol.encode_range(self.source.clock.epoch, following.snapshot))
 
-    def _picture(self, now: Stamp, at: Stamp) -> tuple[Snapshot, Poses]:
+    def _picture(self, now: Stamp, at: Stamp) -> Picture:
         snapshot = self.source.buffer.snapshot(now, at)
-        key = protocol.names_key(snapshot.frames)
-        epoch = self.source.clock.epoch
-        if key != self._key:
-            self._key = key
-            self._revision += 1
-            self._shown = _chosen(snapshot)
-            frames = [snapshot.frames[index] for index in self._shown]
-            self._names = protocol.encode_names(
-                epoch, self._revision, frames, len(snapshot.frames), self.source.clock.rate
-            )
-        frames = [snapshot.frames[index] for index in self._shown]
-        return snapshot, Poses(epoch, self._revision, snapshot, frames)
+        tree = self._tree(snapshot)
+        frames = [snapshot.frames[index] for index in tree.shown]
+        return Picture(
+            snapshot, tree, Poses(self.source.clock.epoch, tree.revision, snapshot, frames)
+        )
 
-    def _offer(self, client: Client, at: Stamp, snapshot: Snapshot, poses: Poses) -> None:
+    def _tree(self, snapshot: Snapshot) -> Tree:
+        """The names as they were sent before, if the tree had that shape before."""
+        key = protocol.names_key(snapshot.frames)
+        tree = self._trees.get(key)
+        if tree is None:
+            self._revision += 1
+            shown = _chosen(snapshot)
+            text = protocol.encode_names(
+                self.source.clock.epoch,
+                self._revision,
+                [snapshot.frames[index] for index in shown],
+                len(snapshot.frames),
+                self.source.clock.rate,
+            )
+            tree = Tree(self._revision, text, shown)
+            # One page may look at a past in which a frame had another parent: not one shape
+            # alone is in use, yet they are few.
+            while len(self._trees) >= TREES_KEPT:
+                del self._trees[next(iter(self._trees))]
+            self._trees[key] = tree
+        return tree
+
+    def _offer(self, client: Client, picture: Picture) -> None:
         pair = None
         if client.pair is not None:
-            epoch = self.source.clock.epoch
-            pair = protocol.encode_pair(self.source.buffer, epoch, *client.pair, at)
-        client.offer(self._revision, self._names, pair, poses)
+            pair = protocol.encode_pair(
+                self.source.buffer, self.source.clock.epoch, *client.pair, picture.snapshot.at
+            )
+        client.offer(picture.tree, pair, picture.poses)
 
     def _receive(self, connection: ServerConnection, request: Request) -> Response | None:
         """Answer a request for a file; None lets a WebSocket open."""
@@ -306,17 +225,32 @@ class PageServer:
         client = Client(socket)
         self.clients.add(client)
         feeding = asyncio.ensure_future(client.feed())
+        telling: asyncio.Future[None] | None = None
         try:
             async for message in socket:
-                client.hear(message, self.source.clock.epoch)
+                said = protocol.parse(message)
+                if not isinstance(said, protocol.Past):
+                    client.hear(said, self.source.clock.epoch)
+                elif telling is None or telling.done():
+                    telling = asyncio.ensure_future(self._tell_past(socket))
         except InputError as error:
             await socket.close(1008, str(error))
         except ConnectionClosed:
             pass
         finally:
             self.clients.discard(client)
-            feeding.cancel()
-            await asyncio.gather(feeding, return_exceptions=True)
+            tasks = [feeding] if telling is None else [feeding, telling]
+            for task in tasks:
+                task.cancel()
+            await asyncio.gather(*tasks, return_exceptions=True)
+
+    async def _tell_past(self, socket: ServerConnection) -> None:
+        """Send poses from all over the buffer, in no hurry: they are for trails."""
+        clock = self.source.clock
+        for moment in protocol.moments(self.source.buffer.snapshot(clock.now()).frames):
+            began = clock.now()
+            await socket.send(self._picture(began, moment).poses(0))
+            await clock.sleep(self._period // 8 + 2 * (clock.now() - began), Phase.WATCH)
 
 
 def _period(clock: Clock, rate: float) -> int:

@@ -84,10 +84,17 @@ const wire = new Wire({
     if (another) goLive();
     tree.build(model, state);
     fillChoices();
+    // Trails start with what the buffer remembers; once the tree has come to rest.
+    clearTimeout(askPast.timer);
+    askPast.timer = setTimeout(askPast, 300);
     $("left-out").hidden = model.total <= model.names.length;
     $("left-out").textContent =
       `${model.names.length} of ${model.total} frames shown; those farthest from their root are left out.`;
     listsAt = 0;
+  },
+  past(poses) {
+    model.remember(poses);
+    dirty = true;
   },
   pair(message) {
     if (message.target !== state.target || message.source !== state.source) return;
@@ -109,6 +116,10 @@ const wire = new Wire({
     model.setPoses(poses, performance.now());
   },
 });
+
+function askPast() {
+  wire.past();
+}
 
 /** Whether a pair's numbers of a moment shown must outlive the buffer's memory of it. */
 function pairOutlived(message) {
@@ -363,7 +374,9 @@ function fit(box) {
   if (state.scale === undefined) {
     const spread = Math.max(...box.high.map((value, at) => value - box.low[at]), 0.5);
     // Axes a twentieth of the scene: rviz's 1 suits a room, not a gripper nor a field.
-    setScale(Math.min(100, Math.max(0.01, spread / 4)));
+    // Smaller in a crowd.
+    const crowd = Math.max(1, Math.cbrt(drawn.length / 12));
+    setScale(Math.min(100, Math.max(0.01, spread / 4 / crowd)));
   }
 }
 

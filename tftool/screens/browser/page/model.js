@@ -13,6 +13,8 @@ export function fade(age, timeout) {
   return { grey: 0, alpha: 1 };
 }
 
+const moment = (poses) => poses.at ?? poses.now;
+
 export class Model {
   constructor() {
     this.names = [];
@@ -59,6 +61,7 @@ export class Model {
     for (let at = 0; at < this.order.length; at++) this.order.push(...this.children[this.order[at]]);
     // What no root reaches runs in a loop: listed, never walked.
     const reached = new Set(this.order);
+    this.forget(); // what is remembered goes by the old numbers
     this.looped = this.names.map((_, index) => index).filter((index) => !reached.has(index));
     this.rootOf = new Array(this.names.length).fill(-1);
     for (const index of this.order) {
@@ -78,16 +81,25 @@ export class Model {
     this.poses = poses;
     if (poses.at !== null) return;
     const last = this.history[this.history.length - 1];
-    if (last && poses.now < last.now) this.forget();
-    this.history.push(poses);
+    if (last && poses.now < moment(last)) this.forget();
+    this.remember(poses);
+    this.heardAt = when;
+  }
+
+  /** Keep poses for trails, in the order of their moments. */
+  remember(poses) {
+    if (poses.revision !== this.revision) return;
+    let place = this.history.length;
+    while (place > 0 && moment(this.history[place - 1]) > moment(poses)) place--;
+    this.history.splice(place, 0, poses);
     this.historyBytes += poses.numbers.byteLength;
+    const newest = moment(this.history[this.history.length - 1]);
     while (
       this.history.length > 1 &&
-      (this.history[0].now < poses.now - HISTORY_SECONDS * this.rate || this.historyBytes > HISTORY_BYTES)
+      (moment(this.history[0]) < newest - HISTORY_SECONDS * this.rate || this.historyBytes > HISTORY_BYTES)
     ) {
       this.historyBytes -= this.history.shift().numbers.byteLength;
     }
-    this.heardAt = when;
   }
 
   /** Compute every pose in the fixed frame; null where it is not known. */
@@ -160,7 +172,8 @@ export class Model {
     if (base === undefined || this.rootOf[index] !== this.rootOf[base]) return [];
     const points = [];
     for (const poses of this.history) {
-      if (poses.revision !== this.revision || poses.now > until || poses.now < until - seconds * this.rate) continue;
+      const when = moment(poses);
+      if (when > until || when < until - seconds * this.rate) continue;
       const there = this.inRoot(poses, base);
       const here = this.inRoot(poses, index);
       if (there && here) points.push(compose(invert(there), here));

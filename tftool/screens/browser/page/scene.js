@@ -377,7 +377,7 @@ export class Stage {
       const half = pen.measureText(text).width / 2;
       const cells = [];
       for (let x = Math.floor((spot[0] - half) / 16); x <= Math.floor((spot[0] + half) / 16); x++) {
-        cells.push(`${x},${Math.floor(y / 14)}`);
+        for (let row = Math.floor(y / 7); row <= Math.floor((y + 12) / 7); row++) cells.push(`${x},${row}`);
       }
       if (!first && cells.some((cell) => taken.has(cell))) continue;
       cells.forEach((cell) => taken.add(cell));

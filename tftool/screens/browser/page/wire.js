@@ -53,7 +53,10 @@ export class Poses {
 }
 
 export class Wire {
-  /** Handlers: open(), ended(reason), names(message), pair(message), range(message), poses(Poses). */
+  /**
+   * Handlers: open(), ended(reason), names(message),
+   *  pair(message), range(message), poses(Poses),
+   *  past(Poses), of which one is drawn nowhere but in trails. */
   constructor(handlers) {
     this.handlers = handlers;
     this.wanted = new Map(); // what to say again after a reconnection, by type
@@ -93,6 +96,11 @@ export class Wire {
 
   got(sequence) {
     this.send(JSON.stringify({ type: "got", sequence }));
+  }
+
+  /** Ask for poses from all over the buffer. */
+  past() {
+    this.send(JSON.stringify({ type: "past" }));
   }
 
   send(message) {

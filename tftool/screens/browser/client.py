@@ -1,0 +1,128 @@
+"""One open page, and the pictures it is sent."""
+
+import asyncio
+from dataclasses import dataclass
+
+from websockets.asyncio.server import ServerConnection
+
+from tftool.frames.sample import FrameInfo, Snapshot
+from tftool.screens.browser import protocol
+from tftool.stamps import Stamp
+
+IN_FLIGHT = 2
+"""Poses a page may be sent before it says it has drawn the first of them."""
+
+
+@dataclass(frozen=True, slots=True)
+class Tree:
+    """The names of one shape of the tree, as they are sent.
+
+    Attributes:
+        revision: Its number.
+        text: The message.
+        shown: Which of the snapshot's frames are shown.
+    """
+
+    revision: int
+    text: str
+    shown: list[int]
+
+
+class Poses:
+    """One snapshot, written once for all pages but for the number each one counts by."""
+
+    def __init__(
+        self, epoch: Stamp, revision: int, snapshot: Snapshot, frames: list[FrameInfo]
+    ) -> None:
+        self._written = protocol.encode_poses(epoch, 0, revision, snapshot, frames)
+
+    def __call__(self, sequence: int) -> bytes:
+        """The bytes for a page that has been sent `sequence` − 1 pictures."""
+        start = len(protocol.MAGIC)
+        number = (sequence & 0xFFFFFFFF).to_bytes(4, "little")
+        return self._written[:start] + number + self._written[start + 4 :]
+
+
+@dataclass(frozen=True, slots=True)
+class Picture:
+    """What pages that look at the same moment are all sent."""
+
+    snapshot: Snapshot
+    tree: Tree
+    poses: Poses
+
+
+class Client:
+    """One open page: what it looks at, and what it is sent next.
+
+    Attributes:
+        at: The moment it looks at; None follows the present.
+        pair: Target and source whose transform it is told.
+        sent: Poses sent so far.
+        skipped: Poses not sent because the page was busy.
+    """
+
+    def __init__(self, socket: ServerConnection) -> None:
+        self.socket = socket
+        self.at: Stamp | None = None
+        self.pair: tuple[str, str] | None = None
+        self.sent = 0
+        self.skipped = 0
+        self._asked = False
+        self._drawn = 0
+        self._revision = self._next_revision = -1
+        self._next: list[str | bytes] = []
+        self._word: str | None = None
+        self._wake = asyncio.Event()
+
+    def hear(self, said: protocol.Show | protocol.Pair | protocol.Got, epoch: Stamp) -> None:
+        """Take in what the page said."""
+        if isinstance(said, protocol.Got):
+            self._drawn = max(self._drawn, min(said.sequence, self.sent))
+            self._wake.set()
+        elif isinstance(said, protocol.Pair):
+            self.pair = said.frames
+            self._asked = True
+        else:
+            self.at = None if said.at is None else protocol.stamp_at(epoch, said.at)
+            self._asked = True
+
+    def wants(self) -> bool:
+        """Whether poses are to be made for it; asking about the past is answered once."""
+        asked, self._asked = self._asked, False
+        return asked or self.at is None
+
+    def offer(self, tree: Tree, pair: str | None, poses: Poses) -> None:
+        """Put up the newest picture; one that was not taken yet is dropped."""
+        if self._next:
+            self.skipped += 1
+        self._next = [] if self._revision == tree.revision else [tree.text]
+        if pair is not None:
+            self._next.append(pair)
+        self._next.append(poses(self.sent + 1))
+        self._next_revision = tree.revision
+        self._wake.set()
+
+    def tell(self, text: str) -> None:
+        """Put up a word that is no picture; one that was not taken yet is dropped."""
+        self._word = text
+        self._wake.set()
+
+    async def feed(self) -> None:
+        """Send what is offered whenever the page is ready for it; ends with the connection."""
+        while True:
+            await self._wake.wait()
+            self._wake.clear()
+            word, self._word = self._word, None
+            if word is not None:
+                await self.socket.send(word)
+            if not self._next or not self._ready():
+                continue
+            messages, self._next = self._next, []
+            self._revision = self._next_revision
+            self.sent += 1
+            for message in messages:
+                await self.socket.send(message)
+
+    def _ready(self) -> bool:
+        return self.sent - self._drawn < IN_FLIGHT
