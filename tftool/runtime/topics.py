@@ -148,6 +148,11 @@ class GoalHandle:
         """Whether the goal has ended."""
         return self._result.done()
 
+    @property
+    def ended(self) -> GoalResult | None:
+        """How it ended; None while it is under way."""
+        return self._result.result() if self.done else None
+
     # The server's side.
 
     def publish_feedback(self, value: Any) -> None:

@@ -1,0 +1,538 @@
+"""Two worlds, two zenoh sessions, real sockets: what one says the other hears."""
+
+import asyncio
+
+import pytest
+
+from tests.link.conftest import new_world, until
+from tftool.errors import LinkError, TftoolError
+from tftool.frames.sample import TransformStamped
+from tftool.geometry.rigid import Transform
+from tftool.link.graph import hosts
+from tftool.link.session import Link, Options
+from tftool.link.transport import Reach
+from tftool.messages import (
+    Clear,
+    Color,
+    Pose2D,
+    RotateAbsolute,
+    Rotated,
+    Rotating,
+    Spawn,
+    Spawned,
+    Twist2D,
+)
+from tftool.nodes.turtlesim import Turtlesim
+from tftool.runtime.clock import WallClock, run
+from tftool.runtime.node import Node
+from tftool.runtime.supervisor import live
+from tftool.runtime.world import TransformMessage
+from tftool.stamps import seconds
+
+
+def sample(stamp, child="turtle1", x=1.0):
+    return TransformStamped(stamp, "world", child, Transform((x, 2.0, 0.0)))
+
+
+class Two:
+    """A host and a guest in one loop, each with a world and a zenoh session of its own."""
+
+    def __init__(self, guest=None, host=None):
+        self.host = Link(host or Options("demo"))
+        self.here = new_world()
+        self.host.attach(self.here, is_host=True)
+        self.guest = Link(guest or Options("echo"))
+        self.there = new_world()
+        self.guest.attach(self.there, is_host=False)
+
+    async def __aenter__(self):
+        await until(lambda: self.guest.graph.processes() or self.guest.options.domain)
+        return self
+
+    async def __aexit__(self, *error):
+        self.guest.close()
+        self.host.close()
+
+
+def play(coroutine):
+    return run(WallClock(), asyncio.wait_for(coroutine, 30))
+
+
+def texts(world):
+    return [record.text for record in world.log.records if record.node == "link"]
+
+
+def test_the_first_is_alone_and_the_second_sees_a_host():
+    async def meet():
+        with Link(Options("demo")) as host:
+            assert host.graph.is_empty
+            host.attach(new_world(), is_host=True)
+            with Link(Options("echo")) as guest:
+                (process,) = guest.graph.processes()
+                assert hosts([process]) == [process]
+                assert str(process).startswith("'tftool demo' (process ")
+
+    play(meet())
+
+
+def test_transforms_arrive_with_their_sender_in_buffer_and_topic():
+    async def send():
+        async with Two() as two:
+            heard = []
+            two.there.tf.subscribe(heard.append)
+            now = two.here.clock.now()
+            await until(lambda: two.host.graph.entities("MS", name="tf"))
+
+            two.here.broadcast([sample(now), sample(now, "turtle2")], "broadcaster1")
+            await until(lambda: heard)
+
+            expected = TransformMessage((sample(now), sample(now, "turtle2")), "broadcaster1")
+            assert heard == [expected]
+            found = two.there.buffer.lookup_transform("world", "turtle1", now)
+            assert found.transform == Transform((1.0, 2.0, 0.0))
+            info = two.there.buffer.snapshot(now).frame("turtle1")
+            assert info.authority == "broadcaster1"
+
+    play(send())
+
+
+def test_what_came_in_is_not_sent_out_again():
+    async def send():
+        async with Two() as two:
+            echoes = []
+            two.here.tf.subscribe(echoes.append)
+            commands = []
+            two.here.topic("turtle1/cmd_vel", Twist2D).subscribe(commands.append)
+            two.there.topic("turtle1/cmd_vel", Twist2D).subscribe(lambda twist: None)
+            await until(lambda: two.guest.graph.entities("MS", name="turtle1/cmd_vel"))
+            await until(lambda: two.host.graph.entities("MS", name="turtle1/cmd_vel"))
+
+            for step in range(1, 6):
+                two.there.broadcast([sample(step)], "guest")
+                two.there.topic("turtle1/cmd_vel", Twist2D).publish(Twist2D(float(step)))
+            await until(lambda: len(echoes) >= 5 and len(commands) >= 5)
+            # Anything that came back would have come before the answer to this.
+            two.here.serve("clear", lambda request: None)
+            await until(lambda: two.there.has_service("clear"))
+            await two.there.call("clear", Clear())
+
+            assert len(echoes) == 5
+            assert [twist.linear_x for twist in commands] == [1.0, 2.0, 3.0, 4.0, 5.0]
+            assert two.guest.received == 0
+
+    play(send())
+
+
+def test_who_comes_late_gets_all_statics_of_everybody():
+    async def send():
+        with Link(Options("static")) as first:
+            here = new_world()
+            first.attach(here, is_host=True)
+            here.broadcast([sample(0, "a"), sample(0, "b")], "one", static=True)
+            here.broadcast([sample(0, "c")], "one", static=True)
+            here.broadcast([sample(0, "a", x=5.0)], "one", static=True)
+            here.broadcast([sample(0, "d")], "two", static=True)
+
+            with Link(Options("echo")) as late:
+                there = new_world()
+                late.attach(there, is_host=False)
+                await until(lambda: set("abcd") <= set(there.buffer.frames()))
+
+                found = there.buffer.lookup_transform("world", "a")
+                assert found.transform.translation.x == 5.0
+                authorities = {
+                    name: there.buffer.snapshot(1).frame(name).authority for name in "abcd"
+                }
+                assert authorities == {"a": "one", "b": "one", "c": "one", "d": "two"}
+
+    play(send())
+
+
+def test_a_topic_is_known_to_all_and_travels_to_who_listens():
+    async def send():
+        async with Two() as two:
+            pose = Pose2D(1.5, 2.5, 0.5, 1.0, -1.0)
+            two.here.topic("turtle1/pose", Pose2D).publish(pose)
+            await until(lambda: "turtle1/pose" in two.there.topics())
+            heard = []
+            stop = two.there.topic("turtle1/pose", Pose2D).subscribe(heard.append)
+            await until(lambda: two.host.graph.entities("MS", name="turtle1/pose"))
+
+            two.here.topic("turtle1/pose", Pose2D).publish(pose)
+            await until(lambda: heard)
+            assert heard == [pose]
+
+            stop()
+            await until(lambda: not two.host.graph.entities("MS", name="turtle1/pose"))
+
+    play(send())
+
+
+def test_colours_are_asked_for_only_while_somebody_far_away_wants_them():
+    async def send():
+        async with Two() as two:
+            colors = two.here.topic("turtle1/color_sensor", Color)
+            assert colors.subscribers == 0
+            stop = two.there.topic("turtle1/color_sensor", Color).subscribe(lambda color: None)
+            await until(lambda: colors.subscribers == 1)
+            stop()
+            await until(lambda: colors.subscribers == 0)
+
+    play(send())
+
+
+def test_a_service_of_the_host_is_one_of_the_guests_world():
+    async def ask():
+        async with Two() as two:
+            asked = []
+
+            async def spawn(request):
+                asked.append(request)
+                return Spawned(request.name)
+
+            stop = two.here.serve("spawn", spawn)
+            await until(lambda: two.there.has_service("spawn"))
+
+            answer = await two.there.call("spawn", Spawn(4.0, 2.0, 0.0, "turtle2"))
+
+            assert answer == Spawned("turtle2")
+            assert asked == [Spawn(4.0, 2.0, 0.0, "turtle2")]
+            stop()
+            await until(lambda: not two.there.has_service("spawn"))
+
+    play(ask())
+
+
+def test_a_refusal_of_a_service_comes_back_as_a_sentence():
+    async def ask():
+        async with Two() as two:
+
+            def refuse(request):
+                raise TftoolError("no room for another turtle")
+
+            two.here.serve("spawn", refuse)
+            await until(lambda: two.there.has_service("spawn"))
+
+            with pytest.raises(LinkError, match="'spawn': it was refused: no room for another"):
+                await two.there.call("spawn", Spawn(4.0, 2.0))
+
+    play(ask())
+
+
+def test_a_question_whose_server_leaves_ends():
+    async def ask():
+        two = Two()
+        waits = asyncio.Event()
+
+        async def never(request):
+            waits.set()
+            await asyncio.get_running_loop().create_future()
+
+        two.here.serve("kill", never)
+        two.here.serve("clear", never)
+        await until(lambda: two.there.has_service("clear"))
+        question = asyncio.ensure_future(two.there.call("clear", Clear()))
+        await waits.wait()
+        two.host.close()
+
+        with pytest.raises(LinkError, match="'clear'"):
+            await question
+        two.guest.close()
+
+    play(ask())
+
+
+class Rotation:
+    """A rotate action that moves by hand."""
+
+    def __init__(self, world):
+        self.goals = []
+        world.serve_action("turtle1/rotate_absolute", self.goals.append)
+
+
+def test_a_goal_travels_with_its_feedback_and_its_end():
+    async def turn():
+        async with Two() as two:
+            rotation = Rotation(two.here)
+            await until(lambda: "turtle1/rotate_absolute" in two.there.actions())
+            feedback = []
+
+            goal = await two.there.send_goal(
+                "turtle1/rotate_absolute", RotateAbsolute(1.5), feedback.append
+            )
+            await until(lambda: rotation.goals)
+            (served,) = rotation.goals
+            assert served.request == RotateAbsolute(1.5)
+            served.publish_feedback(Rotating(0.5))
+            await until(lambda: feedback)
+            served.finish("succeeded", Rotated(-1.5))
+            result = await goal.result()
+
+            assert feedback == [Rotating(0.5)]
+            assert (result.status, result.value) == ("succeeded", Rotated(-1.5))
+
+    play(turn())
+
+
+def test_a_goal_is_called_off_over_the_link():
+    async def turn():
+        async with Two() as two:
+            rotation = Rotation(two.here)
+            await until(lambda: "turtle1/rotate_absolute" in two.there.actions())
+            goal = await two.there.send_goal("turtle1/rotate_absolute", RotateAbsolute(1.5))
+            await until(lambda: rotation.goals)
+            served = rotation.goals[0]
+
+            goal.cancel()
+            await until(lambda: served.cancel_requested)
+            served.finish("canceled", Rotated(0.25))
+
+            assert (await goal.result()).status == "canceled"
+
+    play(turn())
+
+
+def test_a_goal_whose_host_leaves_ends_as_aborted():
+    async def turn():
+        two = Two()
+        rotation = Rotation(two.here)
+        await until(lambda: "turtle1/rotate_absolute" in two.there.actions())
+        goal = await two.there.send_goal("turtle1/rotate_absolute", RotateAbsolute(1.5))
+        await until(lambda: rotation.goals)
+
+        two.host.close()
+
+        assert (await goal.result()).status == "aborted"
+        assert "turtle1/rotate_absolute" not in two.there.actions()
+        two.guest.close()
+
+    play(turn())
+
+
+def test_a_guest_drives_and_looks_at_the_hosts_turtle():
+    async def drive():
+        async with Two() as two:
+            Turtlesim(two.here, "sim")
+            living = asyncio.ensure_future(live(two.here))
+            poses = []
+            await until(lambda: "turtle1/pose" in two.there.topics())
+            two.there.topic("turtle1/pose", Pose2D).subscribe(poses.append)
+            await until(lambda: poses)
+
+            two.there.topic("turtle1/cmd_vel", Twist2D).publish(Twist2D(2.0))
+            await until(lambda: poses[-1].linear_velocity == 2.0)
+            answer = await two.there.call("spawn", Spawn(4.0, 2.0, 0.0, "turtle2"))
+
+            assert answer == Spawned("turtle2")
+            await until(lambda: two.there.has_service("turtle2/set_pen"))
+            (node,) = two.guest.graph.entities("NN")
+            assert node.node == "sim"
+            living.cancel()
+            await asyncio.gather(living, return_exceptions=True)
+
+    play(drive())
+
+
+def test_a_guests_nodes_are_in_the_hosts_graph_while_they_live():
+    async def look():
+        async with Two() as two:
+            node = Node(two.there, "teleop_turtle")
+            await until(lambda: [one.node for one in two.host.graph.entities("NN")] == [node.name])
+            two.there.remove(node)
+            await until(
+                lambda: [one.node for one in two.host.graph.entities("NN")] == ["tftool_echo"]
+            )
+
+    play(look())
+
+
+def test_who_only_looks_shows_nothing_and_sends_nothing():
+    async def look():
+        async with Two(guest=Options("monitor", read_only=True)) as two:
+            heard = []
+            two.here.tf.subscribe(heard.append)
+            two.here.serve("clear", lambda request: None)
+            two.there.broadcast([sample(1)], "sneaky")
+            two.there.topic("turtle1/cmd_vel", Twist2D).publish(Twist2D(1.0))
+            steps = iter(range(2, 10_000))
+
+            # Sent until heard: who shows nothing cannot be seen to listen.
+            def sent_and_heard():
+                two.here.broadcast([sample(next(steps))], "broadcaster1")
+                return two.guest.received
+
+            await until(sent_and_heard)
+
+            assert {message.authority for message in heard} == {"broadcaster1"}
+            assert two.host.graph.is_empty
+            assert not two.there.has_service("clear")
+
+    play(look())
+
+
+def test_a_host_that_leaves_is_told_once():
+    async def leave():
+        two = Two()
+        await until(lambda: two.guest.graph.processes())
+        two.host.close()
+        await until(lambda: not two.guest.graph.processes())
+
+        (told,) = texts(two.there)
+        assert told.startswith("'tftool demo' (process ")
+        assert told.endswith("which hosted, has left; what it sent stays as it was.")
+        two.guest.close()
+
+    play(leave())
+
+
+def test_a_guest_that_comes_and_goes_is_told():
+    async def leave():
+        two = Two()
+        await until(lambda: two.host.graph.processes())
+        two.guest.close()
+        await until(lambda: len(texts(two.here)) == 2)
+
+        joined, left = texts(two.here)
+        assert joined.endswith("has joined.")
+        assert left.endswith("has left.")
+        two.host.close()
+
+    play(leave())
+
+
+def test_the_second_host_of_the_same_turtle_is_told():
+    async def host():
+        async with Two() as two:
+            two.here.serve("spawn", lambda request: Spawned("turtle1"))
+            await until(lambda: two.there.has_service("spawn"))
+            with Link(Options("demo")) as second:
+                world = new_world()
+                world.serve("spawn", lambda request: Spawned("turtle1"))
+                second.attach(world, is_host=True)
+
+                (told,) = texts(world)
+                assert "serves 'spawn' too" in told
+                assert "--domain" in told
+            assert [text for text in texts(two.here) if "serves" in text] == []
+
+    play(host())
+
+
+def test_bytes_that_are_no_message_are_counted_and_said_once():
+    async def send():
+        async with Two() as two:
+            await until(lambda: two.host.graph.entities("MS", name="tf"))
+            outlet = two.host.publisher("tf", "tf2_msgs/msg/TFMessage")
+            for _ in range(5):
+                outlet.put(b"\x00\x01\x00\x00\xff\xff\xff\xff", two.host.attachment(1, bytes(16)))
+            two.here.broadcast([sample(3)], "fine")
+            await until(lambda: two.guest.received == 1)
+
+            assert two.guest.refused == 5
+            told = [text for text in texts(two.there) if "refused" in text]
+            assert len(told) == 1
+            assert told[0].startswith(
+                "On 'tf': tf2_msgs/TFMessage refused: it announces 4294967295"
+            )
+
+    play(send())
+
+
+def test_a_clock_that_is_years_off_is_said_once_for_each_sender():
+    async def send():
+        async with Two() as two:
+            await until(lambda: two.host.graph.entities("MS", name="tf"))
+            for step in range(3):
+                two.here.broadcast([sample(seconds(1000 + step))], "simulated")
+            await until(lambda: two.guest.received == 3)
+
+            (told,) = [text for text in texts(two.there) if "clock" in text]
+            assert told.startswith("'simulated' stamps its transforms ")
+            assert "years before this machine's clock" in told
+            assert two.there.buffer.frame_exists("turtle1")
+
+    play(send())
+
+
+def test_domains_of_one_machine_hear_nothing_of_each_other():
+    async def look():
+        with Link(Options("demo", domain=3)) as host, Link(Options("echo", domain=4)) as other:
+            world = new_world()
+            host.attach(world, is_host=True)
+            other.attach(new_world(), is_host=True)
+            assert host.graph.is_empty
+            assert other.wire.neighbours == 0
+
+    play(look())
+
+
+def free_port():
+    import socket
+
+    with socket.socket() as probe:
+        probe.bind(("127.0.0.1", 0))
+        return probe.getsockname()[1]
+
+
+def test_over_tcp_a_guest_reaches_every_process_of_the_other_machine(session_dir, monkeypatch):
+    async def reach():
+        port = free_port()
+        with Link(Options("static")) as inner:
+            inside = new_world()
+            inner.attach(inside, is_host=True)
+            with Link(Options("demo", reach=Reach(listen=(f"tcp/127.0.0.1:{port}",)))) as gate:
+                gate.attach(new_world(), is_host=True)
+                # Another folder stands for another machine.
+                monkeypatch.setenv("TFTOOL_SESSION_DIR", str(session_dir / "far"))
+                with Link(Options("echo", reach=Reach(connect=(f"tcp/127.0.0.1:{port}",)))) as far:
+                    outside = new_world()
+                    far.attach(outside, is_host=False)
+                    inside.broadcast([sample(0, "A")], "static", static=True)
+                    await until(lambda: outside.buffer.frame_exists("A"))
+                    await until(lambda: len(far.graph.processes()) == 2)
+                    outside.broadcast([sample(5, "B")], "far")
+                    await until(lambda: inside.buffer.frame_exists("B"))
+
+    play(reach())
+
+
+def test_a_peer_that_talks_in_another_domain_is_said_once(session_dir, monkeypatch):
+    async def look():
+        port = free_port()
+        options = Options("demo", domain=3, reach=Reach(listen=(f"tcp/127.0.0.1:{port}",)))
+        with Link(options) as gate:
+            gate.attach(new_world(), is_host=True)
+            monkeypatch.setenv("TFTOOL_SESSION_DIR", str(session_dir / "far"))
+            with Link(Options("echo", reach=Reach(connect=(f"tcp/127.0.0.1:{port}",)))) as far:
+                world = new_world()
+                far.attach(world, is_host=True)
+                await until(lambda: texts(world))
+                gate_world = far.graph.foreign_domains
+                assert gate_world == {3}
+                assert texts(world) == [
+                    "Somebody talks in domain 3; this is domain 0 and hears nothing of it. "
+                    "To join: --domain 3."
+                ]
+
+    play(look())
+
+
+def test_nobody_at_the_other_end_is_a_sentence(monkeypatch):
+    monkeypatch.setattr("tftool.link.session.REACHING", 0.2)
+
+    with pytest.raises(LinkError, match=r"nobody answers at tcp/127\.0\.0\.1:\d+ within"):
+        Link(Options(reach=Reach(connect=(f"tcp/127.0.0.1:{free_port()}",))))
+
+
+def test_an_endpoint_that_cannot_be_is_a_sentence_and_leaves_nothing(session_dir):
+    with pytest.raises(LinkError, match="the link cannot be opened"):
+        Link(Options(reach=Reach(listen=("pigeon/over:there",))))
+
+    assert [path.name for path in (session_dir / "0").iterdir()] == ["lock"]
+
+
+def test_a_link_without_zenoh_says_what_is_missing(monkeypatch):
+    monkeypatch.setitem(__import__("sys").modules, "zenoh", None)
+
+    with pytest.raises(LinkError, match=r"'eclipse-zenoh', which is missing here.*--host"):
+        Link(Options())

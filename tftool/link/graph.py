@@ -1,0 +1,152 @@
+"""Who is there: processes, nodes, and what they offer, as their tokens tell."""
+
+import re
+from collections.abc import Iterable
+from dataclasses import dataclass
+from typing import Final
+
+from tftool.link import keys
+from tftool.link.keys import Entity
+from tftool.stamps import Stamp
+
+MOST: Final = 20_000
+"""Tokens that are kept; what strangers show on top of that is passed over."""
+
+_PROCESS = re.compile(
+    rf"{re.escape(keys.OURS)}/(?P<domain>\d{{1,9}})/(?P<session>[0-9a-f]{{1,32}})/"
+    r"(?P<since>\d{1,19})/(?P<pid>\d{1,9})/(?P<role>host|guest)/(?P<command>\w{1,64})",
+    re.ASCII,
+)
+
+
+@dataclass(frozen=True, slots=True)
+class Process:
+    """A tftool in the session, as it presents itself.
+
+    Attributes:
+        domain: Number of its ROS domain.
+        session: Its zenoh session, in hexadecimal.
+        since: When it joined, by its own clock.
+        pid: Its process number on its machine.
+        is_host: Whether it runs a world, or only takes part.
+        command: What it was called for: "demo", "echo".
+    """
+
+    domain: int
+    session: str
+    since: Stamp
+    pid: int
+    is_host: bool
+    command: str
+
+    def token(self) -> str:
+        """The key of its token."""
+        role = "host" if self.is_host else "guest"
+        command = re.sub(r"\W", "_", self.command, flags=re.ASCII)[:64] or "_"
+        return f"{keys.OURS}/{self.domain}/{self.session}/{self.since}/{self.pid}/{role}/{command}"
+
+    def __str__(self) -> str:
+        return f"'tftool {self.command}' (process {self.pid})"
+
+
+def parse_process(token: str) -> Process | None:
+    """What the token of a tftool tells; None for any other."""
+    found = _PROCESS.fullmatch(token)
+    if found is None:
+        return None
+    return Process(
+        int(found["domain"]),
+        found["session"],
+        int(found["since"]),
+        int(found["pid"]),
+        found["role"] == "host",
+        found["command"],
+    )
+
+
+class Graph:
+    """Everybody else's tokens.
+
+    Attributes:
+        own: Our own zenoh session, whose tokens are passed over.
+        domain: The domain we are in.
+    """
+
+    def __init__(self, own: str, domain: int) -> None:
+        self.own = own
+        self.domain = domain
+        self._entities: dict[str, Entity] = {}
+        self._processes: dict[str, Process] = {}
+        self._foreign: set[int] = set()
+
+    def add(self, token: str) -> Entity | Process | None:
+        """Take a token in.
+
+        Returns:
+            What is new by it; None when nothing is.
+        """
+        if token in self._entities or token in self._processes:
+            return None
+        if len(self._entities) + len(self._processes) >= MOST:
+            return None
+        found = keys.parse_token(token) or parse_process(token)
+        if found is None or found.session == self.own:
+            return None
+        if found.domain != self.domain:
+            self._foreign.add(found.domain)
+            return None
+        if isinstance(found, Entity):
+            self._entities[token] = found
+        else:
+            self._processes[token] = found
+        return found
+
+    def remove(self, token: str) -> Entity | Process | None:
+        """Let a token go.
+
+        Returns:
+            What is gone by it; None when it was not known.
+        """
+        return self._entities.pop(token, None) or self._processes.pop(token, None)
+
+    @property
+    def foreign_domains(self) -> frozenset[int]:
+        """Other domains that were heard of."""
+        return frozenset(self._foreign)
+
+    def processes(self) -> list[Process]:
+        """Every tftool, the one that is there longest first."""
+        return sorted(self._processes.values(), key=lambda one: (one.since, one.session))
+
+    def process(self, session: str) -> Process | None:
+        """The tftool that a zenoh session belongs to."""
+        return next((one for one in self._processes.values() if one.session == session), None)
+
+    def entities(self, *kinds: str, name: str | None = None) -> list[Entity]:
+        """Everything of some kinds, of one name if one is given."""
+        return [
+            one
+            for one in self._entities.values()
+            if (not kinds or one.kind in kinds) and (name is None or one.name == name)
+        ]
+
+    @property
+    def is_empty(self) -> bool:
+        """Whether nobody else is there."""
+        return not self._entities and not self._processes
+
+    def publisher(self, gid: bytes, topic: str) -> str:
+        """The node behind a message's sender: by its gid, else the only one it can be."""
+        publishers = self.entities(keys.PUBLISHER, name=topic)
+        unknown = []
+        for one in publishers:
+            if keys.gid_of(one.token()) == gid:
+                return one.node
+            if self.process(one.session) is None:
+                unknown.append(one)
+        return unknown[0].node if len(unknown) == 1 else f"publisher_{gid[:4].hex()}"
+
+
+def hosts(processes: Iterable[Process]) -> list[Process]:
+    """Those among some processes that run a world."""
+    return [one for one in processes if one.is_host]

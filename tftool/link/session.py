@@ -1,0 +1,431 @@
+"""A session: one world, joined to the other processes that share it.
+
+What nodes here publish goes out, what others publish comes in, and neither goes
+round: what came in over the link is never sent out again. The world does not know
+the difference; a service of another process is a service of the world.
+"""
+
+import asyncio
+import contextlib
+import os
+import re
+import threading
+from collections.abc import Callable
+from dataclasses import dataclass, field
+from typing import Final
+
+from tftool.errors import LinkError, MalformedMessage
+from tftool.link import keys
+from tftool.link.actions import ActionClient, ActionServer
+from tftool.link.graph import Graph, Process
+from tftool.link.keys import Attachment, Entity
+from tftool.link.rendezvous import Rendezvous
+from tftool.link.services import ServiceClient, ServiceServer
+from tftool.link.topics import StaticBridge, TopicBridge, TransformBridge
+from tftool.link.transport import Outlet, Reach, Wire
+from tftool.link.types import BY_ROS_TYPE, MESSAGES, SEND_GOAL, service_type
+from tftool.runtime.clock import WallClock
+from tftool.runtime.world import TransformMessage, World
+
+NAME: Final = "link"
+"""Who speaks in a world's log when the link has something to say."""
+
+REACHING: Final = 3.0
+"""Seconds to wait for somebody at the other end of `connect`."""
+
+_STEP = 0.02
+_PLAIN = re.compile(r"[A-Za-z_][A-Za-z0-9_]*(/[A-Za-z_][A-Za-z0-9_]*)*", re.ASCII)
+
+
+@dataclass(frozen=True, slots=True)
+class Options:
+    """How a process takes part.
+
+    Attributes:
+        command: What it is called for: "demo", "echo".
+        domain: Number of the ROS domain.
+        reach: What to open beyond this machine's own processes.
+        read_only: Only look: declare no publisher, no service and no token.
+    """
+
+    command: str = "tftool"
+    domain: int = 0
+    reach: Reach = field(default_factory=Reach)
+    read_only: bool = False
+
+
+class Link:
+    """A process's place in a session.
+
+    Attributes:
+        options: How it takes part.
+        graph: Who else is there; up to date once `attach` was called.
+        refused: Messages that came in and were not what they should be.
+        received: Messages that were taken in.
+    """
+
+    def __init__(self, options: Options) -> None:
+        """Join the others of this machine, and those `options` reach out to.
+
+        Returns at once when it stands alone. No other process of this machine can join
+        in between until `attach`, `settle` or `close` is called: whoever opens decides
+        what to be while nobody else does.
+
+        Raises:
+            LinkError: If there is no place to meet, or zenoh is missing or refuses.
+        """
+        self.options = options
+        self.refused = 0
+        self.received = 0
+        self._place: Rendezvous | None = None
+        endpoint = ""
+        others: tuple[str, ...] = ()
+        if options.reach.config is None:
+            self._place = Rendezvous(options.domain)
+            self._place.enter()
+            endpoint, others = self._place.endpoint, self._place.others
+        try:
+            self.wire = Wire(options.reach, endpoint, others)
+        except LinkError:
+            if self._place is not None:
+                self._place.leave()
+            raise
+        self.graph = Graph(self.wire.zid, options.domain)
+        self._reach_out(len(others))
+        for token in self._present_tokens():
+            self.graph.add(token)
+        self._world: World | None = None
+        self._stops: list[Callable[[], None]] = []
+        self._bridges: dict[str, TopicBridge | TransformBridge] = {}
+        self._servers: dict[str, ServiceServer | ActionServer] = {}
+        self._clients: dict[str, ServiceClient | ActionClient] = {}
+        self._nodes: dict[str, tuple[int, Callable[[], None]]] = {}
+        self._entity_ids = 0
+        self._said: set[str] = set()
+        self._authorities: dict[bytes, str] = {}
+        self._closed = False
+        self._settling = False
+        self._reconciling = False
+        self._since = 0
+
+    def settle(self) -> None:
+        """Let other processes of this machine join from now on."""
+        if self._place is not None:
+            self._place.settle()
+
+    # Taking part
+
+    def attach(self, world: World, *, is_host: bool) -> None:
+        """Carry a world's topics, services and actions from now on; call inside its loop.
+
+        Args:
+            world: Whose.
+            is_host: Whether this process runs the world that others look at.
+        """
+        self._world = world
+        self._since = WallClock().epoch
+        self.wire.start(asyncio.get_running_loop())
+        domain = self.options.domain
+        if not self.options.read_only:
+            process = Process(
+                domain, self.wire.zid, self._since, os.getpid(), is_host, self.options.command
+            )
+            self._stops.append(self.wire.token(process.token()))
+        # Every domain: a peer that talks in another one is worth a word.
+        for pattern in (f"{keys.LIVELINESS}/*/**", f"{keys.OURS}/*/**"):
+            self._stops.append(self.wire.watch_tokens(pattern, self._on_token))
+        self._stops.append(world.watch(self._reconcile))
+        self._reconcile()
+        self.settle()
+
+    def close(self) -> None:
+        """Leave the session; nothing of the world is touched."""
+        if self._closed:
+            return
+        self._closed = True
+        for bridge in self._bridges.values():
+            bridge.close()
+        for server in self._servers.values():
+            server.close()
+        for client in self._clients.values():
+            client.close()
+        for _, stop in self._nodes.values():
+            stop()
+        for stop in self._stops:
+            stop()
+        self.wire.close()
+        if self._place is not None:
+            self._place.leave()
+
+    def __enter__(self) -> "Link":
+        return self
+
+    def __exit__(self, *error: object) -> None:
+        self.close()
+
+    # What bridges, servers and clients ask for
+
+    @property
+    def world(self) -> World:
+        """The world that is attached."""
+        if self._world is None:
+            raise LinkError("no world is attached to this link yet")
+        return self._world
+
+    @property
+    def main_node(self) -> str:
+        """The node that what cannot be told apart is said to be of: the first of the world."""
+        nodes = self.world.nodes
+        return nodes[0].name if nodes else f"tftool_{self.options.command}"
+
+    def entity(
+        self, kind: str, node: str, name: str, ros_type: str, *, depth: int, latched: bool = False
+    ) -> Entity:
+        """Describe something new of ours."""
+        self._entity_ids += 1
+        durability = keys.TRANSIENT_LOCAL if latched else keys.VOLATILE
+        return Entity(
+            self.options.domain,
+            self.wire.zid,
+            self._node_id(node),
+            self._entity_ids,
+            kind,  # type: ignore[arg-type]
+            plain(node),
+            name,
+            ros_type,
+            quality=keys.quality(depth=depth, durability=durability),
+        )
+
+    def show(self, entity: Entity) -> Callable[[], None]:
+        """Show a token of ours until told to stop."""
+        if self.options.read_only:
+            return _nothing
+        return self.wire.token(entity.token())
+
+    def publisher(self, name: str, ros_type: str, *, latched: bool = False) -> Outlet:
+        """Declare that messages of a topic go out."""
+        return self.wire.publisher(
+            keys.data_key(self.options.domain, name, ros_type), latched=latched
+        )
+
+    def attachment(self, sequence: int, gid: bytes) -> bytes:
+        """What travels beside a message of ours."""
+        return Attachment(sequence, self.world.clock.now(), gid).encode()
+
+    def authority(self, gid: bytes, topic: str) -> str:
+        """The node that sent a message, by what stood beside it."""
+        found = self._authorities.get(gid)
+        if found is None:
+            if len(self._authorities) > 1000:
+                self._authorities.clear()
+            found = self._authorities[gid] = self.graph.publisher(gid, topic)
+        return found
+
+    def refuse(self, topic: str, refusal: MalformedMessage) -> None:
+        """Count a message that is not what it should be, and say the first of each topic."""
+        self.refused += 1
+        self.say_once(f"refused {topic}", f"On '{topic}': {refusal}. Others like it are counted.")
+
+    def say_once(self, what: str, sentence: str) -> None:
+        """Warn in the world's log, unless this was said before."""
+        if what not in self._said and len(self._said) < 1000:
+            self._said.add(what)
+            self.world.log.warn(NAME, sentence)
+
+    # Keeping up with the world
+
+    def _reconcile(self) -> None:
+        """Bring what is declared in line with what the world and the others have."""
+        # Serving another's service changes the world, which calls this again.
+        self._reconciling = False
+        if self._closed or self._settling:
+            return
+        self._settling = True
+        try:
+            self._match_nodes()
+            self._match_topics()
+            self._match_servers()
+            self._match_clients()
+        finally:
+            self._settling = False
+
+    def _match_nodes(self) -> None:
+        if self.options.read_only:
+            return
+        wanted = {node.name for node in self.world.nodes} or {f"tftool_{self.options.command}"}
+        for name in set(self._nodes) - wanted:
+            self._nodes.pop(name)[1]()
+        for name in wanted - set(self._nodes):
+            self._entity_ids += 1
+            number = self._entity_ids
+            entity = Entity(self.options.domain, self.wire.zid, number, number, "NN", plain(name))
+            self._nodes[name] = number, self.wire.token(entity.token())
+
+    def _match_topics(self) -> None:
+        for entity in self.graph.entities(keys.PUBLISHER):
+            known = BY_ROS_TYPE.get(entity.ros_type)
+            # Named here, so that whoever looks through the world's topics sees it.
+            if known and entity.name not in self.world.topics() and is_plain(entity.name):
+                self.world.topic(entity.name, known[0])
+        topics = self.world.topics()
+        for name in [name for name in self._bridges if name not in topics]:
+            self._bridges.pop(name).close()
+        for bridge in self._bridges.values():
+            bridge.refresh()
+        for name, topic in topics.items():
+            if name in self._bridges or not is_plain(name):
+                continue
+            if topic.kind is TransformMessage:
+                made = StaticBridge if name == "tf_static" else TransformBridge
+                self._bridges[name] = made(self, topic)
+            elif topic.kind in MESSAGES:
+                self._bridges[name] = TopicBridge(self, topic, MESSAGES[topic.kind])
+
+    def _match_servers(self) -> None:
+        if self.options.read_only:
+            return
+        own = {
+            name
+            for name in [*self.world.services(), *self.world.actions()]
+            if name not in self._clients and is_plain(name)
+        }
+        for name in set(self._servers) - own:
+            self._servers.pop(name).close()
+        for name in sorted(own - set(self._servers)):
+            kind = service_type(name)
+            if name in self.world.actions():
+                if name.rpartition("/")[2] == "rotate_absolute":
+                    self._servers[name] = ActionServer(self, name)
+                    self._warn_of_rival(name, f"{name}/_action/send_goal")
+            elif kind is not None:
+                self._servers[name] = ServiceServer(self, name, kind)
+                self._warn_of_rival(name, name)
+
+    def _match_clients(self) -> None:
+        if self.options.read_only:
+            return
+        wanted: dict[str, Entity] = {}
+        for entity in self.graph.entities(keys.SERVER):
+            action = entity.name.removesuffix("/_action/send_goal")
+            if entity.ros_type == SEND_GOAL or entity.ros_type.endswith("/RotateAbsolute_SendGoal"):
+                wanted[action] = entity
+            elif service_type(entity.name) is not None:
+                wanted[entity.name] = entity
+        for name in [name for name in self._clients if name not in wanted]:
+            self._clients.pop(name).close()
+        for name, entity in wanted.items():
+            taken = name in self.world.services() or name in self.world.actions()
+            if name in self._clients or taken or not is_plain(name):
+                continue
+            kind = service_type(name)
+            if kind is None:
+                self._clients[name] = ActionClient(self, name, entity)
+            else:
+                self._clients[name] = ServiceClient(self, name, kind, entity)
+
+    def _warn_of_rival(self, name: str, served: str) -> None:
+        for rival in self.graph.entities(keys.SERVER, name=served):
+            process = self.graph.process(rival.session)
+            # Of two the second is told.
+            if process is None or process.since < self._since:
+                self.say_once(
+                    "rival",
+                    f"{process or f'node {rival.node!r}'} serves '{name}' too: two hosts of the "
+                    "same turtles mix their transforms. Leave one of them, or give this one "
+                    "a --domain of its own.",
+                )
+
+    # Keeping up with the others
+
+    def _on_token(self, change: tuple[str, bool]) -> None:
+        token, there = change
+        if not there:
+            gone = self.graph.remove(token)
+            if isinstance(gone, Process):
+                self._left(gone)
+            elif gone is not None:
+                self._graph_changed()
+            return
+        new = self.graph.add(token)
+        if new is None:
+            self._mention_foreign_domains()
+            return
+        if isinstance(new, Entity):
+            self._graph_changed()
+        elif new.since >= self._since:
+            self.world.log.info(NAME, f"{new} has joined.")
+
+    def _graph_changed(self) -> None:
+        """Reconcile soon: tokens come in crowds, and one look serves them all."""
+        self._authorities.clear()
+        if not self._reconciling:
+            self._reconciling = True
+            asyncio.get_running_loop().call_soon(self._reconcile)
+
+    def _left(self, process: Process) -> None:
+        if process.is_host:
+            self.world.log.warn(
+                NAME, f"{process}, which hosted, has left; what it sent stays as it was."
+            )
+        else:
+            self.world.log.info(NAME, f"{process} has left.")
+
+    def _mention_foreign_domains(self) -> None:
+        for domain in self.graph.foreign_domains:
+            self.say_once(
+                f"domain {domain}",
+                f"Somebody talks in domain {domain}; this is domain {self.options.domain} and "
+                f"hears nothing of it. To join: --domain {domain}.",
+            )
+
+    # Opening
+
+    def _reach_out(self, others: int) -> None:
+        """Wait until somebody is there, where somebody should be."""
+        reach = self.options.reach
+        if not reach.connect and reach.config is None:
+            return
+        pause = threading.Event()
+        for _ in range(round(REACHING / _STEP)):
+            if self.wire.neighbours > others:
+                return
+            pause.wait(_STEP)
+        if self.wire.neighbours <= others and reach.connect:
+            self.close_quietly()
+            raise LinkError(
+                f"nobody answers at {', '.join(reach.connect)} within {REACHING:g} s; "
+                "is the other side running, and reachable from here?"
+            )
+
+    def close_quietly(self) -> None:
+        """Give up while opening."""
+        with contextlib.suppress(Exception):
+            self.wire.close()
+        if self._place is not None:
+            self._place.leave()
+
+    def _present_tokens(self) -> list[str]:
+        found: list[str] = []
+        for prefix in (keys.LIVELINESS, keys.OURS):
+            found += self.wire.tokens(f"{prefix}/{self.options.domain}/**")
+        return found
+
+    def _node_id(self, node: str) -> int:
+        found = self._nodes.get(node)
+        return 0 if found is None else found[0]
+
+
+def is_plain(name: str) -> bool:
+    """Whether a name can be a ROS topic's; others do not travel."""
+    return len(name) < 250 and _PLAIN.fullmatch(name) is not None
+
+
+def plain(name: str) -> str:
+    """A node's name as ROS would have it: letters, digits and underscores."""
+    name = re.sub(r"[^A-Za-z0-9_/]", "_", name.strip("/"))[:200]
+    name = re.sub(r"/+", "/", name)
+    return name if name and not name[0].isdigit() else f"_{name}"
+
+
+def _nothing() -> None:
+    """Stop nothing."""
