@@ -103,7 +103,7 @@ def follow(
     from tftool.nodes.broadcasters import Broadcaster
     from tftool.nodes.follower import Follower
     from tftool.stamps import NANOSECONDS
-    from tftool.views.escaping import visible_lines
+    from tftool.views.escaping import visible, visible_lines
 
     session = open_session(
         place,
@@ -136,4 +136,5 @@ def follow(
     )
     if not any(isinstance(node, Broadcaster) and node.turtle == follower for node in world.nodes):
         Broadcaster(world, f"broadcaster_{follower}", turtle=follower)
+    notice(f"{visible(follower)} follows {visible(leader)}, looking every {period:g} s.")
     session.run(session.lasting(None if run_for is None else seconds(run_for)))

@@ -1,0 +1,66 @@
+import contextlib
+import io
+import itertools
+import re
+import shlex
+from pathlib import Path
+
+import pytest
+
+from tftool.cli import app
+from tftool.cli.app import main
+
+ROOT = Path(__file__).parents[1]
+TEXT = (ROOT / "README.md").read_text(encoding="utf-8")
+BLOCKS = re.findall(r"^```(\w+)\n(.*?)^```$", TEXT, re.MULTILINE | re.DOTALL)
+PROGRAMS = [
+    (code, printed)
+    for (kind, code), (after, printed) in itertools.pairwise(BLOCKS)
+    if kind == "python" and after == "text"
+]
+LINES = [
+    line.partition("#")[0].strip()
+    for kind, block in BLOCKS
+    if kind == "sh"
+    for line in block.splitlines()
+    if line.startswith("tftool ")
+]
+
+
+@pytest.mark.parametrize(("code", "printed"), PROGRAMS)
+def test_every_program_prints_what_the_readme_says(code, printed):
+    out = io.StringIO()
+
+    with contextlib.redirect_stdout(out):
+        exec(compile(code, "README.md", "exec"), {"__name__": "readme"})
+
+    assert out.getvalue() == printed
+
+
+def test_every_program_has_its_output_beside_it():
+    assert len(PROGRAMS) == sum(kind == "python" for kind, _ in BLOCKS) > 0
+
+
+@pytest.mark.parametrize("line", LINES)
+def test_every_line_works(line, capsys):
+    assert main(shlex.split(line)[1:]) == 0
+    assert capsys.readouterr().out
+
+
+def test_there_are_five_lines():
+    assert len(LINES) == 5
+
+
+def test_every_command_has_its_row():
+    rows = set(re.findall(r"^\| `tftool (\w+)", TEXT, re.MULTILINE))
+
+    assert {command.callback.__name__ for command in app.build().registered_commands} <= rows
+
+
+def test_the_two_commands_bring_their_own_environment():
+    blocks = [block for kind, block in BLOCKS if kind == "sh" and "pip install" in block]
+
+    assert [block.count("\n") for block in blocks] == [1, 1]
+    assert all(block.startswith("python3 -m venv .venv && ") for block in blocks)
+    assert blocks[0].endswith(".venv/bin/tftool demo\n")
+    assert blocks[1].endswith(".venv/bin/python -m tests\n")
