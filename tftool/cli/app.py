@@ -57,14 +57,16 @@ def build() -> "typer.Typer":
             sys.stdout.write(context.get_help() + "\n")
 
     from tftool.cli.check import check
+    from tftool.cli.demo import demo
     from tftool.cli.echo import echo
     from tftool.cli.follow import follow
     from tftool.cli.monitor import monitor
     from tftool.cli.static import static
+    from tftool.cli.teleop import teleop
     from tftool.cli.tree import tree
     from tftool.cli.view import view
 
-    for command in (echo, static, tree, follow, monitor, view, check):
+    for command in (demo, teleop, echo, static, tree, follow, monitor, view, check):
         # A frame may lie at a negative place: -1 is a number there, not an option.
         takes_numbers = {"ignore_unknown_options": True} if command is static else None
         app.command(help=_laid_out(command), context_settings=takes_numbers)(command)

@@ -11,7 +11,8 @@ from tftool.errors import UsageError
 
 def demo(
     scenario: Annotated[
-        str, typer.Argument(metavar="[SCENARIO]", help="Scenario to play: a built-in name or a file.")
+        str,
+        typer.Argument(metavar="[SCENARIO]", help="Scenario to play: a built-in name or a file."),
     ] = "turtles",
     source_frame: Annotated[
         str | None,

@@ -2,17 +2,18 @@
 
 import os
 import sys
-from collections.abc import Coroutine
+from collections.abc import Callable, Coroutine
 from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
-from tftool.runtime.clock import run
-from tftool.runtime.world import World
+from tftool.errors import UsageError
 
 if TYPE_CHECKING:
     from tftool.nodes.teleop import Teleop
     from tftool.nodes.turtlesim import Turtlesim
+    from tftool.runtime.world import World
+    from tftool.screens.scene import Scene
     from tftool.screens.terminal import Setting
 
 Ascii = Annotated[
@@ -33,14 +34,14 @@ def has_terminal() -> bool:
     )
 
 
-def simulator_of(world: World) -> "Turtlesim | None":
+def simulator_of(world: "World") -> "Turtlesim | None":
     """The turtle simulator of a world, where it has one."""
     from tftool.nodes.turtlesim import Turtlesim
 
     return next((node for node in world.nodes if isinstance(node, Turtlesim)), None)
 
 
-def driver_of(world: World, turtle: str) -> "Teleop":
+def driver_of(world: "World", turtle: str) -> "Teleop":
     """The node that takes keys for `turtle`; it is added where there is none.
 
     Raises:
@@ -57,7 +58,7 @@ def driver_of(world: World, turtle: str) -> "Teleop":
 
 
 def run_app(
-    world: World,
+    world: "World",
     life: Coroutine[Any, Any, None],
     driver: "Teleop | None",
     setting: "Setting",
@@ -74,10 +75,24 @@ def run_app(
         NodeFailed: If a node raised.
         KeyboardInterrupt: If a signal or Ctrl-C ended it.
     """
+    from tftool.runtime.clock import run
     from tftool.screens.scene import Scene
     from tftool.screens.terminal import TurtleApp, setting_from, show
 
     setting = setting_from(os.environ, sys.stdout.encoding or "ascii", setting)
     scene = Scene(world, simulator_of(world))
-    app = TurtleApp(scene, None if driver is None else driver.press, setting)
+    app = TurtleApp(scene, None if driver is None else _press_of(scene, driver), setting)
     run(world.clock, show(app, life))
+
+
+def _press_of(scene: "Scene", driver: "Teleop") -> Callable[[str], object]:
+    """What takes the keys: the driver, but where its turtle is missing that is said."""
+
+    def press(key: str) -> None:
+        simulator, turtle = scene.simulator, driver.turtle
+        if simulator is not None and turtle not in simulator.turtles:
+            there = ", ".join(simulator.turtles) or "none"
+            raise UsageError(f"there is no turtle '{turtle}' here; there are: {there}")
+        driver.press(key)
+
+    return press

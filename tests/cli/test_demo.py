@@ -1,0 +1,196 @@
+import json
+from functools import partial
+
+import pytest
+
+from tftool.cli import onscreen
+from tftool.screens import terminal
+
+BAD = """\
+about: Nothing holds.
+duration: 2 s
+nodes: [turtlesim, broadcaster: {turtle: turtle1}]
+expect:
+  - {at: 1 s, turtles: [turtle1, turtle9]}
+  - {at: 2 s, turtles: [turtle1]}
+"""
+
+
+@pytest.fixture
+def on_terminal(monkeypatch):
+    """A terminal that everything is drawn for, but not on."""
+    monkeypatch.setattr(onscreen, "has_terminal", lambda: True)
+    monkeypatch.setattr(terminal, "show", partial(terminal.show, headless=True))
+    apps = []
+    started = terminal.TurtleApp.on_mount
+
+    def noting(self):
+        apps.append(self)
+        return started(self)
+
+    monkeypatch.setattr(terminal.TurtleApp, "on_mount", noting)
+    return apps
+
+
+def test_without_a_terminal_the_scenario_is_played_and_summed_up(tftool):
+    result = tftool("demo", "turtles")
+
+    lines = result.out.splitlines()
+    assert result.status == 0
+    assert lines[0] == "turtles: turtle2 follows turtle1, the tutorial's demo."
+    assert lines[1] == "Played 60 s of simulated time."
+    assert lines[3].startswith("  turtle1  x ")
+    assert lines[3].endswith("°  in world")
+    assert "  turtle2 is 0.000 m from turtle1." in lines
+    assert lines[-1].endswith(" expectations hold.")
+    assert result.err == ""
+
+
+def test_two_runs_print_the_same(tftool):
+    assert tftool("demo").out == tftool("demo").out
+
+
+def test_a_scenario_that_ends_early_is_judged_up_to_there(tftool):
+    result = tftool("demo", "turtles", "--for", 5)
+
+    assert result.status == 0
+    assert "Played 5 s of simulated time." in result.out
+    assert "more would have been judged later." in result.out
+
+
+def test_an_expectation_that_fails_is_told_and_is_the_exit_status(tftool, tmp_path):
+    (tmp_path / "bad.yaml").write_text(BAD)
+
+    result = tftool("demo", tmp_path / "bad.yaml")
+
+    assert result.status == 1
+    assert "1 of 2 expectations hold." in result.out
+    assert "line 5: at 1 s" in result.out
+
+
+def test_a_scenario_may_expect_nothing(tftool, tmp_path):
+    (tmp_path / "quiet.yaml").write_text("duration: 1 s\n")
+
+    result = tftool("demo", tmp_path / "quiet.yaml")
+
+    assert result.status == 0
+    assert result.out.splitlines()[0] == "quiet"
+    assert "It expects nothing up to here." in result.out
+
+
+def test_the_leader_can_be_another_frame(tftool):
+    found = json.loads(tftool("demo", "carrot", "--source-frame", "carrot1", "--json").out)
+
+    assert found["ok"] is True
+    (apart,) = [one for one in found["distances"] if one["from"] == "turtle2"]
+    assert apart["to"] == "turtle1"
+    assert found["frames"]["carrot1"]["in"] == "world"
+    assert {outcome["ok"] for outcome in found["expectations"]} == {True}
+
+
+def test_any_argument_can_be_set(tftool):
+    by_option = tftool("demo", "carrot", "--source-frame", "carrot1")
+    by_name = tftool("demo", "carrot", "--set", "source_frame=carrot1")
+
+    assert by_option == by_name
+
+
+@pytest.mark.parametrize(
+    ("words", "status", "sentence"),
+    [
+        (["--rate", "0"], 2, "0 is not a positive number"),
+        (["--rate", "nan"], 2, "nan is not a positive number"),
+        (["--rate", "fast"], 2, "'fast' is not a valid float"),
+        (["--for", "-1"], 2, "-1 is not a positive number"),
+        (["--set", "delay"], 2, "--set takes NAME=VALUE"),
+        (["--set", "=3"], 2, "--set takes NAME=VALUE"),
+        (["--set", "a=1", "--set", "a=2"], 2, "'a' is set twice"),
+        (["--set", "leader=x"], 2, "has no argument 'leader'"),
+        (["nosuch"], 3, "nosuch"),
+    ],
+)
+def test_what_cannot_be_is_refused_with_a_sentence(tftool, words, status, sentence):
+    result = tftool("demo", *words)
+
+    assert result.status == status
+    assert result.out == ""
+    assert sentence in result.err
+    assert "Traceback" not in result.err
+
+
+def test_a_node_that_fails_is_named_in_the_summary(tftool, monkeypatch):
+    from tftool.nodes.broadcasters import Broadcaster
+
+    async def run(self):
+        raise ValueError("out of [bold]paint[/]")
+
+    monkeypatch.setattr(Broadcaster, "run", run)
+
+    result = tftool("demo")
+
+    assert result.status == 1
+    assert "It ended early: node 'broadcaster1' failed: ValueError: out of [bold]paint[/]" in (
+        result.out
+    )
+
+
+def test_many_frames_are_summed_up_shortly(tftool, tmp_path):
+    steps = "\n".join(
+        f"  - {{at: 0 s, static: {{parent: map, child: f{n}, x: {n} m}}}}" for n in range(30)
+    )
+    (tmp_path / "many.yaml").write_text(f"duration: 1 s\nscript:\n{steps}\n")
+
+    result = tftool("demo", tmp_path / "many.yaml")
+
+    assert result.status == 0
+    assert "  f19  x  19.000" in result.out
+    assert "  and 10 more" in result.out
+
+
+def test_on_a_terminal_the_world_is_shown_until_its_time_is_over(tftool, on_terminal):
+    result = tftool("demo", "--rate", 20, "--for", 3, "--light", "--ascii")
+
+    (app,) = on_terminal
+    assert result.status == 0
+    assert result.out == ""
+    assert app.title == "tftool demo turtles"
+    assert app.setting.light
+    assert app.setting.ascii_only
+    assert "turtle1" in app.scene.simulator.turtles
+    assert app.scene.world.clock.elapsed() > 3e9
+
+
+def test_on_a_terminal_a_world_without_turtles_cannot_be_driven(tftool, on_terminal):
+    assert tftool("demo", "static", "--rate", 20, "--for", 1).status == 0
+
+    (app,) = on_terminal
+    assert app._press is None
+
+
+def test_on_a_terminal_a_failing_node_is_named_on_stderr(tftool, on_terminal, monkeypatch):
+    from tftool.nodes.broadcasters import Broadcaster
+
+    async def run(self):
+        raise ValueError("out of paint")
+
+    monkeypatch.setattr(Broadcaster, "run", run)
+
+    result = tftool("demo")
+
+    assert result.status == 1
+    assert result.err == "tftool: node 'broadcaster1' failed: ValueError: out of paint\n"
+
+
+@pytest.mark.parametrize(("term", "there"), [("xterm", True), ("dumb", False)])
+def test_a_terminal_is_where_all_three_streams_are(monkeypatch, term, there):
+    class Screen:
+        def isatty(self):
+            return True
+
+    monkeypatch.setenv("TERM", term)
+    for stream in ("stdin", "stdout", "stderr"):
+        monkeypatch.setattr(f"sys.{stream}", Screen())
+    assert onscreen.has_terminal() is there
+
+    monkeypatch.setattr("sys.stdin", None)
+    assert not onscreen.has_terminal()
