@@ -94,7 +94,10 @@ def test_a_node_that_fails_is_part_of_the_verdict():
 
     verdict = run_scenario(scenario)
 
-    assert verdict.failure == "node 'script' failed: TftoolError: no node serves 'clear'"
+    assert (
+        verdict.failure
+        == "node 'script' failed: TftoolError: in line 3 of the scenario: no node serves 'clear'"
+    )
     assert verdict.lasted == seconds(2)
     assert [one.reached for one in verdict.outcomes] == [True, False]
     assert not verdict.ok
@@ -133,7 +136,7 @@ def test_without_its_script_a_scenario_only_builds_its_world():
         script=False,
     )
 
-    assert [node.name for node in played.world.nodes] == ["turtlesim", "expectations"]
+    assert [node.name for node in played.world.nodes] == ["turtlesim"]
     assert list(played.world.node("turtlesim").turtles) == ["turtle1"]
     assert played.verdict().outcomes == ()
 
@@ -244,6 +247,17 @@ def test_a_stopped_node_says_no_more():
     # 2 s are 125 ticks, the first at the start.
     assert [message.authority for message in heard] == ["b"] * 126
     assert ("script", "b is gone") in logged(played)
+
+
+def test_a_node_is_stopped_once():
+    played = play(
+        "duration: 1 s\nnodes: [turtlesim]\nscript:\n" + "  - {at: 0 s, stop: turtlesim}\n" * 2
+    )
+
+    assert logged(played)[-1] == (
+        "script",
+        "No node is named 'turtlesim' (any more); nothing is stopped",
+    )
 
 
 def test_steps_of_one_instant_are_done_in_the_order_of_the_file():

@@ -12,7 +12,7 @@ from tftool.scenario.actions import Press
 from tftool.scenario.expectations import Expectations
 from tftool.scenario.kinds import KINDS
 from tftool.scenario.load import NO_ARGUMENTS
-from tftool.scenario.schema import Scenario
+from tftool.scenario.schema import Expectation, Scenario
 from tftool.scenario.script import Script
 from tftool.scenario.verdict import Outcome, Verdict
 from tftool.stamps import Stamp
@@ -52,7 +52,8 @@ class Play:
         if steps:
             Script(self.world, steps)
         # Without its script a scenario promises nothing.
-        self._expectations = Expectations(self.world, scenario.expect if script else ())
+        expected = scenario.expect if script else ()
+        self._expectations = Expectations(self.world, expected) if expected else None
 
     async def live(self, until: Stamp | None = None, *, endless: bool = False) -> None:
         """Live through the scenario.
@@ -74,27 +75,27 @@ class Play:
 
     def verdict(self) -> Verdict:
         """What held so far; expectations whose time has not come say so."""
+        judge = self._expectations
+        pairs = [] if judge is None else zip(judge.expected, judge.outcomes, strict=True)
         return Verdict(
             scenario=self.scenario.name,
             file=self.scenario.file,
-            outcomes=tuple(
-                outcome
-                or Outcome(
-                    expectation=str(expected.question),
-                    line=expected.line,
-                    when=str(expected.when),
-                    expected=str(expected.check),
-                    found="not reached",
-                    at=None,
-                    ok=False,
-                )
-                for expected, outcome in zip(
-                    self._expectations.expected, self._expectations.outcomes, strict=True
-                )
-            ),
+            outcomes=tuple(outcome or _not_reached(expected) for expected, outcome in pairs),
             lasted=self.world.clock.now() - self.start,
             failure=self.failure,
         )
+
+
+def _not_reached(expected: Expectation) -> Outcome:
+    return Outcome(
+        expectation=str(expected.question),
+        line=expected.line,
+        when=str(expected.when),
+        expected=str(expected.check),
+        found="not reached",
+        at=None,
+        ok=False,
+    )
 
 
 def build(

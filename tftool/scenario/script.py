@@ -9,6 +9,7 @@ from collections.abc import Awaitable, Callable, Mapping, Sequence
 from types import MappingProxyType
 from typing import Any
 
+from tftool.errors import TftoolError
 from tftool.frames.sample import TransformStamped
 from tftool.geometry.conversions import quaternion_from_rpy
 from tftool.geometry.rigid import Transform
@@ -54,7 +55,10 @@ class Script(Node):
 
     async def _do(self, step: Step) -> None:
         await self.wait_until(self.start + step.at)
-        await _DO[type(step.action)](step.action, self)
+        try:
+            await _DO[type(step.action)](step.action, self)
+        except TftoolError as error:
+            raise TftoolError(f"in line {step.line} of the scenario: {error}") from error
 
     async def wait_until(self, stamp: Stamp) -> None:
         """Wait for a moment, in this node's place within it."""
@@ -140,7 +144,12 @@ async def _static(action: actions.BroadcastStatic, script: Script) -> None:
 
 
 async def _stop(action: actions.StopNode, script: Script) -> None:
-    script.world.remove(script.world.node(action.node))
+    # It may be gone already: stopped before, or left out by whoever hosts this world.
+    gone = [node for node in script.world.nodes if node.name == action.node]
+    for node in gone:
+        script.world.remove(node)
+    if not gone:
+        script.warn(f"No node is named '{action.node}' (any more); nothing is stopped")
 
 
 async def _say(action: actions.Say, script: Script) -> None:

@@ -1,0 +1,44 @@
+"""The tables that say what a scenario may hold agree with the code and with the page about them."""
+
+import inspect
+
+import pytest
+
+from tftool.scenario import builtin
+from tftool.scenario.actions import Press
+from tftool.scenario.expectations import SUBJECTS
+from tftool.scenario.kinds import KINDS
+from tftool.scenario.load import parse
+from tftool.scenario.play import run_scenario
+from tftool.scenario.reading import REQUIRED, parts_of
+from tftool.scenario.script import ACTIONS
+
+
+@pytest.mark.parametrize("kind", KINDS)
+def test_a_node_takes_every_parameter_a_scenario_may_give_it(kind):
+    taken = inspect.signature(KINDS[kind].make).parameters
+
+    for name, field in KINDS[kind].fields.items():
+        assert name in taken
+        assert taken[name].kind is inspect.Parameter.KEYWORD_ONLY
+        # What a scenario leaves out is what the class means by leaving it out.
+        if taken[name].default is not inspect.Parameter.empty and field.default is not REQUIRED:
+            assert field.default == taken[name].default
+
+
+def test_the_example_on_the_page_about_the_format_is_true():
+    page = (builtin.folder() / "README.md").read_text(encoding="utf-8")
+    example = page.split("```yaml\n")[1].split("```")[0]
+
+    assert run_scenario(parse(example, "example.yaml")).ok
+
+
+def test_the_page_about_the_format_names_everything_there_is():
+    page = (builtin.folder() / "README.md").read_text(encoding="utf-8")
+
+    words = [*KINDS, *ACTIONS, *SUBJECTS, *parts_of(Press)]
+    words += [name for kind in KINDS.values() for name in kind.fields]
+    words += [key for kind, _ in ACTIONS.values() for key in parts_of(kind)]
+    words += [key for subject in SUBJECTS.values() for key in parts_of(subject.question)]
+    words += [key for subject in SUBJECTS.values() for key in subject.form.fields]
+    assert [word for word in words if f"`{word}`" not in page] == []
