@@ -1,0 +1,117 @@
+import math
+
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from tests.strategies import angles, rotations
+from tftool.geometry import conversions, quaternions
+
+pitches = st.floats(-1.5, 1.5)
+
+
+@given(angles, pitches, angles)
+def test_roll_pitch_yaw_come_back(roll, pitch, yaw):
+    turned = conversions.quaternion_from_rpy(roll, pitch, yaw)
+
+    back = conversions.rpy_from_quaternion(turned)
+
+    for found, wanted in zip(back, (roll, pitch, yaw), strict=True):
+        assert math.remainder(found - wanted, math.tau) == pytest.approx(0.0, abs=1e-6)
+
+
+@given(rotations)
+def test_either_set_of_angles_means_the_same_rotation(turn):
+    for angles_of in (
+        conversions.rpy_from_quaternion,
+        conversions.second_rpy_from_quaternion,
+    ):
+        again = conversions.quaternion_from_rpy(*angles_of(turn))
+        assert quaternions.angle_between(again, turn) < 1e-6
+
+
+@given(angles, st.sampled_from([-math.pi / 2, math.pi / 2]), angles)
+def test_at_the_poles_the_angles_still_mean_the_same_rotation(roll, pitch, yaw):
+    turned = conversions.quaternion_from_rpy(roll, pitch, yaw)
+
+    found = conversions.rpy_from_quaternion(turned)
+
+    again = conversions.quaternion_from_rpy(*found)
+    assert quaternions.angle_between(again, turned) < 2e-6
+    assert abs(found[1]) == pytest.approx(math.pi / 2, abs=2e-6)
+    assert conversions.second_rpy_from_quaternion((0.5, 0.5, -0.5, 0.5)) == pytest.approx(
+        conversions.rpy_from_quaternion((0.5, 0.5, -0.5, 0.5))
+    )
+
+
+@given(rotations)
+def test_matrices_come_back(turn):
+    matrix = conversions.matrix_from_quaternion(turn)
+
+    found = conversions.quaternion_from_matrix(matrix)
+
+    assert quaternions.angle_between(found, turn) < 1e-7
+
+
+def test_a_homogeneous_matrix_is_read_by_its_upper_left():
+    quarter = [[0, -1, 0, 7], [1, 0, 0, 8], [0, 0, 1, 9], [0, 0, 0, 1]]
+
+    found = conversions.quaternion_from_matrix(quarter)
+
+    assert found == pytest.approx((0.0, 0.0, math.sqrt(0.5), math.sqrt(0.5)))
+
+
+@pytest.mark.parametrize(
+    ("matrix", "told"),
+    [
+        ([[1, 0, 0], [0, 1, 0], [0, 0, -1]], "mirrors"),
+        ([[2, 0, 0], [0, 1, 0], [0, 0, 1]], "no rotation"),
+        ([[math.nan] * 3] * 3, "no rotation"),
+        ([[1, 0], [0, 1]], "three rows"),
+        (7, "three rows"),
+    ],
+)
+def test_what_is_no_rotation_matrix_is_refused(matrix, told):
+    with pytest.raises(ValueError, match=told):
+        conversions.quaternion_from_matrix(matrix)
+
+
+@given(rotations)
+def test_axis_and_angle_come_back(turn):
+    axis, angle = conversions.axis_angle_from_quaternion(turn)
+
+    assert 0.0 <= angle <= math.pi
+    assert math.hypot(*axis) == pytest.approx(1.0)
+    again = conversions.quaternion_from_axis_angle(axis, angle)
+    assert quaternions.angle_between(again, turn) < 1e-7
+
+
+def test_no_turn_has_an_axis_all_the_same():
+    assert conversions.axis_angle_from_quaternion((0, 0, 0, -1)) == ((1.0, 0.0, 0.0), 0.0)
+
+
+@pytest.mark.parametrize("axis", [(0, 0, 0), (math.inf, 0, 0), (math.nan, 0, 0)])
+def test_a_turn_needs_an_axis(axis):
+    with pytest.raises(ValueError, match="is no axis"):
+        conversions.quaternion_from_axis_angle(axis, 1.0)
+
+
+def test_w_goes_first_for_others_and_last_for_us():
+    assert conversions.wxyz_from_xyzw((1, 2, 3, 4)) == (4, 1, 2, 3)
+    assert conversions.xyzw_from_wxyz((4, 1, 2, 3)) == (1, 2, 3, 4)
+
+
+@given(angles, pitches, angles)
+def test_transforms3d_agrees_about_roll_pitch_yaw(roll, pitch, yaw):
+    ours = conversions.quaternion_from_rpy(roll, pitch, yaw)
+
+    assert conversions.quaternion_from_euler((roll, pitch, yaw), "sxyz") == pytest.approx(ours)
+    theirs = conversions.euler_from_quaternion(ours, "sxyz")
+    assert theirs == pytest.approx(conversions.rpy_from_quaternion(ours), abs=1e-6)
+
+
+def test_an_order_of_axes_that_is_none_is_refused():
+    with pytest.raises(ValueError, match="'xyz' names no order of axes"):
+        conversions.quaternion_from_euler((0, 0, 0), "xyz")
+    with pytest.raises(ValueError, match="'wxyz' names no order of axes"):
+        conversions.euler_from_quaternion((0, 0, 0, 1), "wxyz")

@@ -1,0 +1,142 @@
+import copy
+import math
+import pickle
+import subprocess
+import sys
+
+import pytest
+from hypothesis import given
+
+from tests.strategies import fractions, transforms, vectors
+from tftool.geometry import quaternions, rigid
+from tftool.geometry.rigid import IDENTITY, Quaternion, Transform, Vector3
+
+
+def same(found, wanted, tolerance=1e-9):
+    return found.translation == pytest.approx(wanted.translation, abs=tolerance) and (
+        quaternions.angle_between(found.rotation, wanted.rotation) < tolerance
+    )
+
+
+@given(transforms)
+def test_an_inverse_undoes(a_from_b):
+    assert same(a_from_b @ a_from_b.inverse(), IDENTITY)
+    assert same(a_from_b.inverse() @ a_from_b, IDENTITY)
+    assert same(a_from_b.inverse().inverse(), a_from_b)
+
+
+@given(transforms, transforms, transforms)
+def test_chains_associate(a_from_b, b_from_c, c_from_d):
+    assert same((a_from_b @ b_from_c) @ c_from_d, a_from_b @ (b_from_c @ c_from_d))
+
+
+@given(transforms, transforms, vectors)
+def test_applying_a_product_is_applying_one_after_the_other(a_from_b, b_from_c, point):
+    one_by_one = a_from_b.apply(b_from_c.apply(point))
+
+    assert (a_from_b @ b_from_c).apply(point) == pytest.approx(one_by_one, abs=1e-9)
+
+
+@given(transforms, vectors)
+def test_the_matrix_moves_points_as_apply_does(a_from_b, point):
+    rows = a_from_b.matrix()
+    by_matrix = [sum(row[k] * point[k] for k in range(3)) + row[3] for row in rows[:3]]
+
+    assert a_from_b.apply(point) == pytest.approx(by_matrix, abs=1e-9)
+    assert rows[3] == (0.0, 0.0, 0.0, 1.0)
+
+
+@given(transforms, vectors)
+def test_rotate_is_apply_without_the_translation(a_from_b, vector):
+    moved = Vector3(
+        *(a - b for a, b in zip(a_from_b.apply(vector), a_from_b.translation, strict=True))
+    )
+
+    assert a_from_b.rotate(vector) == pytest.approx(moved, abs=1e-9)
+
+
+@given(transforms, transforms, fractions)
+def test_interpolation_meets_both_ends(start, end, fraction):
+    assert same(rigid.interpolate(start, end, 0.0), start, 1e-7)
+    assert same(rigid.interpolate(start, end, 1.0), end, 1e-7)
+    way = rigid.interpolate(start, end, fraction)
+    expected = math.dist(start.translation, end.translation) * fraction
+    assert math.dist(start.translation, way.translation) == pytest.approx(expected, abs=1e-9)
+
+
+@pytest.mark.parametrize("fraction", [-0.1, 1.1, math.nan, math.inf])
+def test_extrapolation_is_refused(fraction):
+    with pytest.raises(ValueError, match=r"must lie in \[0, 1\]"):
+        rigid.interpolate(IDENTITY, IDENTITY, fraction)
+
+
+def test_a_transform_is_a_value():
+    one = Transform((1, 2, 3), [0, 0, 0, 1])
+
+    assert one == Transform((1.0, 2.0, 3.0))
+    assert hash(one) == hash(Transform((1.0, 2.0, 3.0)))
+    assert one.translation == Vector3(1.0, 2.0, 3.0)
+    assert isinstance(one.translation.x, float)
+    assert isinstance(one.rotation, Quaternion)
+    assert pickle.loads(pickle.dumps(one)) == one
+    assert copy.deepcopy(one) == one
+    with pytest.raises(AttributeError):
+        one.translation = (0, 0, 0)
+    assert Transform.identity() == Transform()
+
+
+@pytest.mark.parametrize(
+    ("translation", "rotation", "told"),
+    [
+        ((1, 2), (0, 0, 0, 1), "a translation is 3 numbers, not 2"),
+        ((1, 2, 3), (0, 0, 1), "a rotation is 4 numbers, not 3"),
+        (("x", 2, 3), (0, 0, 0, 1), "a translation is 3 numbers, not"),
+        (None, (0, 0, 0, 1), "a translation is 3 numbers, not None"),
+    ],
+)
+def test_what_is_no_transform_is_refused_with_a_sentence(translation, rotation, told):
+    with pytest.raises(ValueError, match=told):
+        Transform(translation, rotation)
+
+
+def test_the_quaternion_is_kept_but_its_length_does_not_matter():
+    twice = Transform((1, 0, 0), (0, 0, 2, 0))
+
+    assert twice.rotation == (0, 0, 2, 0)
+    assert twice.apply((1, 2, 3)) == (0, -2, 3)
+    assert (twice @ twice).rotation == (0, 0, 0, -1)
+    assert rigid.canonical(twice).rotation == (0, 0, 1, 0)
+
+
+def test_a_zero_quaternion_makes_results_nan_and_nothing_worse():
+    nothing = Transform((1, 0, 0), (0, 0, 0, 0))
+
+    assert math.isnan(nothing.apply((1, 2, 3)).x)
+    assert math.isnan(nothing.matrix()[0][0])
+
+
+def test_coinciding_origins_differ_by_exactly_nothing():
+    at = (5.544445, 2.3, 0.0)
+    leader = Transform(at, (0, 0, math.sin(0.7), math.cos(0.7)))
+    follower = Transform(at, (0, 0, math.sin(-1.1), math.cos(-1.1)))
+
+    assert (follower.inverse() @ leader).translation == (0.0, 0.0, 0.0)
+
+
+def test_distance_is_between_the_origins():
+    assert rigid.distance(Transform((3, 4, 12))) == 13.0
+
+
+def test_slerp_takes_the_shorter_arc():
+    assert rigid.slerp((0, 0, 0, 1), (0, 0, 0, -1), 0.5) == (0, 0, 0, 1)
+
+
+@pytest.mark.parametrize("module", ["geometry.rigid", "geometry.conversions", "frames.buffer"])
+def test_the_scalar_path_loads_no_numpy(module):
+    code = (
+        f"import sys, tftool.{module}; "
+        "print([name for name in ('numpy', 'rich', 'asyncio', 'logging') if name in sys.modules])"
+    )
+    told = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
+
+    assert told.stdout.strip() == "[]"
