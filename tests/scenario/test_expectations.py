@@ -54,6 +54,9 @@ def judge(*expectations):
         "{at: 1 s, bearing: {from: map, to: post}, is: 53.130102 deg, tolerance: 1 mrad}",
         "{at: 1 s, bearing: {from: post, to: map}, is: 503.130102 deg, tolerance: 1 mrad}",
         "{at: 1 s, point: {of: post, in: map, x: 1 m}, value: {x: 3, y: 5, z: 0}}",
+        "{at: 8 s, speed: {of: turtle1, in: world}, is: 0}",
+        "{at: 8 s, turn_rate: {of: post, in: map, over: 1 s}, is: 0 deg/s}",
+        "{at: 8.8 s, speed: {of: turtle1, in: turtle1}, is: 0 m/s}",
         "{at: 10 s, rate: turtle1, between: [62.5 Hz, 62.7 Hz]}",
         "{at: 10 s, age: turtle1, below: 1 ms}",
         "{at: 10 s, age: bird, is: 4 s}",
@@ -120,6 +123,18 @@ def test_what_is_true_holds(expectation):
             " tolerance: {angle: 1 mrad}}",
             "at 3 s: post in map (now - 1 s) is x 1, yaw 0 (± 0.001 rad)",
             "x 3, y 4, z 0, rotation (0, 0, 0.707107, 0.707107)",
+            3,
+        ),
+        (
+            "{at: 3 s, speed: {of: turtle1, in: world}, above: 50 cm/s}",
+            "at 3 s: speed of turtle1 in world above 0.5 m/s",
+            "0 m/s",
+            3,
+        ),
+        (
+            "{at: 3 s, turn_rate: {of: turtle1, in: world}, is: 1}",
+            "at 3 s: turn rate of turtle1 in world is 1 rad/s",
+            "0 rad/s",
             3,
         ),
         (

@@ -65,7 +65,7 @@ s, ms, us, µs, ns, min, h
 ten.yaml:7:56: the key 'period' is there already, in line 7
      7 |   - follower: {leader: $sorce_frame, period: 1 parsec, period: 2 s}
        |                                                        ^^^^^^
-ten.yaml:9:21: 'lefft' is not in keys; did you mean 'left'?
+ten.yaml:9:21: 'lefft' is not a key; did you mean 'left'?
      9 |   - {at: 1 s, keys: "up up lefft up"}
        |                     ^^^^^^^^^^^^^^^^
 ten.yaml:10:10: '6 m' is not a duration: m makes it a length; its unit may be \
@@ -205,9 +205,9 @@ def test_what_is_no_number_is_refused(written):
     ("written", "wrong"),
     [
         ("1e999999999 s", "'1e999999999 s' is too large: more than 1e+09"),
-        ("-1 s", "-1 s is not a duration of 0.001 or more and 86400 or less s"),
-        ("25 h", "90000 s is not a duration of 0.001 or more and 86400 or less s"),
-        ("1e-999999999", "0 s is not a duration of 0.001 or more and 86400 or less s"),
+        ("-1 s", "-1 s is not a duration from 0.001 to 86400 s"),
+        ("25 h", "90000 s is not a duration from 0.001 to 86400 s"),
+        ("1e-999999999", "0 s is not a duration from 0.001 to 86400 s"),
     ],
 )
 def test_a_number_out_of_bounds_is_refused(written, wrong):
@@ -439,8 +439,8 @@ def test_a_value_from_outside_is_checked_where_it_is_used():
         ("[{turtlesim: {colour: 1}}]", "a turtlesim has no key 'colour'; it may have holonomic, "),
         ("[{turtlesim: {background: {r: 256, g: 0, b: 0}}}]", "a whole number from 0 to 255"),
         ("[{turtlesim: {background: {r: 1.5, g: 0, b: 0}}}]", "a whole number from 0 to 255"),
-        ("[{follower: {period: 0 s}}]", "0 s is not a duration of 0.001 or more"),
-        ("[{follower: {speed_limit: -1}}]", "-1 m/s is not a speed of 0 or more m/s"),
+        ("[{follower: {period: 0 s}}]", "0 s is not a duration from 0.001 to 86400 s"),
+        ("[{follower: {speed_limit: -1}}]", "-1 m/s is not a speed of 0 m/s or more"),
         ("[{follower: {leader: turtle2}}]", "'turtle2' cannot follow itself"),
         ("[{static: {parent: '', child: b}}]", "a frame is wanted here, not blanks"),
     ],
@@ -453,6 +453,21 @@ def test_two_nodes_of_one_name_are_refused():
     text = SMALLEST + "nodes:\n  - turtlesim: {name: a}\n  - teleop: {name: a}\n"
 
     assert mistakes(text) == [(4, 5, "the node of line 3 is named 'a' too")]
+
+
+@pytest.mark.parametrize("name", ["script", "expectations", "teleop"])
+def test_a_name_that_a_play_needs_itself_is_refused(name):
+    assert told(SMALLEST + f"nodes: [turtlesim: {{name: {name}}}]") == [
+        f"the name '{name}' is kept; call this node something else"
+    ]
+    assert load.parse(SMALLEST + "nodes: [teleop]", "s.yaml").nodes[0].name == "teleop"
+
+
+def test_none_may_come_from_an_argument():
+    text = SMALLEST + "arguments: {s: none}\nnodes: [follower: {stale_after: $s}]"
+
+    assert load.parse(text, "s.yaml").nodes[0].parameters["stale_after"] is None
+    assert load.parse(text, "s.yaml", {"s": "2 s"}).nodes[0].parameters["stale_after"] == seconds(2)
 
 
 # Script and expectations.
@@ -470,8 +485,8 @@ def test_two_nodes_of_one_name_are_refused():
         ("{at: 1 s, kill: ~}", "kill needs the key 'turtle'"),
         ("{at: 1 s, kill: a, for: 2 s}", "an action (kill) has no key 'for'; it may have at"),
         ("{at: 1 s, reset: now}", "'now' stands where a mapping (empty) is wanted"),
-        ("{at: 1 s, keys: ''}", "keys is wanted here, not blanks"),
-        ("{at: 1 s, keys: up x}", "'x' is not in keys; there are up, down, "),
+        ("{at: 1 s, keys: ''}", "a key is wanted here, not blanks"),
+        ("{at: 1 s, keys: up x}", "'x' is not a key; it may be up, down, "),
         ("{at: 1 s, stop: turtlesm}", "no node is named 'turtlesm'; did you mean 'turtlesim'?"),
         ("{at: 1 s, stop: wheel}", "no node is named 'wheel'; there are turtlesim, teleop"),
         ("just a text", "'just a text' stands where a mapping"),

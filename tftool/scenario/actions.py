@@ -18,7 +18,7 @@ class Press:
     """Press keys on the teleop node, one after the other."""
 
     short: ClassVar[str] = "keys"
-    keys: tuple[str, ...] = reads(values.words(KEYS, "keys"))
+    keys: tuple[str, ...] = reads(values.words(KEYS, "a key"))
     every: Duration = reads(values.period, seconds(1), beside=True)
 
 

@@ -13,6 +13,7 @@ from typing import Any, ClassVar
 
 from tftool.errors import LookupException, TransformException
 from tftool.frames.sample import FrameInfo
+from tftool.frames.velocity import Velocity
 from tftool.geometry import planar
 from tftool.geometry.rigid import Transform
 from tftool.messages import Pose2D
@@ -24,7 +25,16 @@ from tftool.scenario import checks, questions
 from tftool.scenario.checks import Form, FrameFacts, Judged, Range, RangeForm
 from tftool.scenario.pose_checks import PoseForm, TurtlePoseForm
 from tftool.scenario.schema import Expectation
-from tftool.scenario.values import ANGLE, DURATION, LENGTH, NUMBER, RATE, Moment
+from tftool.scenario.values import (
+    ANGLE,
+    DURATION,
+    LENGTH,
+    NUMBER,
+    RATE,
+    SPEED,
+    TURN_RATE,
+    Moment,
+)
 from tftool.scenario.verdict import Outcome
 from tftool.stamps import Stamp, as_seconds
 
@@ -101,6 +111,11 @@ def _point(asked: questions.PointOf, scene: Scene) -> Transform:
     return Transform(target_from_frame.apply((asked.x, asked.y, asked.z)))
 
 
+def _velocity(asked: questions.Motion, scene: Scene) -> Velocity:
+    stamp = asked.time.stamp(scene.start, scene.now)
+    return scene.world.buffer.lookup_twist(asked.frame, asked.target, stamp, asked.over)
+
+
 def _frame(asked: questions.FrameOf, scene: Scene) -> FrameFacts:
     snapshot = scene.world.buffer.snapshot(scene.now)
     if asked.name not in snapshot:
@@ -141,6 +156,16 @@ SUBJECTS: Mapping[str, Subject] = MappingProxyType(
         "distance": Subject(questions.Distance, RangeForm(LENGTH), _distance),
         "bearing": Subject(questions.Bearing, RangeForm(ANGLE), _bearing),
         "point": Subject(questions.PointOf, PoseForm(), _point),
+        "speed": Subject(
+            questions.SpeedOf,
+            RangeForm(SPEED),
+            lambda asked, scene: math.hypot(*_velocity(asked, scene).linear),
+        ),
+        "turn_rate": Subject(
+            questions.TurnRateOf,
+            RangeForm(TURN_RATE),
+            lambda asked, scene: _velocity(asked, scene).angular.z,
+        ),
         "rate": Subject(
             questions.RateOf, RangeForm(RATE), lambda asked, scene: scene.frame(asked.frame).rate
         ),

@@ -36,6 +36,9 @@ from tftool.views.escaping import visible
 
 NO_ARGUMENTS: Mapping[str, str] = MappingProxyType({})
 
+KEPT: Mapping[str, str] = MappingProxyType({"script": "", "expectations": "", "teleop": "teleop"})
+"""Names of the nodes a play may add, and the kind of node a scenario may give each to."""
+
 LOOK_EVERY: Duration = seconds(0.1)
 """How often "by" and "during" look, unless said otherwise."""
 
@@ -209,6 +212,9 @@ class _Loader:
         ):
             numbers[kind] += 1
             name = given_name or (f"{kind}{numbers[kind]}" if counts[kind] > 1 else kind)
+            if name in KEPT and KEPT[name] != kind:
+                whole = False
+                reading.note(item, f"the name '{name}' is kept; call this node something else")
             if name in taken:
                 whole = False
                 reading.note(item, f"the node of line {taken[name]} is named {quoted(name)} too")

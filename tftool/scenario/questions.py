@@ -9,6 +9,7 @@ from typing import ClassVar
 from tftool.scenario import values
 from tftool.scenario.reading import reads
 from tftool.scenario.values import Moment
+from tftool.stamps import Duration, seconds
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -115,6 +116,30 @@ class PointOf:
 
     def __str__(self) -> str:
         return f"point ({self.x:g}, {self.y:g}, {self.z:g}) of {self.frame} in {self.target}"
+
+
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Motion:
+    """How one frame moves in another, taken over a while."""
+
+    frame: str = reads(values.frame, key="of")
+    target: str = reads(values.frame, key="in")
+    time: Moment = reads(values.moment, Moment())
+    over: Duration = reads(values.period, seconds(0.1))
+
+
+class SpeedOf(Motion):
+    """How fast the origin of a frame moves."""
+
+    def __str__(self) -> str:
+        return f"speed of {self.frame} in {self.target}"
+
+
+class TurnRateOf(Motion):
+    """How fast a frame turns about the z axis, anticlockwise."""
+
+    def __str__(self) -> str:
+        return f"turn rate of {self.frame} in {self.target}"
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

@@ -49,13 +49,14 @@ class Reading:
         self.source = source
         self.arguments: dict[str, str] = {}
         self.mistakes: list[Mistake] = []
+        self._noted: set[tuple[Place, str]] = set()
 
     def note(self, where: Node | Place, text: str) -> None:
         """Note a mistake; the same one is noted once, however often an alias repeats it."""
         place = where if isinstance(where, Place) else where.place
-        mistake = self.source.mistake(place, text)
-        if mistake not in self.mistakes:
-            self.mistakes.append(mistake)
+        if (place, text) not in self._noted:
+            self._noted.add((place, text))
+            self.mistakes.append(self.source.mistake(place, text))
 
     def refuse(self, where: Node | Place, text: str) -> Unreadable:
         """Note a mistake, and give the exception to raise."""

@@ -8,6 +8,7 @@ from tftool.scenario.document import Node, Scalar
 from tftool.scenario.reading import (
     UNREAD,
     Field,
+    Reader,
     Reading,
     Unreadable,
     attribute_names,
@@ -40,28 +41,7 @@ def tagged(
         The key, its dataclass, and the values beside it.
     """
     entries = reading.entries(node, f"{listed(common)} and what it is about")
-    tags = [key for key in entries if key in kinds]
-    if len(tags) != 1:
-        rest = {key: entry for key, entry in entries.items() if key in common}
-        reading.try_read(lambda n, r: r.values(n.place, rest, common, what), node)
-        if tags:
-            second = entries[tags[1]][0]
-            raise reading.refuse(second, f"{what} is about one thing; write {listed(tags)} apart")
-        anywhere = set(common)
-        for name, kind in kinds.items():
-            anywhere |= {key for key, (_, aside) in parts_of(kind).items() if aside}
-            anywhere |= set(beside.get(name, {}))
-        strange = [entry for key, entry in entries.items() if key not in anywhere]
-        if not strange:
-            raise reading.refuse(node, f"{what} needs one of {listed(kinds)}")
-        for key, _ in strange:
-            near = suggest(key.text, kinds) or suggest(key.text, anywhere)
-            reading.note(
-                key,
-                f"unknown key {quoted(key.text)}{near or f'; {what} is one of {listed(kinds)}'}",
-            )
-        raise Unreadable
-    tag = tags[0]
+    tag = _tag(node, reading, what, kinds, common, beside)
     kind = kinds[tag]
     parts = parts_of(kind)
     outside = {
@@ -69,21 +49,15 @@ def tagged(
         **{key: field for key, (field, aside) in parts.items() if aside},
         **beside.get(tag, {}),
     }
+    inside = {key: field for key, (field, aside) in parts.items() if not aside}
     rest = {key: entry for key, entry in entries.items() if key != tag}
     given = reading.try_read(lambda n, r: r.values(n.place, rest, outside, f"{what} ({tag})"), node)
-    inside = {key: field for key, (field, aside) in parts.items() if not aside}
     key, value = entries[tag]
-    short = getattr(kind, "short", None)
-    if short is not None and not (
-        isinstance(value, document.Mapping) or (isinstance(value, Scalar) and value.is_nothing)
-    ):
-        found = reading.try_read(
-            lambda n, r: r.values(n.place, {short: (key, n)}, inside, tag), value
-        )
-    elif isinstance(value, Scalar) and value.is_nothing:
-        found = reading.try_read(lambda n, r: r.values(key.place, {}, inside, tag), value)
-    else:
-        found = reading.try_read(lambda n, r: r.record(n, inside, tag), value)
+    within = {} if _is_nothing(value) else reading.try_read(_entries_of(kind, key), value)
+    if within is UNREAD:
+        raise Unreadable
+    place = key.place if _is_nothing(value) else value.place
+    found = reading.try_read(lambda _, r: r.values(place, within, inside, tag), value)
     if given is UNREAD or found is UNREAD:
         raise Unreadable
     everything = {**found, **given}
@@ -92,3 +66,51 @@ def tagged(
     if problem:
         raise reading.refuse(value, problem)
     return tag, built, given
+
+
+def _tag(
+    node: Node,
+    reading: Reading,
+    what: str,
+    kinds: Mapping[str, type],
+    common: Mapping[str, Field],
+    beside: Mapping[str, Mapping[str, Field]],
+) -> str:
+    """The one key that says what a mapping is, or what is wrong with its keys."""
+    entries = reading.entries(node, "")
+    tags = [key for key in entries if key in kinds]
+    if len(tags) == 1:
+        return tags[0]
+    rest = {key: entry for key, entry in entries.items() if key in common}
+    reading.try_read(lambda n, r: r.values(n.place, rest, common, what), node)
+    if tags:
+        second, _ = entries[tags[1]]
+        raise reading.refuse(second, f"{what} is about one thing; write {listed(tags)} apart")
+    anywhere = set(common)
+    for name, kind in kinds.items():
+        anywhere |= {key for key, (_, aside) in parts_of(kind).items() if aside}
+        anywhere |= set(beside.get(name, {}))
+    strange = [key for name, (key, _) in entries.items() if name not in anywhere]
+    if not strange:
+        raise reading.refuse(node, f"{what} needs one of {listed(kinds)}")
+    for key in strange:
+        near = suggest(key.text, kinds) or suggest(key.text, anywhere)
+        near = near or f"; {what} is one of {listed(kinds)}"
+        reading.note(key, f"unknown key {quoted(key.text)}{near}")
+    raise Unreadable
+
+
+def _entries_of(kind: type, key: Scalar) -> Reader:
+    """A reader of what stands behind a tag: a mapping, or its one main value by itself."""
+    short = getattr(kind, "short", None)
+
+    def read(value: Node, reading: Reading) -> dict[str, tuple[Scalar, Node]]:
+        if short is not None and not isinstance(value, document.Mapping):
+            return {short: (key, value)}
+        return reading.entries(value, listed(parts_of(kind)) or "empty")
+
+    return read
+
+
+def _is_nothing(value: Node) -> bool:
+    return isinstance(value, Scalar) and value.is_nothing

@@ -101,10 +101,14 @@ def _inside(value: float, least: float | None, most: float | None) -> bool:
 
 
 def _outside(value: float, unit: Unit, least: float | None, most: float | None) -> str:
-    sides = [f"{least:g} or more" if least is not None else ""]
-    sides.append(f"{most:g} or less" if most is not None else "")
     blank = f" {unit.name}" if unit.name else ""
-    return f"{value:g}{blank} is not {unit.kind} of {' and '.join(filter(None, sides))}{blank}"
+    if most is None:
+        bounds = f"of {least:g}{blank} or more"
+    elif least is None:
+        bounds = f"of {most:g}{blank} or less"
+    else:
+        bounds = f"from {least:g} to {most:g}{blank}"
+    return f"{value:g}{blank} is not {unit.kind} {bounds}"
 
 
 def time(*, least: float = 0.0, most: float = LONGEST) -> Reader:
@@ -208,7 +212,7 @@ def or_none(read_one: Reader) -> Reader:
     """A reader that takes `none` as well, or nothing at all."""
 
     def read(node: Node, reading: Reading) -> object:
-        if isinstance(node, Scalar) and node.plain and (node.is_nothing or node.text == "none"):
+        if isinstance(node, Scalar) and (node.is_nothing or reading.text(node, "") == "none"):
             return None
         return read_one(node, reading)
 
@@ -239,8 +243,8 @@ def words(known: Iterable[str], what: str) -> Reader:
             raise reading.refuse(node, f"{what} is wanted here, not blanks")
         for word in found:
             if word not in choices:
-                near = suggest(word, choices) or f"; there are {', '.join(choices)}"
-                raise reading.refuse(node, f"{quoted(word)} is not in {what}{near}")
+                near = suggest(word, choices) or f"; it may be {', '.join(choices)}"
+                raise reading.refuse(node, f"{quoted(word)} is not {what}{near}")
         return found
 
     return read
