@@ -60,10 +60,11 @@ export function showFrame(model, index, fixed, trouble) {
     }
   }
   fill($("link-facts"), facts);
-  $("absolute-title").textContent = `In the fixed frame, ${fixed}`;
+  const same = parent >= 0 && model.names[parent] === fixed;
+  $("absolute-title").textContent = same ? `In ${fixed}, its parent and the fixed frame` : `In the fixed frame, ${fixed}`;
   fill($("absolute"), poseRows(model.absolute[index]));
-  $("relative-title").hidden = $("relative").hidden = parent < 0;
-  if (parent >= 0) {
+  $("relative-title").hidden = $("relative").hidden = parent < 0 || same;
+  if (parent >= 0 && !same) {
     $("relative-title").textContent = `In its parent, ${model.names[parent]}`;
     fill($("relative"), poseRows(model.relative(index)));
   }

@@ -56,7 +56,8 @@ export class Wire {
   /**
    * Handlers: open(), ended(reason), names(message),
    *  pair(message), range(message), poses(Poses),
-   *  past(Poses), of which one is drawn nowhere but in trails. */
+   *  past(Poses), which are drawn nowhere but in trails.
+   */
   constructor(handlers) {
     this.handlers = handlers;
     this.wanted = new Map(); // what to say again after a reconnection, by type
@@ -79,7 +80,7 @@ export class Wire {
         return;
       }
       const packet = decode(data);
-      if (packet) this.handlers.poses(new Poses(packet));
+      if (packet) this.handlers[packet.sequence ? "poses" : "past"](new Poses(packet));
     };
     socket.onclose = ({ code, reason }) => {
       this.handlers.ended({ code, reason });
