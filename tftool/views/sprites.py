@@ -36,7 +36,8 @@ class Cell(NamedTuple):
 
 def octant(theta: float) -> int:
     """Give the nearest of the eight headings: 0 is east, 2 north, counter-clockwise."""
-    return round(theta / (math.pi / 4.0)) % 8
+    # Brought into one turn first: a heading near the largest float would overflow.
+    return round(math.remainder(theta, math.tau) / (math.pi / 4.0)) % 8
 
 
 # Parts of a turtle, nose along +u, in metres: centre, half axes, colour index.
