@@ -223,7 +223,7 @@ class Canvas:
                 reach = 0
             elif per_metre >= sprites.BODY_FROM and not self._arrows:
                 cells = sprites.body(*place, shown.theta, color, per_metre)
-                reach = round(1.4 * per_metre)
+                reach = math.ceil(1.9 * per_metre)
             else:
                 cells = sprites.badge(*place, shown.theta, color, per_metre, blocks=not self._ascii)
                 reach = 1 if self._ascii else 2

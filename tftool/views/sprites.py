@@ -110,7 +110,10 @@ def _quadrants(parts: list[int | None], shades: dict[int, Color]) -> Cell | None
         for corner, part in enumerate(parts)
         if part == first or (part is not None and None in parts)
     )
-    if None not in parts and len(seen) > 1:
+    if len(seen) == 1 and None not in parts:
+        # As ground and not as a full block: where lines stand apart, blocks leave gaps.
+        return Cell(" ", None, shades[first])
+    if None not in parts:
         return Cell(_QUADRANTS[mask], shades[first], shades[seen[1][0]])
     return Cell(_QUADRANTS[mask], shades[first])
 

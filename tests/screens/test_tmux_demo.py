@@ -1,0 +1,231 @@
+"""The demo in a real terminal: tmux is one that can be asked what is on it."""
+
+import os
+import re
+import shlex
+import shutil
+import subprocess
+import sys
+from pathlib import Path
+from threading import Event
+
+import pytest
+
+ROOT = Path(__file__).parents[2]
+TRIES, PAUSE = 600, 0.05
+
+pytestmark = pytest.mark.skipif(
+    shutil.which("tmux") is None, reason="needs tmux, a terminal that can be asked"
+)
+
+CRASH = """\
+import sys
+from tftool.cli.app import main
+from tftool.nodes.broadcasters import Broadcaster
+
+async def run(self):
+    await self.clock.sleep(500_000_000)
+    raise ValueError("out of [bold]paint[/]")
+
+Broadcaster.run = run
+sys.exit(main(["demo"]))
+"""
+
+
+class Terminal:
+    """A tmux with one window, in which a command runs and then its exit status stands."""
+
+    def __init__(self, place, width, height, words, environment):
+        self.socket = str(place / "tmux")
+        self.pid_file = place / "pid"
+        command = shlex.join([sys.executable, *words])
+        # exec, so that the number in the file is the command's own.
+        line = f"sh -c {shlex.quote(f'echo $$ > {self.pid_file}; exec {command}')}"
+        line += '; echo "ended with $?"; exec cat'
+        kept = {key: os.environ[key] for key in ("PATH", "HOME") if key in os.environ}
+        self.environment = {
+            **kept,
+            "LC_ALL": "C.UTF-8",
+            "PYTHONPATH": str(ROOT),
+            "SHELL": "/bin/sh",
+            **environment,
+        }
+        self.tmux("new-session", "-d", "-x", str(width), "-y", str(height), line)
+
+    def tmux(self, *words):
+        done = subprocess.run(
+            ["tmux", "-u", "-f", "/dev/null", "-S", self.socket, *words],
+            check=True,
+            capture_output=True,
+            text=True,
+            env=self.environment,
+            cwd=ROOT,
+        )
+        return done.stdout
+
+    def screen(self):
+        return self.tmux("capture-pane", "-p")
+
+    def press(self, *keys):
+        for key in keys:
+            self.tmux("send-keys", key)
+
+    def until(self, condition, what):
+        """Look at the screen until it is as it should be."""
+        for _ in range(TRIES):
+            screen = self.screen()
+            if condition(screen):
+                return screen
+            Event().wait(PAUSE)
+        raise AssertionError(f"{what} never came; this did:\n{screen}")
+
+    def shows(self, words):
+        return self.until(lambda screen: words in screen, words)
+
+    def facts(self):
+        """Whether the other screen is on, the cursor seen, the mouse caught."""
+        asked = "#{alternate_on} #{cursor_flag} #{mouse_any_flag}"
+        return self.tmux("display-message", "-p", asked).split()
+
+    def signal(self, number):
+        os.kill(int(self.pid_file.read_text()), number)
+
+    def ended(self, status):
+        """Wait for the end; the terminal is then as it was before."""
+        screen = self.shows(f"ended with {status}")
+        assert self.facts() == ["0", "1", "0"]
+        # Typed keys are echoed again.
+        self.press("o", "k", "?")
+        self.shows("ok?")
+        return screen
+
+
+@pytest.fixture
+def terminal(tmp_path):
+    started = []
+
+    def start(width, height, *words, **environment):
+        started.append(Terminal(tmp_path, width, height, words, environment))
+        return started[-1]
+
+    yield start
+    for one in started:
+        one.tmux("kill-server")
+
+
+DEMO = ("-m", "tftool", "demo")
+
+
+def apart(screen):
+    """How far turtle1 is from turtle2, as the echo says."""
+    found = re.search(r"(\d+\.\d{3}) m\b", screen)
+    return float(found[1]) if found else None
+
+
+@pytest.mark.parametrize(("width", "height"), [(60, 20), (200, 60)])
+def test_the_demo_shows_turtle2_reaching_turtle1_and_obeys_the_keys(terminal, width, height):
+    demo = terminal(width, height, *DEMO, "--rate", "8")
+
+    screen = demo.until(lambda text: apart(text) is not None, "a distance")
+    assert "Field" in screen
+    assert "├─ turtle1" in screen
+    assert all(len(line) <= width for line in screen.splitlines())
+
+    demo.until(lambda text: (apart(text) or 9.0) < 0.1, "turtle2 at turtle1")
+    demo.press("Up")
+    demo.until(lambda text: (apart(text) or 0.0) > 0.5, "turtle1 driving off")
+    demo.until(lambda text: (apart(text) or 9.0) < 0.1, "turtle2 at turtle1 again")
+
+    demo.press("[", "{")
+    demo.shows(" ago")
+    demo.press("l")
+    demo.shows("● live ×8")
+
+    demo.press("Tab", "k")
+    demo.shows("world in turtle2")
+
+    demo.press("q")
+    demo.ended(0)
+
+
+def test_letters_turn_to_the_heading_at_which_they_lie(terminal, tmp_path):
+    alone = tmp_path / "alone.yaml"
+    alone.write_text("duration: 1 s\nnodes: [turtlesim, broadcaster: {turtle: turtle1}]\n")
+    demo = terminal(60, 20, *DEMO, str(alone), "--rate", "8")
+    demo.shows("▐→▌ turtle1")
+
+    for key, arrow in zip("trdcb", "↗↑←↙↘", strict=True):
+        demo.press(key)
+        demo.shows(f"▐{arrow}▌ turtle1")
+    demo.press("g", "f", "Left")
+    demo.shows("▐↑▌ turtle1")
+
+    demo.press("q")
+    demo.ended(0)
+
+
+def test_a_terminal_that_changes_its_size_is_filled_anew(terminal):
+    demo = terminal(100, 30, *DEMO)
+    demo.shows("Echo")
+
+    demo.tmux("resize-window", "-x", "20", "-y", "5")
+    demo.shows("30x10 or more.")
+    demo.tmux("resize-window", "-x", "120", "-y", "40")
+    demo.until(lambda text: "Echo" in text and "q quit" in text, "the whole screen")
+
+    demo.press("q")
+    demo.ended(0)
+
+
+@pytest.mark.parametrize("number", [2, 15], ids=["SIGINT", "SIGTERM"])
+def test_a_signal_ends_it_with_the_terminal_restored(terminal, number):
+    demo = terminal(80, 24, *DEMO)
+    demo.shows("turtle1")
+
+    demo.signal(number)
+
+    assert "Traceback" not in demo.ended(130)
+
+
+def test_control_c_ends_it_like_a_signal(terminal):
+    demo = terminal(80, 24, *DEMO)
+    demo.shows("turtle1")
+
+    demo.press("C-c")
+
+    demo.ended(130)
+
+
+def test_a_node_that_fails_is_named_on_the_restored_terminal(terminal, tmp_path):
+    script = tmp_path / "crash.py"
+    script.write_text(CRASH)
+
+    screen = terminal(80, 24, str(script)).ended(1)
+
+    assert "tftool: node 'broadcaster1' failed: ValueError: out of [bold]paint[/]" in screen
+    assert "Traceback" not in screen
+
+
+def test_without_colour_none_is_sent(terminal):
+    demo = terminal(80, 24, *DEMO, NO_COLOR="1")
+    demo.shows("turtle1")
+
+    painted = demo.tmux("capture-pane", "-p", "-e")
+    colours = re.findall(r"\x1b\[[\d;]*\b(?:3[0-8]|4[0-8]|9\d|10\d)\b[\d;]*m", painted)
+    assert colours == []
+
+    demo.press("q")
+    demo.ended(0)
+
+
+def test_teleop_says_its_banner_and_drives(terminal):
+    teleop = terminal(100, 30, "-m", "tftool", "teleop")
+    screen = teleop.shows("'q' to quit.")
+    assert "Use arrow keys to move the turtle." in screen
+    teleop.until(lambda text: "turtle1" in text and "Field" in text, "the field")
+
+    teleop.press("Up")
+    teleop.until(lambda text: re.search("[⠁-⣿]{6}", text), "a trail")
+
+    teleop.press("q")
+    assert "Reading from keyboard" in teleop.ended(0)
