@@ -1,7 +1,8 @@
 """TF2 without ROS: coordinate frames over time, and the turtles to learn them with."""
 
-from importlib import import_module
-from typing import TYPE_CHECKING, Any
+# Not from `typing`: this module is imported by every command before it can do anything,
+# and says nothing about types while it runs. Type checkers know the name.
+TYPE_CHECKING = False
 
 if TYPE_CHECKING:
     from tftool.errors import (
@@ -98,10 +99,12 @@ _HOMES = {
 _HOME_OF = {name: home for home, names in _HOMES.items() for name in names}
 
 
-def __getattr__(name: str) -> Any:
+def __getattr__(name: str) -> object:
+    from importlib import import_module
+
     if name not in _HOME_OF:
         raise AttributeError(f"module 'tftool' has no attribute '{name}'")
-    value = getattr(import_module(_HOME_OF[name]), name)
+    value: object = getattr(import_module(_HOME_OF[name]), name)
     globals()[name] = value
     return value
 

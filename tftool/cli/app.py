@@ -1,16 +1,16 @@
 """The `tftool` command: one Typer app, and the one place where errors become exit statuses."""
 
 import os
-import signal
 import sys
-from collections.abc import Callable, Sequence
-from contextlib import suppress
-from functools import cache
-from inspect import cleandoc
-from types import FrameType
-from typing import TYPE_CHECKING, Annotated, Any, cast
+
+# Nothing slow is imported up here: an interrupt before `main` has begun would be a traceback.
+TYPE_CHECKING = False
 
 if TYPE_CHECKING:
+    from collections.abc import Callable, Sequence
+    from types import FrameType
+    from typing import Any
+
     import typer
 
 DONE = 0
@@ -21,10 +21,10 @@ NO_TRANSFORM = 4
 INTERRUPTED = 130
 
 
-@cache
 def build() -> "typer.Typer":
     """Give the app with every command; what a command needs is imported when it runs."""
-    # Imported here and not above, so that a Ctrl-C this early ends as quietly as any other.
+    from typing import Annotated
+
     import typer
 
     app = typer.Typer(
@@ -73,14 +73,16 @@ def build() -> "typer.Typer":
     return app
 
 
-def _laid_out(command: Callable[..., Any]) -> str:
+def _laid_out(command: "Callable[..., Any]") -> str:
     """The docstring of a command as its help; examples keep their lines."""
+    from inspect import cleandoc
+
     paragraphs = cleandoc(command.__doc__ or "").split("\n\n")
     # The mark by which click leaves a paragraph as it is.
     return "\n\n".join(f"\b\n{one}" if one.startswith("tftool ") else one for one in paragraphs)
 
 
-def main(argv: Sequence[str] | None = None) -> int:
+def main(argv: "Sequence[str] | None" = None) -> int:
     """Run the command and give its exit status; never raises for what a user did.
 
     Args:
@@ -90,41 +92,47 @@ def main(argv: Sequence[str] | None = None) -> int:
         0 done; 1 an expectation or a node failed; 2 wrong usage; 3 the input cannot
         be read; 4 the transform is not available; 130 interrupted.
     """
-    for stream in (sys.stdout, sys.stderr):
-        # A name that the terminal cannot show is shown as an escape, not as an error.
-        if hasattr(stream, "reconfigure"):
-            stream.reconfigure(errors="backslashreplace")
-    previous = _interrupt_on(signal.SIGTERM)
     try:
-        status = _run(sys.argv[1:] if argv is None else list(argv))
+        if argv is None:
+            _leave_on_signals()
+            argv = sys.argv[1:]
+        for stream in (sys.stdout, sys.stderr):
+            # A name that the terminal cannot show is shown as an escape, not as an error.
+            if hasattr(stream, "reconfigure"):
+                stream.reconfigure(errors="backslashreplace")
+        status = _run(list(argv))
         sys.stdout.flush()
     except KeyboardInterrupt:
         status = INTERRUPTED
     except BrokenPipeError:
         # The reader has seen enough (`| head -1`): that is no failure. What is still
         # buffered would be written at exit, so it goes nowhere.
-        with suppress(OSError, ValueError):
-            os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
         status = DONE
-    finally:
-        if previous is not None:
-            signal.signal(signal.SIGTERM, previous)
     return status
 
 
-def _interrupt_on(number: signal.Signals) -> Any:
-    """Let a signal end the command as Ctrl-C does; None where signals are not ours to set."""
+def _leave_on_signals() -> None:
+    """Let SIGINT and SIGTERM end the process at once while no event loop runs.
 
-    def interrupt(_number: int, _frame: FrameType | None) -> None:
-        raise KeyboardInterrupt
+    There is nothing to clean up then, and a KeyboardInterrupt that strikes inside an
+    import may be swallowed there, or shown as a traceback. A loop brings its own
+    handlers (`runtime.clock.run`), and gives these back. On Windows it has none, and
+    Python's own do.
+    """
+    import signal
 
-    try:
-        return signal.signal(number, interrupt)
-    except ValueError:  # not the main thread
-        return None
+    def leave(_number: int, _frame: "FrameType | None") -> None:
+        os._exit(INTERRUPTED)
+
+    if sys.platform != "win32":
+        for number in (signal.SIGINT, signal.SIGTERM):
+            signal.signal(number, leave)
 
 
 def _run(argv: list[str]) -> int:
+    from typing import cast
+
     import typer
     from typer.main import get_command
 
@@ -159,7 +167,7 @@ def _run(argv: list[str]) -> int:
     return result if isinstance(result, int) else DONE
 
 
-def _usage_sentence(error: Any) -> tuple[str, str]:
+def _usage_sentence(error: "Any") -> tuple[str, str]:
     context = getattr(error, "ctx", None)
     command = context.command_path if context is not None else "tftool"
     return command, f"{error.format_message()} Try '{command} --help'."
