@@ -1,9 +1,15 @@
 """`tftool check`: status, stdout, stderr, and the files it writes."""
 
 import json
+import os
+import subprocess
+import sys
+from pathlib import Path
 from xml.etree import ElementTree
 
 import pytest
+
+ROOT = Path(__file__).resolve().parents[2]
 
 GOOD = "duration: 2 s\nnodes: [turtlesim]\nexpect:\n  - {at: 1 s, turtles: [turtle1]}\n"
 BAD = (
@@ -120,3 +126,15 @@ def test_without_a_scenario_it_says_how_it_is_used(tftool):
 
     assert result.status == 2
     assert "Missing argument" in result.err
+
+
+def test_a_reader_that_has_seen_enough_is_no_failure(scenarios):
+    command = [sys.executable, "-m", "tftool", "check", "turtles", "static", "robot"]
+    environment = {**os.environ, "PYTHONPATH": str(ROOT)}
+    with subprocess.Popen(
+        command, stdout=subprocess.PIPE, stderr=subprocess.PIPE, env=environment
+    ) as running:
+        running.stdout.close()
+        told = running.stderr.read()
+
+    assert (running.returncode, told) == (0, b"")

@@ -52,8 +52,10 @@ def check(
         sys.stdout.write(json.dumps(findings.as_rows(reports), indent=2) + "\n")
     else:
         console = Console()
-        console.print(findings.render(reports))
-        console.print(findings.summary(reports), markup=False, highlight=False)
+        # Written by us: rich ends the process with 1 when a reader (`| head`) is gone.
+        with console.capture() as table:
+            console.print(findings.render(reports))
+        sys.stdout.write(f"{table.get()}{findings.summary(reports)}\n")
     if not all(readable for _, readable in judged):
         return 3
     return 0 if all(report.ok for report in reports) else 1
