@@ -232,6 +232,15 @@ script:
     assert steps[1].action.theta == pytest.approx(1.5707963267948966, abs=1e-15)
 
 
+def test_a_field_may_begin_with_more_turtles():
+    (one,) = node("turtlesim: {turtles: [{name: bob, x: 1 m, y: 20 cm, theta: 180 deg}]}")[
+        "turtles"
+    ]
+
+    assert (one.name, one.x, one.y) == ("bob", 1.0, 0.2)
+    assert one.theta == pytest.approx(3.141592653589793, abs=1e-15)
+
+
 def test_gains_are_one_number_or_all_of_them():
     assert node("follower: {bearing_gains: 2}")["bearing_gains"] == Gains(2.0)
     assert node("follower: {bearing_gains: {kp: 2, ki: 0.1, kd: 1e-2, integral_limit: 1}}")[

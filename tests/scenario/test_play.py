@@ -129,16 +129,28 @@ def test_arguments_that_do_not_fit_are_refused():
         build(scenario, SimClock(), {"source_frame": "turtle2"})
 
 
-def test_without_its_script_a_scenario_only_builds_its_world():
+def test_without_its_script_a_person_drives_and_the_world_goes_on():
     played = play(
-        "duration: 1 s\nnodes: [turtlesim]\nscript: [{at: 0 s, kill: turtle1}]\n"
+        "duration: 5 s\nnodes: [turtlesim]\nscript:\n"
+        "  - {at: 0 s, keys: up}\n"
+        "  - {at: 1 s, drive: {linear: 1 m/s}, for: 1 s}\n"
+        "  - {at: 2 s, spawn: bob}\n"
         "expect: [{at: 1 s, turtles: []}]\n",
         script=False,
     )
 
-    assert [node.name for node in played.world.nodes] == ["turtlesim"]
-    assert list(played.world.node("turtlesim").turtles) == ["turtle1"]
+    assert [node.name for node in played.world.nodes] == ["turtlesim", "script"]
+    assert list(played.world.node("turtlesim").turtles) == ["bob", "turtle1"]
+    assert pose(played).x == pytest.approx(5.544445, abs=1e-6)
     assert played.verdict().outcomes == ()
+
+
+def test_a_scenario_whose_script_only_drives_has_none_without_it():
+    played = play(
+        "duration: 1 s\nnodes: [turtlesim]\nscript: [{at: 0 s, keys: up}]\n", script=False
+    )
+
+    assert [node.name for node in played.world.nodes] == ["turtlesim"]
 
 
 # The script.

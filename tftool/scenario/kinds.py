@@ -12,7 +12,7 @@ from typing import Any
 from tftool.frames.sample import TransformStamped
 from tftool.geometry.conversions import quaternion_from_rpy
 from tftool.geometry.rigid import Transform
-from tftool.messages import Color
+from tftool.messages import Color, Spawn
 from tftool.motion.pid import Gains
 from tftool.motion.pursuit import TUTORIAL_BEARING, TUTORIAL_DISTANCE
 from tftool.nodes.broadcasters import Broadcaster, DynamicCarrot, FixedCarrot, StaticBroadcaster
@@ -88,6 +88,17 @@ def _color(node: document.Node, reading: Reading) -> Color:
     return Color(**reading.record(node, {"r": channel, "g": channel, "b": channel}, "a colour"))
 
 
+def _turtle(node: document.Node, reading: Reading) -> Spawn:
+    """A turtle to begin with."""
+    known = {
+        "name": Field(values.turtle),
+        "x": Field(values.length),
+        "y": Field(values.length),
+        "theta": Field(values.angle, 0.0),
+    }
+    return Spawn(**reading.record(node, known, "a turtle"))
+
+
 def _static(
     world: World,
     name: str,
@@ -123,6 +134,7 @@ KINDS: Mapping[str, Kind] = MappingProxyType(
             {
                 "holonomic": Field(values.flag, False),
                 "background": Field(_color, BACKGROUND),
+                "turtles": Field(values.several(_turtle, "one turtle an item"), ()),
             },
         ),
         "broadcaster": Kind(

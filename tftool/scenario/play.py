@@ -8,7 +8,7 @@ from tftool.runtime.clock import Clock, SimClock, run
 from tftool.runtime.supervisor import live
 from tftool.runtime.world import World
 from tftool.scenario import load
-from tftool.scenario.actions import Press
+from tftool.scenario.actions import Drive, Press
 from tftool.scenario.expectations import Expectations
 from tftool.scenario.kinds import KINDS
 from tftool.scenario.load import NO_ARGUMENTS
@@ -37,7 +37,8 @@ class Play:
         Args:
             scenario: What to play.
             clock: On whose time.
-            script: Whether the scenario's own script is played; without it, a person acts.
+            script: Whether all of the scenario's own script is played. Without it a person
+                drives: keys and drives are left out, what happens to the world still does.
         """
         self.scenario = scenario
         self.world = World(clock, cache_time=scenario.cache_time)
@@ -45,13 +46,15 @@ class Play:
         self.failure = ""
         for entry in scenario.nodes:
             KINDS[entry.kind].build(self.world, entry.name, entry.parameters)
-        steps = scenario.script if script else ()
+        steps = scenario.script
+        if not script:
+            steps = tuple(step for step in steps if not isinstance(step.action, Press | Drive))
         presses = any(isinstance(step.action, Press) for step in steps)
         if presses and not any(entry.kind == "teleop" for entry in scenario.nodes):
             KINDS["teleop"].build(self.world, TELEOP, KINDS["teleop"].defaults())
         if steps:
             Script(self.world, steps)
-        # Without its script a scenario promises nothing.
+        # With a person in it a scenario promises nothing.
         expected = scenario.expect if script else ()
         self._expectations = Expectations(self.world, expected) if expected else None
 
@@ -111,7 +114,7 @@ def build(
         scenario: What to play.
         clock: On whose time.
         arguments: Values for arguments the scenario declares.
-        script: Whether its own script is played; without it, a person acts.
+        script: Whether all of its own script is played, or a person drives.
 
     Raises:
         UsageError: If an argument is given that the scenario does not declare.
