@@ -17,7 +17,7 @@ from tftool.errors import (
 )
 
 ROOT = Path(__file__).parents[2]
-COMMANDS = [command.callback.__name__ for command in app.build().registered_commands]
+COMMANDS = app.COMMANDS
 
 # What would make every command slow to answer, help included.
 HEAVY = {"numpy", "textual", "zenoh", "rich", "yaml", "asyncio", "transforms3d", "websockets"}

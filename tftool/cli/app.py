@@ -13,6 +13,9 @@ if TYPE_CHECKING:
 
     import typer
 
+# In the order of the help. Each is a function of its own name in a module of its own name.
+COMMANDS = ("demo", "teleop", "echo", "static", "tree", "follow", "monitor", "view", "check")
+
 DONE = 0
 FAILED = 1
 WRONG_USAGE = 2
@@ -21,8 +24,14 @@ NO_TRANSFORM = 4
 INTERRUPTED = 130
 
 
-def build() -> "typer.Typer":
-    """Give the app with every command; what a command needs is imported when it runs."""
+def build(only: str | None = None) -> "typer.Typer":
+    """Give the app; what a command needs is imported when it runs.
+
+    Args:
+        only: The one command that will be asked for, where that is known: describing the
+            others to typer takes longer than to start Python.
+    """
+    from importlib import import_module
     from typing import Annotated
 
     import typer
@@ -56,19 +65,10 @@ def build() -> "typer.Typer":
         if context.invoked_subcommand is None:
             sys.stdout.write(context.get_help() + "\n")
 
-    from tftool.cli.check import check
-    from tftool.cli.demo import demo
-    from tftool.cli.echo import echo
-    from tftool.cli.follow import follow
-    from tftool.cli.monitor import monitor
-    from tftool.cli.static import static
-    from tftool.cli.teleop import teleop
-    from tftool.cli.tree import tree
-    from tftool.cli.view import view
-
-    for command in (demo, teleop, echo, static, tree, follow, monitor, view, check):
+    for name in (only,) if only in COMMANDS else COMMANDS:
+        command = getattr(import_module(f"tftool.cli.{name}"), name)
         # A frame may lie at a negative place: -1 is a number there, not an option.
-        takes_numbers = {"ignore_unknown_options": True} if command is static else None
+        takes_numbers = {"ignore_unknown_options": True} if name == "static" else None
         app.command(help=_laid_out(command), context_settings=takes_numbers)(command)
     return app
 
@@ -142,7 +142,7 @@ def _run(argv: list[str]) -> int:
     # exports, so that either kind is caught.
     wrong_usage = cast(type[Exception], typer.BadParameter.__mro__[1])
     try:
-        command = get_command(build())
+        command = get_command(build(argv[0] if argv else None))
         with command.make_context("tftool", argv) as context:
             result = command.invoke(context)
     except typer.Exit as done:
