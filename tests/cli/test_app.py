@@ -1,3 +1,5 @@
+import gc
+import io
 import os
 import signal
 import subprocess
@@ -153,3 +155,39 @@ def test_a_reader_that_goes_away_ends_it_quietly():
     assert process.returncode == 0
     assert "Traceback" not in err
     assert "Broken" not in err
+
+
+def test_a_stdout_that_breaks_is_no_failure(monkeypatch):
+    class Broken(io.StringIO):
+        def write(self, text):
+            raise BrokenPipeError
+
+    monkeypatch.setattr(sys, "stdout", Broken())
+
+    assert app.main(["--help"]) == 0
+
+
+def test_an_interrupt_that_reaches_it_is_130(monkeypatch):
+    def interrupt(*_):
+        raise KeyboardInterrupt
+
+    monkeypatch.setattr("tftool.cli.static_arguments.parse", interrupt)
+
+    assert app.main(["static"]) == 130
+
+
+def test_as_a_process_it_leaves_at_once_on_a_signal(monkeypatch, capsys):
+    before = {number: signal.getsignal(number) for number in (signal.SIGINT, signal.SIGTERM)}
+    left = []
+    monkeypatch.setattr(sys, "argv", ["tftool", "--version"])
+    monkeypatch.setattr(os, "_exit", left.append)
+    try:
+        assert app.main() == 0
+        for number in before:
+            signal.getsignal(number)(number, None)
+    finally:
+        gc.enable()
+        for number, handler in before.items():
+            signal.signal(number, handler)
+
+    assert left == [130, 130]

@@ -79,3 +79,26 @@ def test_what_cannot_be_monitored_says_why(tftool, simulated, words, status, sen
     assert result.status == status
     assert sentence in result.err
     assert result.out == ""
+
+
+def test_a_terminal_gets_a_table_that_is_drawn_again(tftool, simulated, monkeypatch):
+    monkeypatch.setenv("FORCE_COLOR", "1")
+    monkeypatch.setattr("sys.stdout.isatty", lambda: True)
+
+    result = tftool("monitor", "turtle2", "turtle1", "--for", "3")
+
+    assert result.status == 0
+    assert "a report every 1 s" in result.err
+    for second in (1, 2, 3):
+        assert (
+            f"turtle1 in turtle2, for {second} s, by way of turtle1, world, turtle2" in result.out
+        )
+    assert "62.50 Hz" in result.out
+
+
+def test_a_chain_that_breaks_does_not_end_it(tftool, simulated):
+    # In lost_leader the leader leaves, and its frame is forgotten after a while.
+    result = tftool("monitor", "turtle2", "turtle1", "lost_leader", "--for", "20")
+
+    assert result.status == 0
+    assert result.out.count("RESULTS: for turtle1 in turtle2") == 2

@@ -95,6 +95,7 @@ def test_a_pdf_goes_down_a_pipe_as_bytes():
         (["-o", "/nowhere/frames.svg"], 3, "'/nowhere/frames.svg' cannot be written: No such"),
         (["--watch"], 2, "--watch needs a terminal"),
         (["--watch", "--format", "json"], 2, "leave out --format"),
+        (["--for", "1"], 2, "--for goes with --watch"),
         (["--at", "1e9"], 2, "is after its end"),
         (["nosuch"], 3, "no scenario is named 'nosuch'"),
     ],
@@ -105,3 +106,50 @@ def test_what_cannot_be_shown_says_why(tftool, words, status, sentence):
     assert result.status == status
     assert sentence in result.err
     assert result.out == ""
+
+
+def test_a_terminal_gets_colour_and_what_fits_its_width(tftool, monkeypatch):
+    monkeypatch.setenv("FORCE_COLOR", "1")
+    monkeypatch.setenv("COLUMNS", "60")
+
+    result = tftool("tree", "robot")
+
+    assert "\x1b[1mmap\x1b[0m\n" in result.out
+    assert "dynamic, by localization, 10.200 Hz, age 0.000 s" in result.out
+
+
+def test_no_color_is_kept(tftool, monkeypatch):
+    monkeypatch.setenv("FORCE_COLOR", "1")
+    monkeypatch.setenv("NO_COLOR", "1")
+
+    assert "\x1b[3" not in tftool("tree", "robot").out
+
+
+def test_a_pdf_is_not_thrown_at_a_terminal(tftool, monkeypatch):
+    monkeypatch.setattr("sys.stdout.isatty", lambda: True)
+
+    result = tftool("tree", "turtles", "--format", "pdf")
+
+    assert result.status == 2
+    assert "say where it goes with -o FILE" in result.err
+
+
+def test_it_is_drawn_again_and_again_on_the_worlds_own_ticks(tftool, simulated, monkeypatch):
+    monkeypatch.setenv("FORCE_COLOR", "1")
+
+    result = tftool("tree", "turtles", "--watch", "--for", "1")
+
+    assert result.status == 0
+    # Both turtles are there after the head start of three seconds.
+    for moment in ("1003.000000", "1003.500000", "1004.000000"):
+        assert f"Recorded at time: {moment}" in result.out
+    assert "1004.500000" not in result.out
+
+
+def test_a_terminal_that_goes_is_left_as_it_was(tftool, simulated, monkeypatch):
+    monkeypatch.setenv("FORCE_COLOR", "1")
+
+    out = tftool("tree", "turtles", "--watch", "--for", "1").out
+
+    assert out.count("\x1b[?1049h") == out.count("\x1b[?1049l") == 1
+    assert out.rindex("\x1b[?25h") > out.rindex("\x1b[?25l")

@@ -111,9 +111,17 @@ def main(argv: "Sequence[str] | None" = None) -> int:
     except BrokenPipeError:
         # The reader has seen enough (`| head -1`): that is no failure. What is still
         # buffered would be written at exit, so it goes nowhere.
-        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+        _forget_output()
         status = DONE
     return status
+
+
+def _forget_output() -> None:
+    """Let what is still buffered for stdout go nowhere."""
+    from contextlib import suppress
+
+    with suppress(OSError, ValueError):  # a stdout that is no file has no number
+        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
 
 
 def _leave_on_signals() -> None:

@@ -7,9 +7,9 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from tftool.cli.options import CacheTime, not_negative
+from tftool.cli.options import CacheTime, not_negative, positive
 from tftool.errors import InputError, UsageError
-from tftool.stamps import seconds
+from tftool.stamps import Duration, seconds
 
 if TYPE_CHECKING:
     from tftool.cli.session import Session
@@ -67,6 +67,12 @@ def tree(
         ),
     ] = None,
     watch: Annotated[bool, typer.Option("--watch", "-w", help="Draw it again and again.")] = False,
+    run_for: Annotated[
+        float | None,
+        typer.Option(
+            "--for", metavar="SECONDS", callback=positive, help="With --watch: stop after so long."
+        ),
+    ] = None,
     cache_time: CacheTime = None,
 ) -> None:
     """Show which frame hangs from which (rqt_tf_tree, view_frames).
@@ -86,8 +92,10 @@ def tree(
     if watch:
         if form is not Format.tree or output is not None or at is not None:
             raise UsageError("--watch draws on the terminal: leave out --format, -o and --at.")
-        _watch(open_session(place, cache_time=cache))
+        _watch(open_session(place, cache_time=cache), None if run_for is None else seconds(run_for))
         return
+    if run_for is not None:
+        raise UsageError("--for goes with --watch; without it the tree is written once.")
     clock = SimClock()
     session = open_session(place, clock=clock, cache_time=cache)
     session.live_until(session.moment(seconds(LISTEN if at is None else at)))
@@ -165,7 +173,7 @@ def _drawn(snapshot: "Snapshot", *, to_file: bool) -> str:
     return capture.get()
 
 
-def _watch(session: "Session") -> None:
+def _watch(session: "Session", duration: Duration | None) -> None:
     from rich.console import Console
     from rich.live import Live
 
@@ -181,7 +189,8 @@ def _watch(session: "Session") -> None:
         # Redrawn on the world's own ticks; rich's thread would draw half a change.
         with Live(console=console, auto_refresh=False, screen=True) as live:
             due = world.clock.now()
-            while True:
+            end = None if duration is None else due + duration
+            while end is None or due <= end:
                 picture = frame_tree.render(
                     world.buffer.snapshot(world.clock.now()),
                     width=console.width,
