@@ -167,6 +167,15 @@ def test_on_a_terminal_a_world_without_turtles_cannot_be_driven(tftool, on_termi
     assert app._press is None
 
 
+def test_on_a_terminal_driving_is_left_to_a_person(tftool, on_terminal):
+    assert tftool("demo", "mimic", "--rate", 20, "--for", 3).status == 0
+
+    (app,) = on_terminal
+    assert list(app.scene.simulator.turtles) == ["turtle1", "turtle2"]
+    assert app.scene.simulator.turtles["turtle1"].pose.linear_velocity == 0.0
+    assert len(app.scene.simulator.trail.segments) == 0
+
+
 def test_on_a_terminal_a_failing_node_is_named_on_stderr(tftool, on_terminal, monkeypatch):
     from tftool.nodes.broadcasters import Broadcaster
 

@@ -294,7 +294,16 @@ def test_a_world_without_turtles_shows_its_frames_and_a_pair_of_them(frames):
     text = "\n".join(shown(scene))
 
     assert "laser in map" in text
-    assert "◆" in text
+    assert "→ laser" in text
+
+
+def test_a_pair_whose_frames_never_come_gives_way_to_one_that_is_there(turtles):
+    early = turtles(2.0, (), followed=False)
+    late = turtles(5.0, (), followed=False)
+
+    assert "turtle1 in turtle2" in "\n".join(shown(early))
+    assert "turtle1 in world" in "\n".join(shown(late))
+    assert "world in turtle2" in "\n".join(shown(early, keys=("k",)))
 
 
 def test_an_empty_world_says_so(frames):

@@ -12,7 +12,7 @@ from threading import Event
 import pytest
 
 ROOT = Path(__file__).parents[2]
-TRIES, PAUSE = 600, 0.05
+TRIES, PAUSE = 1200, 0.05
 
 pytestmark = pytest.mark.skipif(
     shutil.which("tmux") is None, reason="needs tmux, a terminal that can be asked"

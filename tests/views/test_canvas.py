@@ -315,11 +315,10 @@ def test_a_wall_that_was_hit_lights_up(side, cells):
     assert lit == cells
 
 
-def test_another_frame_is_a_mark_with_its_name():
-    text = "\n".join(words(draw(Picture(marks=(Mark("carrot1", 3.0, 3.0),)))))
+def test_another_frame_is_a_bare_arrow_with_its_name():
+    text = "\n".join(words(draw(Picture(marks=(Mark("carrot1", 3.0, 3.0, math.pi / 2),)))))
 
-    assert "◆" in text
-    assert "carrot1" in text
+    assert " ↑ carrot1" in text
 
 
 def test_the_view_may_be_another_square_of_the_world():
@@ -327,7 +326,7 @@ def test_the_view_may_be_another_square_of_the_world():
 
     text = words(draw(picture, rows=10, ascii_only=True))
 
-    assert text[1][3] == "+"
+    assert text[1][3] == ">"
 
 
 def test_a_frame_goes_round_a_field_without_colour():

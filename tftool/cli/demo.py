@@ -1,12 +1,16 @@
 """`tftool demo`: a scenario on the screen, or, without a terminal, played and summed up."""
 
-from typing import Annotated
+from dataclasses import replace
+from typing import TYPE_CHECKING, Annotated
 
 import typer
 
 from tftool.cli.onscreen import Ascii, Light
 from tftool.cli.options import ForPrograms, positive
 from tftool.errors import UsageError
+
+if TYPE_CHECKING:
+    from tftool.scenario.schema import Scenario
 
 
 def demo(
@@ -41,9 +45,9 @@ def demo(
     """Show turtle2 following turtle1 (ros2 launch turtle_tf2_py turtle_tf2_demo.launch.py).
 
     On a terminal: the field, the tree and a pair of frames; the arrow keys drive
-    turtle1, [ and ] go back in time, q quits. Without one: plays the scenario with its
-    own script on simulated time, prints what came of it, and exits with 1 if it did not
-    turn out as the scenario expects.
+    turtle1, [ and ] go back in time, q quits. Without one: plays the scenario on
+    simulated time, its own script at the keys, prints what came of it, and exits with 1
+    if it did not turn out as the scenario expects.
 
     tftool demo
     tftool demo carrot --source-frame carrot1
@@ -68,16 +72,29 @@ def demo(
 
     from tftool.screens.terminal import Setting
 
-    play = build(chosen, WallClock(rate), script=False)
+    play = build(_left_to_a_person(chosen), WallClock(rate))
     drives = simulator_of(play.world) is not None
-    until = None if duration is None else play.world.clock.now() + duration
+
+    async def life() -> None:
+        # Counted from here: the screen takes a while to come up.
+        until = None if duration is None else play.world.clock.now() + duration
+        await play.live(until, endless=until is None)
+
     run_app(
         play.world,
-        play.live(until, endless=until is None),
+        life(),
         driver_of(play.world, "turtle1") if drives else None,
         Setting(title=f"tftool demo {chosen.name}", ascii_only=ascii_only, light=light),
     )
     return 0
+
+
+def _left_to_a_person(scenario: "Scenario") -> "Scenario":
+    """The scenario without what somebody at the keys does better, and without a judge."""
+    from tftool.scenario.actions import Drive, Press
+
+    script = tuple(step for step in scenario.script if not isinstance(step.action, Drive | Press))
+    return replace(scenario, script=script, expect=())
 
 
 def _arguments(settings: "list[str] | tuple[str, ...]", source_frame: str | None) -> dict[str, str]:

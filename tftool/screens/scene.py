@@ -34,7 +34,7 @@ class Moment:
     Attributes:
         stamp: The moment shown.
         behind: How long before now that is; 0 when live.
-        elapsed: How long after the start of the clock that is.
+        elapsed: How long after the scene's start that is.
         snapshot: All frames at that moment.
         ages: For each frame, seconds since its latest stamp changed; 0 for static ones.
         picture: The field.
@@ -68,11 +68,15 @@ class Scene:
     Args:
         world: The world to look at.
         simulator: Who draws its turtles, where there is one.
+
+    Attributes:
+        start: The moment from which seconds are counted on the screen.
     """
 
     def __init__(self, world: World, simulator: Turtlesim | None = None) -> None:
         self.world = world
         self.simulator = simulator
+        self.start: Stamp = world.clock.epoch
         self._news: dict[str, tuple[Stamp, Stamp]] = {}
         self._seen: deque[_Seen] = deque()
         # Trails that were wiped, for as long as one can go back to them.
@@ -129,7 +133,7 @@ class Scene:
         return Moment(
             stamp=stamp,
             behind=now - stamp,
-            elapsed=stamp - self.world.clock.epoch,
+            elapsed=stamp - self.start,
             snapshot=snapshot,
             ages=ages,
             picture=self._picture(snapshot, ages, at),
@@ -251,5 +255,5 @@ def _marks(
         # A root lies at its own origin, the field's corner: no news to those who see a field.
         if (turtles and info.parent is None) or not math.isfinite(x + y) or abs(x) + abs(y) > 1e6:
             continue
-        marks.append(canvas.Mark(info.frame, x, y))
+        marks.append(canvas.Mark(info.frame, x, y, heading(pose)))
     return tuple(marks)

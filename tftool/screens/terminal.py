@@ -38,6 +38,9 @@ LOOKS_PER_SECOND = 20
 PANELS_EVERY = 3
 """Of that many looks, the text beside the field is written anew in one."""
 
+PATIENCE = seconds(4.0)
+"""For how long after the start the frames of the first pair are waited for."""
+
 REST = 4.0
 """For how many times as long as a look took there is no other one."""
 
@@ -199,6 +202,7 @@ class TurtleApp(App[None]):
         ),
         Binding("q,Q", "leave", show=False, priority=True),
         Binding("ctrl+c", "interrupt", show=False, priority=True),
+        Binding("ctrl+z", "suspend_process", show=False, priority=True),
         Binding("tab", "panel(1)", show=False, priority=True),
         Binding("shift+tab", "panel(-1)", show=False, priority=True),
         Binding("j", "pick(1)", show=False),
@@ -224,6 +228,7 @@ class TurtleApp(App[None]):
         self.failure: Exception | None = None
         self.interrupted = False
         self.title = self.setting.title
+        self.ready = asyncio.Event()
         self._press = press
         self._light = self.setting.light
         self._target, self._source = self.setting.pair
@@ -269,6 +274,7 @@ class TurtleApp(App[None]):
             if panel._title:
                 panel.border_title = panel._title
         self.panel("field").focus()
+        self.call_after_refresh(self.ready.set)
         self.set_interval(1.0 / LOOKS_PER_SECOND, self._tick)
 
     def panel(self, name: str) -> Panel:
@@ -394,13 +400,21 @@ class TurtleApp(App[None]):
         if self._at is not None and kept is not None and kept.stamp == self._at:
             return self.scene.again(kept, self._target, self._source)
         found = self.scene.moment(self._at, self._target, self._source)
-        frames = found.snapshot.frames
-        strange = self._source not in found.snapshot and self.scene.simulator is None
-        if strange and not self._picked and len(frames) > 1:
-            # No turtles here, nor anything else that was asked for: any pair is better.
-            self._target, self._source = found.snapshot.roots()[0], frames[-1].frame
-            return self.scene.moment(self._at, self._target, self._source)
+        pair = self._other_pair(found)
+        if pair != (self._target, self._source):
+            self._target, self._source = pair
+            return self.scene.moment(self._at, *pair)
         return found
+
+    def _other_pair(self, moment: Moment) -> tuple[str, str]:
+        """The pair asked for, until its frames are overdue and nobody picked another."""
+        asked, snapshot = (self._target, self._source), moment.snapshot
+        names = [info.frame for info in snapshot.frames if info.parent is not None]
+        soon = self.scene.simulator is not None and moment.elapsed < PATIENCE
+        if self._picked or soon or not names or all(name in snapshot for name in asked):
+            return asked
+        source = self._source if self._source in snapshot else names[-1]
+        return snapshot.frame(source).root or names[0], source
 
     def _draw_field(self, moment: Moment) -> None:
         field = self.panel("field")
@@ -435,7 +449,9 @@ class TurtleApp(App[None]):
         listed = panels.rows(moment.snapshot, ascii_only=look.ascii_only)
         tree.show(panels.tree(moment, listed, self._source, *tree.size, look))
         pair.show(panels.pair(moment, *pair.size, look))
-        log.show(self._journal.lines(moment.stamp, clock.epoch, *log.size, look, back=self._back))
+        log.show(
+            self._journal.lines(moment.stamp, self.scene.start, *log.size, look, back=self._back)
+        )
 
     def _hints(self) -> list[Hint]:
         arrows = "arrows" if self.setting.ascii_only else "↑↓←→"
@@ -581,7 +597,14 @@ async def show(app: TurtleApp, life: Coroutine[Any, Any, None], *, headless: boo
         KeyboardInterrupt: If the user pressed Ctrl-C.
     """
     screen = asyncio.ensure_future(app.run_async(headless=headless))
-    living = asyncio.ensure_future(life)
+
+    async def lived() -> None:
+        # Making the panels takes a while in which no node would get its turn.
+        await app.ready.wait()
+        app.scene.start = app.scene.world.clock.now()
+        await life
+
+    living = asyncio.ensure_future(lived())
     try:
         await asyncio.wait({living, screen}, return_when=asyncio.FIRST_COMPLETED)
     finally:
@@ -590,6 +613,7 @@ async def show(app: TurtleApp, life: Coroutine[Any, Any, None], *, headless: boo
             await asyncio.wait({screen})
         living.cancel()
         await asyncio.wait({living})
+        life.close()
     if not living.cancelled():
         living.result()
     if app.failure is not None:

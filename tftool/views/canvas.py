@@ -47,6 +47,7 @@ class Mark:
     name: str
     x: float
     y: float
+    theta: float = 0.0
 
 
 Stroke: TypeAlias = tuple[float, float, float, float, Color, int]
@@ -216,11 +217,12 @@ class Canvas:
                 continue
             color = theme.of_name(shown.name)
             if isinstance(shown, Mark):
-                sign = "+" if self._ascii else "◆"
+                arrows = sprites.ASCII_ARROWS if self._ascii else sprites.ARROWS
+                sign = arrows[sprites.octant(shown.theta)]
                 cells: Iterable[tuple[int, int, Cell]] = (
                     (int(place[0]), int(place[1]), Cell(sign, color, None, True)),
                 )
-                reach = 0
+                reach = 1
             elif per_metre >= sprites.BODY_FROM and not self._arrows:
                 cells = sprites.body(*place, shown.theta, color, per_metre)
                 reach = math.ceil(1.9 * per_metre)
