@@ -1,0 +1,157 @@
+"""The fields of the ROS 2 interfaces we answer to, as facts.
+
+One block an interface: its full name, then its fields as a .msg, .srv or .action
+file lists them, `;` for a line break. The parts of a service or an action are set
+apart by `---`. Classes are made from these in `interfaces.classes`.
+"""
+
+from functools import cache
+
+_TEXT = """
+builtin_interfaces/msg/Time = int32 sec; uint32 nanosec
+builtin_interfaces/msg/Duration = int32 sec; uint32 nanosec
+
+unique_identifier_msgs/msg/UUID = uint8[16] uuid
+
+std_msgs/msg/Header = builtin_interfaces/Time stamp; string frame_id
+std_msgs/msg/Bool = bool data
+std_msgs/msg/Byte = byte data
+std_msgs/msg/Char = char data
+std_msgs/msg/ColorRGBA = float32 r; float32 g; float32 b; float32 a
+std_msgs/msg/Empty =
+std_msgs/msg/Float32 = float32 data
+std_msgs/msg/Float64 = float64 data
+std_msgs/msg/Int8 = int8 data
+std_msgs/msg/Int16 = int16 data
+std_msgs/msg/Int32 = int32 data
+std_msgs/msg/Int64 = int64 data
+std_msgs/msg/UInt8 = uint8 data
+std_msgs/msg/UInt16 = uint16 data
+std_msgs/msg/UInt32 = uint32 data
+std_msgs/msg/UInt64 = uint64 data
+std_msgs/msg/String = string data
+std_msgs/msg/MultiArrayDimension = string label; uint32 size; uint32 stride
+std_msgs/msg/MultiArrayLayout = MultiArrayDimension[] dim; uint32 data_offset
+std_msgs/msg/Float32MultiArray = MultiArrayLayout layout; float32[] data
+std_msgs/msg/Float64MultiArray = MultiArrayLayout layout; float64[] data
+std_msgs/msg/Int32MultiArray = MultiArrayLayout layout; int32[] data
+std_msgs/msg/Int64MultiArray = MultiArrayLayout layout; int64[] data
+std_msgs/msg/UInt8MultiArray = MultiArrayLayout layout; uint8[] data
+
+geometry_msgs/msg/Vector3 = float64 x; float64 y; float64 z
+geometry_msgs/msg/Point = float64 x; float64 y; float64 z
+geometry_msgs/msg/Point32 = float32 x; float32 y; float32 z
+geometry_msgs/msg/Quaternion = float64 x 0; float64 y 0; float64 z 0; float64 w 1
+geometry_msgs/msg/Pose = Point position; Quaternion orientation
+geometry_msgs/msg/Pose2D = float64 x; float64 y; float64 theta
+geometry_msgs/msg/Transform = Vector3 translation; Quaternion rotation
+geometry_msgs/msg/Twist = Vector3 linear; Vector3 angular
+geometry_msgs/msg/Accel = Vector3 linear; Vector3 angular
+geometry_msgs/msg/Wrench = Vector3 force; Vector3 torque
+geometry_msgs/msg/Inertia = float64 m; Vector3 com; float64 ixx; float64 ixy; float64 ixz; float64 iyy; float64 iyz; float64 izz
+geometry_msgs/msg/Polygon = Point32[] points
+geometry_msgs/msg/PoseArray = std_msgs/Header header; Pose[] poses
+geometry_msgs/msg/PoseWithCovariance = Pose pose; float64[36] covariance
+geometry_msgs/msg/TwistWithCovariance = Twist twist; float64[36] covariance
+geometry_msgs/msg/AccelWithCovariance = Accel accel; float64[36] covariance
+geometry_msgs/msg/Vector3Stamped = std_msgs/Header header; Vector3 vector
+geometry_msgs/msg/PointStamped = std_msgs/Header header; Point point
+geometry_msgs/msg/QuaternionStamped = std_msgs/Header header; Quaternion quaternion
+geometry_msgs/msg/PoseStamped = std_msgs/Header header; Pose pose
+geometry_msgs/msg/TwistStamped = std_msgs/Header header; Twist twist
+geometry_msgs/msg/AccelStamped = std_msgs/Header header; Accel accel
+geometry_msgs/msg/WrenchStamped = std_msgs/Header header; Wrench wrench
+geometry_msgs/msg/InertiaStamped = std_msgs/Header header; Inertia inertia
+geometry_msgs/msg/PolygonStamped = std_msgs/Header header; Polygon polygon
+geometry_msgs/msg/PoseWithCovarianceStamped = std_msgs/Header header; PoseWithCovariance pose
+geometry_msgs/msg/TwistWithCovarianceStamped = std_msgs/Header header; TwistWithCovariance twist
+geometry_msgs/msg/AccelWithCovarianceStamped = std_msgs/Header header; AccelWithCovariance accel
+geometry_msgs/msg/TransformStamped = std_msgs/Header header; string child_frame_id; Transform transform
+geometry_msgs/msg/VelocityStamped = std_msgs/Header header; string body_frame_id; string reference_frame_id; Twist velocity
+
+sensor_msgs/msg/PointField = uint8 INT8=1; uint8 UINT8=2; uint8 INT16=3; uint8 UINT16=4; uint8 INT32=5; uint8 UINT32=6; uint8 FLOAT32=7; uint8 FLOAT64=8; string name; uint32 offset; uint8 datatype; uint32 count
+sensor_msgs/msg/PointCloud2 = std_msgs/Header header; uint32 height; uint32 width; PointField[] fields; bool is_bigendian; uint32 point_step; uint32 row_step; uint8[] data; bool is_dense
+sensor_msgs/msg/LaserScan = std_msgs/Header header; float32 angle_min; float32 angle_max; float32 angle_increment; float32 time_increment; float32 scan_time; float32 range_min; float32 range_max; float32[] ranges; float32[] intensities
+sensor_msgs/msg/JointState = std_msgs/Header header; string[] name; float64[] position; float64[] velocity; float64[] effort
+sensor_msgs/msg/Imu = std_msgs/Header header; geometry_msgs/Quaternion orientation; float64[9] orientation_covariance; geometry_msgs/Vector3 angular_velocity; float64[9] angular_velocity_covariance; geometry_msgs/Vector3 linear_acceleration; float64[9] linear_acceleration_covariance
+sensor_msgs/msg/Range = uint8 ULTRASOUND=0; uint8 INFRARED=1; std_msgs/Header header; uint8 radiation_type; float32 field_of_view; float32 min_range; float32 max_range; float32 range; float32 variance
+sensor_msgs/msg/Joy = std_msgs/Header header; float32[] axes; int32[] buttons
+
+nav_msgs/msg/Odometry = std_msgs/Header header; string child_frame_id; geometry_msgs/PoseWithCovariance pose; geometry_msgs/TwistWithCovariance twist
+nav_msgs/msg/Path = std_msgs/Header header; geometry_msgs/PoseStamped[] poses
+nav_msgs/msg/MapMetaData = builtin_interfaces/Time map_load_time; float32 resolution; uint32 width; uint32 height; geometry_msgs/Pose origin
+nav_msgs/msg/OccupancyGrid = std_msgs/Header header; MapMetaData info; int8[] data
+
+visualization_msgs/msg/Marker = int32 ARROW=0; int32 CUBE=1; int32 SPHERE=2; int32 CYLINDER=3; int32 LINE_STRIP=4; int32 LINE_LIST=5; int32 CUBE_LIST=6; int32 SPHERE_LIST=7; int32 POINTS=8; int32 TEXT_VIEW_FACING=9; int32 MESH_RESOURCE=10; int32 TRIANGLE_LIST=11; int32 ADD=0; int32 MODIFY=0; int32 DELETE=2; int32 DELETEALL=3; std_msgs/Header header; string ns; int32 id; int32 type; int32 action; geometry_msgs/Pose pose; geometry_msgs/Vector3 scale; std_msgs/ColorRGBA color; builtin_interfaces/Duration lifetime; bool frame_locked; geometry_msgs/Point[] points; std_msgs/ColorRGBA[] colors; string text; string mesh_resource; bool mesh_use_embedded_materials
+visualization_msgs/msg/MarkerArray = Marker[] markers
+
+rosgraph_msgs/msg/Clock = builtin_interfaces/Time clock
+
+tf2_msgs/msg/TFMessage = geometry_msgs/TransformStamped[] transforms
+tf2_msgs/msg/TF2Error = uint8 NO_ERROR=0; uint8 LOOKUP_ERROR=1; uint8 CONNECTIVITY_ERROR=2; uint8 EXTRAPOLATION_ERROR=3; uint8 INVALID_ARGUMENT_ERROR=4; uint8 TIMEOUT_ERROR=5; uint8 TRANSFORM_ERROR=6; uint8 error; string error_string
+tf2_msgs/srv/FrameGraph = ---; string frame_yaml
+tf2_msgs/action/LookupTransform = string target_frame; string source_frame; builtin_interfaces/Time source_time; builtin_interfaces/Duration timeout; builtin_interfaces/Time target_time; string fixed_frame; bool advanced; ---; geometry_msgs/TransformStamped transform; tf2_msgs/TF2Error error; ---
+
+turtlesim/msg/Pose = float32 x; float32 y; float32 theta; float32 linear_velocity; float32 angular_velocity
+turtlesim/msg/Color = uint8 r; uint8 g; uint8 b
+turtlesim/srv/Kill = string name; ---
+turtlesim/srv/SetPen = uint8 r; uint8 g; uint8 b; uint8 width; uint8 off; ---
+turtlesim/srv/Spawn = float32 x; float32 y; float32 theta; string name; ---; string name
+turtlesim/srv/TeleportAbsolute = float32 x; float32 y; float32 theta; ---
+turtlesim/srv/TeleportRelative = float32 linear; float32 angular; ---
+turtlesim/action/RotateAbsolute = float32 theta; ---; float32 delta; ---; float32 remaining
+
+std_srvs/srv/Empty = ---
+std_srvs/srv/SetBool = bool data; ---; bool success; string message
+std_srvs/srv/Trigger = ---; bool success; string message
+
+example_interfaces/msg/String = string data
+example_interfaces/msg/Int64 = int64 data
+example_interfaces/msg/Float64 = float64 data
+example_interfaces/msg/Bool = bool data
+example_interfaces/srv/AddTwoInts = int64 a; int64 b; ---; int64 sum
+example_interfaces/srv/SetBool = bool data; ---; bool success; string message
+example_interfaces/srv/Trigger = ---; bool success; string message
+example_interfaces/action/Fibonacci = int32 order; ---; int32[] sequence; ---; int32[] sequence
+action_tutorials_interfaces/action/Fibonacci = int32 order; ---; int32[] sequence; ---; int32[] partial_sequence
+
+action_msgs/msg/GoalInfo = unique_identifier_msgs/UUID goal_id; builtin_interfaces/Time stamp
+action_msgs/msg/GoalStatus = int8 STATUS_UNKNOWN=0; int8 STATUS_ACCEPTED=1; int8 STATUS_EXECUTING=2; int8 STATUS_CANCELING=3; int8 STATUS_SUCCEEDED=4; int8 STATUS_CANCELED=5; int8 STATUS_ABORTED=6; GoalInfo goal_info; int8 status
+action_msgs/msg/GoalStatusArray = GoalStatus[] status_list
+action_msgs/srv/CancelGoal = GoalInfo goal_info; ---; int8 ERROR_NONE=0; int8 ERROR_REJECTED=1; int8 ERROR_UNKNOWN_GOAL_ID=2; int8 ERROR_GOAL_TERMINATED=3; int8 return_code; GoalInfo[] goals_canceling
+
+rcl_interfaces/msg/ParameterType = uint8 PARAMETER_NOT_SET=0; uint8 PARAMETER_BOOL=1; uint8 PARAMETER_INTEGER=2; uint8 PARAMETER_DOUBLE=3; uint8 PARAMETER_STRING=4; uint8 PARAMETER_BYTE_ARRAY=5; uint8 PARAMETER_BOOL_ARRAY=6; uint8 PARAMETER_INTEGER_ARRAY=7; uint8 PARAMETER_DOUBLE_ARRAY=8; uint8 PARAMETER_STRING_ARRAY=9
+rcl_interfaces/msg/ParameterValue = uint8 type; bool bool_value; int64 integer_value; float64 double_value; string string_value; byte[] byte_array_value; bool[] bool_array_value; int64[] integer_array_value; float64[] double_array_value; string[] string_array_value
+rcl_interfaces/msg/Parameter = string name; ParameterValue value
+rcl_interfaces/msg/FloatingPointRange = float64 from_value; float64 to_value; float64 step
+rcl_interfaces/msg/IntegerRange = int64 from_value; int64 to_value; uint64 step
+rcl_interfaces/msg/ParameterDescriptor = string name; uint8 type; string description; string additional_constraints; bool read_only false; bool dynamic_typing false; FloatingPointRange[<=1] floating_point_range; IntegerRange[<=1] integer_range
+rcl_interfaces/msg/SetParametersResult = bool successful; string reason
+rcl_interfaces/msg/ListParametersResult = string[] names; string[] prefixes
+rcl_interfaces/msg/ParameterEvent = builtin_interfaces/Time stamp; string node; Parameter[] new_parameters; Parameter[] changed_parameters; Parameter[] deleted_parameters
+rcl_interfaces/msg/Log = byte DEBUG=10; byte INFO=20; byte WARN=30; byte ERROR=40; byte FATAL=50; builtin_interfaces/Time stamp; uint8 level; string name; string msg; string file; string function; uint32 line
+rcl_interfaces/srv/GetParameters = string[] names; ---; ParameterValue[] values
+rcl_interfaces/srv/GetParameterTypes = string[] names; ---; uint8[] types
+rcl_interfaces/srv/ListParameters = uint64 DEPTH_RECURSIVE=0; string[] prefixes; uint64 depth; ---; ListParametersResult result
+rcl_interfaces/srv/DescribeParameters = string[] names; ---; ParameterDescriptor[] descriptors
+rcl_interfaces/srv/SetParameters = Parameter[] parameters; ---; SetParametersResult[] results
+rcl_interfaces/srv/SetParametersAtomically = Parameter[] parameters; ---; SetParametersResult result
+"""  # noqa: E501 -- one interface a line can be searched and compared
+
+_SAME = {"turtlesim_msgs": "turtlesim"}
+"""Newer ROS 2 releases moved turtlesim's interfaces to a package of their own."""
+
+
+@cache
+def table() -> dict[str, dict[tuple[str, str], str]]:
+    """Every definition: package, then (kind, name), then its lines."""
+    packages: dict[str, dict[tuple[str, str], str]] = {}
+    for line in _TEXT.splitlines():
+        name, found, fields = line.partition("=")
+        if found:
+            package, kind, interface = name.strip().split("/")
+            definition = fields.strip().replace("; ", "\n").replace(";", "\n")
+            packages.setdefault(package, {})[kind, interface] = definition
+    for new, old in _SAME.items():
+        packages[new] = packages[old]
+    return packages
