@@ -9,3 +9,5 @@ from hypothesis import settings
 settings.register_profile("desk", deadline=None)
 settings.register_profile("ci", deadline=None, derandomize=True)
 settings.load_profile("ci" if os.environ.get("CI") else "desk")
+
+pytest_plugins = ["pytester", "tftool.ros.pytest_plugin"]

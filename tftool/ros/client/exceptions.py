@@ -1,0 +1,105 @@
+"""What rclpy raises."""
+
+from collections.abc import Iterable
+from difflib import get_close_matches
+
+
+class NotInitializedException(Exception):
+    """rclpy.init() was not called, or the context is shut down."""
+
+    def __init__(self, *args: object) -> None:
+        super().__init__("rclpy.init() has not been called", *args)
+
+
+class ROSInterruptException(Exception):
+    """A sleep was cut short by shutdown."""
+
+    def __init__(self, *args: object) -> None:
+        super().__init__("rclpy.shutdown() has been called", *args)
+
+
+class ExternalShutdownException(Exception):
+    """The context was shut down while an executor was spinning."""
+
+    def __init__(self, *args: object) -> None:
+        super().__init__("context has been shut down", *args)
+
+
+class ShutdownException(Exception):
+    """The executor was shut down."""
+
+
+class TimeoutException(Exception):
+    """An executor was asked to wait with a timeout, and it passed."""
+
+
+class ConditionReachedException(Exception):
+    """An executor's condition came true."""
+
+
+class NameValidationException(Exception):
+    """A name is not valid."""
+
+
+class InvalidHandle(Exception):
+    """Something is used that was destroyed."""
+
+
+class ParameterException(Exception):
+    """A parameter cannot be used as asked."""
+
+    def __init__(self, text: str, parameters: "str | Iterable[str]" = ()) -> None:
+        super().__init__(text)
+        self.parameters = [parameters] if isinstance(parameters, str) else list(parameters)
+
+
+class ParameterNotDeclaredException(ParameterException):
+    """A parameter is used before it is declared."""
+
+    def __init__(self, parameters: "str | Iterable[str]", known: Iterable[str] = ()) -> None:
+        names = [parameters] if isinstance(parameters, str) else list(parameters)
+        text = f"Invalid access to undeclared parameter(s): {names}"
+        for name in names:
+            near = get_close_matches(name, list(known), n=1)
+            if near:
+                text += f"; did you mean '{near[0]}'?"
+        super().__init__(text, names)
+
+
+class ParameterAlreadyDeclaredException(ParameterException):
+    """A parameter is declared twice."""
+
+    def __init__(self, parameters: "str | Iterable[str]") -> None:
+        names = [parameters] if isinstance(parameters, str) else list(parameters)
+        super().__init__(f"Parameter(s) already declared: {names}", names)
+
+
+class InvalidParameterException(ParameterException):
+    """A parameter's name is not valid."""
+
+
+class InvalidParameterTypeException(ParameterException):
+    """A parameter is given a value of another type."""
+
+
+class InvalidParameterValueException(ParameterException):
+    """A parameter is given a value that is refused."""
+
+    def __init__(self, parameter: str, value: object, reason: str) -> None:
+        text = f"Invalid parameter value ({value!r}) for parameter '{parameter}'"
+        super().__init__(f"{text}. Reason: {reason}" if reason else text, parameter)
+
+
+class ParameterImmutableException(ParameterException):
+    """A read-only parameter is set."""
+
+    def __init__(self, parameters: "str | Iterable[str]") -> None:
+        names = [parameters] if isinstance(parameters, str) else list(parameters)
+        super().__init__(f"Attempted to modify read-only parameter(s): {names}", names)
+
+
+class ParameterUninitializedException(ParameterException):
+    """A parameter that was declared by type alone is read before it has a value."""
+
+    def __init__(self, parameter: str) -> None:
+        super().__init__(f"The parameter '{parameter}' is not initialized", parameter)

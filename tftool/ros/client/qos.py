@@ -1,0 +1,161 @@
+"""rclpy's quality-of-service profiles. In one process nothing gets lost; depth and latching act."""
+
+from enum import Enum, IntEnum
+from typing import Any
+
+from tftool.ros.client.time import Duration
+
+
+class _Policy(IntEnum):
+    @classmethod
+    def short_keys(cls) -> list[str]:
+        """The names, lower case."""
+        return [member.name.lower() for member in cls]
+
+    @property
+    def short_key(self) -> str:
+        """This name, lower case."""
+        return self.name.lower()
+
+    @classmethod
+    def get_from_short_key(cls, name: str) -> int:
+        """The member of a lower-case name."""
+        return cls[name.upper()].value
+
+
+class HistoryPolicy(_Policy):
+    """How many messages wait."""
+
+    SYSTEM_DEFAULT = 0
+    RMW_QOS_POLICY_HISTORY_SYSTEM_DEFAULT = 0
+    KEEP_LAST = 1
+    RMW_QOS_POLICY_HISTORY_KEEP_LAST = 1
+    KEEP_ALL = 2
+    RMW_QOS_POLICY_HISTORY_KEEP_ALL = 2
+    UNKNOWN = 3
+
+
+class ReliabilityPolicy(_Policy):
+    """Whether a message may be lost."""
+
+    SYSTEM_DEFAULT = 0
+    RMW_QOS_POLICY_RELIABILITY_SYSTEM_DEFAULT = 0
+    RELIABLE = 1
+    RMW_QOS_POLICY_RELIABILITY_RELIABLE = 1
+    BEST_EFFORT = 2
+    RMW_QOS_POLICY_RELIABILITY_BEST_EFFORT = 2
+    UNKNOWN = 3
+    BEST_AVAILABLE = 4
+
+
+class DurabilityPolicy(_Policy):
+    """Whether late subscribers get what was sent before."""
+
+    SYSTEM_DEFAULT = 0
+    RMW_QOS_POLICY_DURABILITY_SYSTEM_DEFAULT = 0
+    TRANSIENT_LOCAL = 1
+    RMW_QOS_POLICY_DURABILITY_TRANSIENT_LOCAL = 1
+    VOLATILE = 2
+    RMW_QOS_POLICY_DURABILITY_VOLATILE = 2
+    UNKNOWN = 3
+    BEST_AVAILABLE = 4
+
+
+class LivelinessPolicy(_Policy):
+    """How a publisher says it is alive."""
+
+    SYSTEM_DEFAULT = 0
+    AUTOMATIC = 1
+    MANUAL_BY_TOPIC = 3
+    UNKNOWN = 4
+    BEST_AVAILABLE = 5
+
+
+QoSHistoryPolicy = HistoryPolicy
+QoSReliabilityPolicy = ReliabilityPolicy
+QoSDurabilityPolicy = DurabilityPolicy
+QoSLivelinessPolicy = LivelinessPolicy
+
+
+class InvalidQoSProfileException(Exception):
+    """A profile that says too little, or contradicts itself."""
+
+
+class QoSProfile:
+    """The settings of a publisher or a subscription."""
+
+    def __init__(self, **kwargs: Any) -> None:
+        known = ("history", "depth", "reliability", "durability", "lifespan", "deadline",
+                 "liveliness", "liveliness_lease_duration",
+                 "avoid_ros_namespace_conventions")  # fmt: skip
+        wrong = [key for key in kwargs if key not in known]
+        if wrong:
+            raise TypeError(f"QoSProfile has no setting {wrong[0]!r}; it has {', '.join(known)}")
+        if "history" not in kwargs and "depth" not in kwargs:
+            raise InvalidQoSProfileException("History and/or depth settings are required.")
+        self.history = HistoryPolicy(kwargs.get("history", HistoryPolicy.KEEP_LAST))
+        if self.history is HistoryPolicy.KEEP_LAST and "depth" not in kwargs:
+            raise InvalidQoSProfileException("History set to KEEP_LAST without a depth setting.")
+        self.depth = int(kwargs.get("depth", 0))
+        if self.depth < 0:
+            raise ValueError("depth must be greater than or equal to zero")
+        self.reliability = ReliabilityPolicy(kwargs.get("reliability", ReliabilityPolicy.RELIABLE))
+        self.durability = DurabilityPolicy(kwargs.get("durability", DurabilityPolicy.VOLATILE))
+        self.liveliness = LivelinessPolicy(
+            kwargs.get("liveliness", LivelinessPolicy.SYSTEM_DEFAULT)
+        )
+        self.lifespan = kwargs.get("lifespan", Duration())
+        self.deadline = kwargs.get("deadline", Duration())
+        self.liveliness_lease_duration = kwargs.get("liveliness_lease_duration", Duration())
+        self.avoid_ros_namespace_conventions = bool(
+            kwargs.get("avoid_ros_namespace_conventions", False)
+        )
+
+    def __eq__(self, other: object) -> bool:
+        return isinstance(other, QoSProfile) and vars(self) == vars(other)
+
+    __hash__ = None  # type: ignore[assignment]
+
+    def __repr__(self) -> str:
+        return f"QoSProfile({', '.join(f'{key}={value}' for key, value in vars(self).items())})"
+
+
+def profile_of(given: "QoSProfile | int") -> QoSProfile:
+    """The profile that a profile or a bare depth means.
+
+    Raises:
+        TypeError: If it is neither.
+        ValueError: If the depth is negative.
+    """
+    if isinstance(given, QoSProfile):
+        return given
+    if not isinstance(given, int):
+        raise TypeError(f"Expected QoSProfile or int, but received {type(given)!r}")
+    return QoSProfile(depth=given)
+
+
+qos_profile_default = QoSProfile(depth=10)
+qos_profile_system_default = QoSProfile(depth=10)
+qos_profile_sensor_data = QoSProfile(depth=5, reliability=ReliabilityPolicy.BEST_EFFORT)
+qos_profile_services_default = QoSProfile(depth=10)
+qos_profile_parameters = QoSProfile(depth=1000)
+qos_profile_parameter_events = QoSProfile(depth=1000)
+qos_profile_action_status_default = QoSProfile(depth=1, durability=DurabilityPolicy.TRANSIENT_LOCAL)
+
+
+class QoSPresetProfiles(Enum):
+    """Ready profiles; `.value` is the profile."""
+
+    UNKNOWN = QoSProfile(depth=0)
+    DEFAULT = qos_profile_default
+    SYSTEM_DEFAULT = qos_profile_system_default
+    SENSOR_DATA = qos_profile_sensor_data
+    SERVICES_DEFAULT = qos_profile_services_default
+    PARAMETERS = qos_profile_parameters
+    PARAMETER_EVENTS = qos_profile_parameter_events
+    ACTION_STATUS_DEFAULT = qos_profile_action_status_default
+
+    @classmethod
+    def get_from_short_key(cls, name: str) -> QoSProfile:
+        """The profile of a lower-case name."""
+        return cls[name.upper()].value

@@ -1,0 +1,125 @@
+"""Which module and which name of ROS 2 we answer to, and where ours is.
+
+A line is "their module: our module: the names", a name alone or `theirs=ours`.
+Packages of interfaces (geometry_msgs and so on) need no line: they follow from
+their definitions.
+"""
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from functools import cache
+
+_TABLE = """
+rclpy: client.core: init shutdown try_shutdown ok spin spin_once spin_until_future_complete
+rclpy: client.core: create_node get_global_executor get_default_context logging
+rclpy.node: client.node: Node
+rclpy.node: client.parameters: Parameter
+rclpy.context: client.context: Context
+rclpy.time: client.time: Time
+rclpy.duration: client.time: Duration Infinite
+rclpy.clock: client.time: Clock ROSClock ClockType
+rclpy.clock_type: client.time: ClockType
+rclpy.constants: client.time: S_TO_NS
+rclpy.timer: client.time: Rate
+rclpy.timer: client.entities: Timer TimerInfo
+rclpy.publisher: client.entities: Publisher
+rclpy.subscription: client.entities: Subscription
+rclpy.client: client.entities: Client
+rclpy.service: client.entities: Service
+rclpy.guard_condition: client.entities: GuardCondition
+rclpy.task: client.futures: Future Task
+rclpy.executors: client.executors: Executor SingleThreadedExecutor MultiThreadedExecutor
+rclpy.executors: client.exceptions: ExternalShutdownException ShutdownException
+rclpy.executors: client.exceptions: TimeoutException ConditionReachedException
+rclpy.callback_groups: client.groups: CallbackGroup MutuallyExclusiveCallbackGroup
+rclpy.callback_groups: client.groups: ReentrantCallbackGroup
+rclpy.logging: client.logging: get_logger LoggingSeverity set_logger_level initialize shutdown
+rclpy.logging: client.logging: get_logger_effective_level get_logging_severity_from_string
+rclpy.impl.rcutils_logger: client.logging: RcutilsLogger
+rclpy.impl.logging_severity: client.logging: LoggingSeverity
+rclpy.parameter: client.parameters: Parameter parameter_value_to_python get_parameter_value
+rclpy.exceptions: client.exceptions: NotInitializedException ROSInterruptException
+rclpy.exceptions: client.exceptions: NameValidationException InvalidHandle ParameterException
+rclpy.exceptions: client.exceptions: ParameterNotDeclaredException
+rclpy.exceptions: client.exceptions: ParameterAlreadyDeclaredException
+rclpy.exceptions: client.exceptions: InvalidParameterException InvalidParameterTypeException
+rclpy.exceptions: client.exceptions: InvalidParameterValueException ParameterImmutableException
+rclpy.exceptions: client.exceptions: ParameterUninitializedException
+rclpy.qos: client.qos: QoSProfile HistoryPolicy ReliabilityPolicy DurabilityPolicy
+rclpy.qos: client.qos: LivelinessPolicy QoSHistoryPolicy QoSReliabilityPolicy
+rclpy.qos: client.qos: QoSDurabilityPolicy QoSLivelinessPolicy QoSPresetProfiles
+rclpy.qos: client.qos: InvalidQoSProfileException qos_profile_system_default
+rclpy.qos: client.qos: qos_profile_sensor_data qos_profile_services_default
+rclpy.qos: client.qos: qos_profile_parameters qos_profile_parameter_events
+rclpy.qos: client.qos: qos_profile_action_status_default
+rclpy.action: client.actions: ActionClient ActionServer GoalResponse CancelResponse
+rclpy.action.client: client.actions: ActionClient ClientGoalHandle GoalStatus
+rclpy.action.server: client.actions: ActionServer ServerGoalHandle GoalResponse CancelResponse
+rclpy.signals: client.signals: SignalHandlerOptions
+rclpy.utilities: client.utilities: remove_ros_args ok get_default_context timeout_sec_to_nsec
+rclpy.utilities: client.utilities: get_rmw_implementation_identifier
+message_filters: client.message_filters: Subscriber Cache TimeSynchronizer SimpleFilter
+message_filters: client.message_filters: ApproximateTimeSynchronizer
+tf2_py: tf.buffer: BufferCore
+tf2_py: tf.errors: TransformException LookupException ConnectivityException TimeoutException
+tf2_py: tf.errors: ExtrapolationException InvalidArgumentException
+tf2_ros: tf.buffer: Buffer BufferInterface TransformListener TransformBroadcaster
+tf2_ros: tf.buffer: StaticTransformBroadcaster StaticTransformListener BufferCore
+tf2_ros: tf.errors: TransformException LookupException ConnectivityException TimeoutException
+tf2_ros: tf.errors: ExtrapolationException InvalidArgumentException
+tf2_ros: tf.registry: TransformRegistration ConvertRegistration TypeException convert
+tf2_ros: tf.registry: NotImplementedException
+tf2_ros.buffer: tf.buffer: Buffer
+tf2_ros.buffer_interface: tf.buffer: BufferInterface
+tf2_ros.buffer_interface: tf.registry: TransformRegistration ConvertRegistration TypeException
+tf2_ros.buffer_interface: tf.registry: convert NotImplementedException
+tf2_ros.transform_listener: tf.buffer: TransformListener
+tf2_ros.static_transform_listener: tf.buffer: StaticTransformListener
+tf2_ros.transform_broadcaster: tf.buffer: TransformBroadcaster
+tf2_ros.static_transform_broadcaster: tf.buffer: StaticTransformBroadcaster
+tf2_geometry_msgs: tf.do_transform: do_transform_point do_transform_vector3 do_transform_pose
+tf2_geometry_msgs: tf.do_transform: do_transform_pose_stamped do_transform_wrench
+tf2_geometry_msgs: tf.do_transform: do_transform_wrench_stamped do_transform_polygon_stamped
+tf2_geometry_msgs: tf.do_transform: do_transform_pose_with_covariance_stamped
+tf2_geometry_msgs: tf.do_transform: transform_covariance to_msg_msg from_msg_msg
+tf2_geometry_msgs.tf2_geometry_msgs: tf.do_transform: *
+tf2_sensor_msgs: tf.do_transform: do_transform_cloud
+tf2_sensor_msgs.tf2_sensor_msgs: tf.do_transform: do_transform_cloud
+tf_transformations: tf.euler: quaternion_from_euler euler_from_quaternion euler_from_matrix
+tf_transformations: tf.euler: euler_matrix quaternion_matrix quaternion_from_matrix
+tf_transformations: tf.euler: quaternion_about_axis quaternion_multiply quaternion_inverse
+tf_transformations: tf.euler: quaternion_conjugate quaternion_slerp identity_matrix
+tf_transformations: tf.euler: translation_matrix translation_from_matrix inverse_matrix
+tf_transformations: tf.euler: concatenate_matrices compose_matrix vector_norm unit_vector
+tf_transformations: tf.euler: TRANSLATION_IDENTITY ROTATION_IDENTITY
+"""
+
+
+@dataclass(frozen=True, slots=True)
+class Face:
+    """One name of a module of theirs.
+
+    Attributes:
+        module: Our module, below `tftool.ros`.
+        name: Its name there; "*" stands for every public name.
+    """
+
+    module: str
+    name: str
+
+
+@cache
+def table() -> Mapping[str, Mapping[str, Face]]:
+    """Every module we answer to, and its names; parents without names of their own included."""
+    found: dict[str, dict[str, Face]] = {}
+    for line in _TABLE.strip().splitlines():
+        theirs, ours, names = (part.strip() for part in line.split(":", 2))
+        for name in names.split():
+            shown, _, real = name.partition("=")
+            found.setdefault(theirs, {})[shown] = Face(ours, real or shown)
+    for module in list(found):
+        parent = module.rpartition(".")[0]
+        while parent:
+            found.setdefault(parent, {})
+            parent = parent.rpartition(".")[0]
+    return found

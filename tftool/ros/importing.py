@@ -1,0 +1,248 @@
+"""Puts our modules in the way of `import rclpy` and its kin, while asked to.
+
+Never by `import tftool`: only `tftool run`, `tftool launch` and the pytest fixture do.
+"""
+
+import importlib
+import importlib.machinery
+import os
+import sys
+import threading
+from collections import UserList
+from collections.abc import Callable, Iterator, Sequence
+from contextlib import contextmanager
+from importlib.abc import Loader, MetaPathFinder
+from pathlib import Path
+from types import ModuleType
+from typing import Any
+
+from tftool.errors import UsageError
+from tftool.ros import faces, fibers
+from tftool.ros.interfaces.classes import INTERFACES
+
+WHERE_TO_LOOK = (
+    "the table 'The tutorial, line by line' in tftool's README says what runs without ROS; "
+    "with a sourced ROS 2 the real module is used"
+)
+
+
+def real_ros() -> str:
+    """Where a real ROS 2 that is sourced has its rclpy; empty without one."""
+    if not (os.environ.get("ROS_DISTRO") or os.environ.get("AMENT_PREFIX_PATH")):
+        return ""
+    try:
+        spec = importlib.machinery.PathFinder.find_spec("rclpy")
+    except (ImportError, ValueError):
+        return ""
+    return "" if spec is None or not spec.origin else spec.origin
+
+
+class _Face(ModuleType):
+    """A module of theirs, made of ours."""
+
+    def __init__(self, name: str, known: Sequence[str]) -> None:
+        super().__init__(name, f"{name}, as far as it runs without ROS.")
+        self.__dict__["_known"] = tuple(known)
+
+    def __getattr__(self, name: str) -> Any:
+        if name.startswith("__"):
+            raise AttributeError(name)
+        known = ", ".join(self._known) or "nothing by itself, only modules below it"
+        sentence = (
+            f"'{name}' of {self.__name__} is not covered: {self.__name__} has {known} here. "
+            f"{WHERE_TO_LOOK[0].upper()}{WHERE_TO_LOOK[1:]}"
+        )
+        if _is_import_from(sys._getframe(1)):
+            try:
+                # `from package import module` asks for an attribute first.
+                return importlib.import_module(f"{self.__name__}.{name}")
+            except ImportError:
+                raise ImportError(sentence, name=self.__name__) from None
+        raise AttributeError(sentence)
+
+
+def _is_import_from(frame: Any) -> bool:
+    import dis
+
+    while frame is not None and frame.f_code.co_filename.startswith("<frozen importlib"):
+        frame = frame.f_back
+    code = frame.f_code.co_code
+    operation: int = code[frame.f_lasti]
+    return operation == dis.opmap["IMPORT_FROM"] or dis.opname[operation] == "CALL_FUNCTION"
+
+
+class _FaceLoader(Loader):
+    """Fills a module with our names."""
+
+    def create_module(self, spec: importlib.machinery.ModuleSpec) -> ModuleType:
+        name = spec.name
+        package, _, kind = name.partition(".")
+        if package in INTERFACES.packages():
+            return _Face(name, INTERFACES.names(package, kind) if kind else _kinds(package))
+        return _Face(name, [one for one in faces.table()[name] if one != "*"])
+
+    def exec_module(self, module: ModuleType) -> None:
+        package, _, kind = module.__name__.partition(".")
+        if package in INTERFACES.packages():
+            for name in INTERFACES.names(package, kind):
+                setattr(module, name, INTERFACES.find(package, kind, name))
+            return
+        for shown, face in faces.table()[module.__name__].items():
+            ours = importlib.import_module(f"tftool.ros.{face.module}")
+            if shown == "*":
+                for name in vars(ours):
+                    if not name.startswith("_"):
+                        setattr(module, name, getattr(ours, name))
+            else:
+                setattr(module, shown, getattr(ours, face.name))
+        if module.__name__ == "rclpy":
+            # Nodes write rclpy.time.Time() after no more than `import rclpy`.
+            for below in faces.table():
+                if below.startswith("rclpy.") and below.count(".") == 1:
+                    importlib.import_module(below)
+
+
+def _kinds(package: str) -> list[str]:
+    return [kind for kind in ("msg", "srv", "action") if INTERFACES.names(package, kind)]
+
+
+class _Finder(MetaPathFinder):
+    """Finds faces; and, below the roots of a workspace, users' own modules."""
+
+    def __init__(self, make_builtins: Callable[[], dict[str, Any]]) -> None:
+        self.roots: list[Path] = []
+        self._make_builtins = make_builtins
+
+    def find_spec(
+        self, fullname: str, path: Sequence[str] | None = None, target: ModuleType | None = None
+    ) -> importlib.machinery.ModuleSpec | None:
+        package, _, rest = fullname.partition(".")
+        if package in INTERFACES.packages():
+            if rest and rest not in _kinds(package):
+                return None
+            return _spec(fullname, is_package=not rest)
+        known = faces.table()
+        if fullname in known:
+            below = any(name.startswith(f"{fullname}.") for name in known)
+            return _spec(fullname, is_package=below)
+        if package in known:
+            covered = ", ".join(sorted(n for n in known if n.startswith(f"{package}.")))
+            raise ModuleNotFoundError(
+                f"{fullname} is not covered: of {package} there is {covered or package} here; "
+                f"{WHERE_TO_LOOK}",
+                name=fullname,
+            )
+        if not self.roots:
+            return None
+        search = list(path) if path is not None else [str(root) for root in self.roots]
+        spec = importlib.machinery.PathFinder.find_spec(fullname, search, target)
+        if spec is None or spec.origin is None or not self._is_users(spec.origin):
+            return None
+        if isinstance(spec.loader, importlib.machinery.SourceFileLoader):
+            spec.loader = _UserLoader(fullname, spec.origin, self._make_builtins)
+        return spec
+
+    def _is_users(self, origin: str) -> bool:
+        return any(Path(origin).is_relative_to(root) for root in self.roots)
+
+
+def _spec(name: str, *, is_package: bool) -> importlib.machinery.ModuleSpec:
+    return importlib.machinery.ModuleSpec(name, _FaceLoader(), is_package=is_package)
+
+
+class _UserLoader(importlib.machinery.SourceFileLoader):
+    """Loads a user's module with builtins whose `import` knows our clock."""
+
+    def __init__(self, name: str, path: str, make: Callable[[], dict[str, Any]]) -> None:
+        super().__init__(name, path)
+        self._make = make
+
+    def exec_module(self, module: ModuleType) -> None:
+        module.__dict__["__builtins__"] = self._make()
+        super().exec_module(module)
+
+    def set_data(self, path: str, data: Any, *, _mode: int = 0o666) -> None:
+        """Leave no __pycache__ in a user's folders."""
+
+
+class _Arguments(UserList[str]):
+    """`sys.argv` of whichever program asks."""
+
+    def __init__(self, otherwise: list[str]) -> None:
+        super().__init__()
+        self._otherwise = otherwise
+
+    @property
+    def data(self) -> list[str]:
+        """The list itself."""
+        fiber = fibers.current()
+        owner = fiber.owner if fiber is not None else None
+        return self._otherwise if owner is None else owner.argv
+
+    @data.setter
+    def data(self, value: list[str]) -> None:
+        """Nothing: programs' arguments are theirs."""
+
+
+_lock = threading.RLock()
+_finder: _Finder | None = None
+
+
+@contextmanager
+def ros_free(*, insist: bool = False) -> Iterator["_Finder"]:
+    """Answer to ROS 2's modules inside this block.
+
+    Args:
+        insist: Also where a real ROS 2 is sourced.
+
+    Raises:
+        UsageError: If a real ROS 2 is sourced and we are not told to insist.
+    """
+    global _finder
+    found = real_ros()
+    if found and not insist:
+        raise UsageError(
+            f"a real ROS 2 is sourced ({found}): run the file with it, or say --ros-free to "
+            "run it without ROS"
+        )
+    with _lock:
+        if _finder is not None:
+            yield _finder
+            return
+        from tftool.ros.users import builtins_for_users
+
+        _finder = _Finder(builtins_for_users)
+        before = {name: module for name, module in sys.modules.items() if _is_theirs(name)}
+        for name in before:
+            del sys.modules[name]
+        sys.meta_path.insert(0, _finder)
+        argv = sys.argv
+        sys.argv = _Arguments(argv)  # type: ignore[assignment]
+        loaded = set(sys.modules)
+        try:
+            yield _finder
+        finally:
+            sys.argv = argv
+            sys.meta_path.remove(_finder)
+            for name in set(sys.modules) - loaded:
+                if _is_theirs(name) or _is_below(sys.modules[name], _finder.roots):
+                    del sys.modules[name]
+            sys.modules.update(before)
+            _finder = None
+
+
+def _is_theirs(name: str) -> bool:
+    package = name.partition(".")[0]
+    return package in faces.table() or package in INTERFACES.packages()
+
+
+def _is_below(module: ModuleType, roots: Sequence[Path]) -> bool:
+    origin = getattr(module, "__file__", None)
+    return bool(origin) and any(Path(str(origin)).is_relative_to(root) for root in roots)
+
+
+def forget_users_modules() -> None:
+    """Have the next import of a user's module run it anew, as another process would."""
+    if _finder is not None:
+        for name in [n for n, m in list(sys.modules.items()) if _is_below(m, _finder.roots)]:
+            del sys.modules[name]

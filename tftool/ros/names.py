@@ -1,0 +1,254 @@
+"""ROS 2's names: expanding them, and what `--ros-args` says about them.
+
+World topics are full names without the leading slash.
+"""
+
+import re
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import dataclass, field
+from difflib import get_close_matches
+from pathlib import Path
+from typing import Any
+
+from tftool.errors import InputError, UsageError
+
+_NODE_NAME = re.compile(r"[A-Za-z_][A-Za-z0-9_]*")
+_TOPIC_NAME = re.compile(r"(/|~/?|)([A-Za-z_{}][A-Za-z0-9_{}]*)?(/[A-Za-z_{}][A-Za-z0-9_{}]*)*")
+
+
+@dataclass(frozen=True, slots=True)
+class Remap:
+    """One rule `node:old:=new`; without a node it holds for all of them."""
+
+    node: str | None
+    old: str
+    new: str
+
+
+@dataclass(slots=True)
+class RosOptions:
+    """What `--ros-args` asked for.
+
+    Attributes:
+        name: A new name for the program's nodes (`__node:=`), if any.
+        namespace: Their namespace (`__ns:=`), if given.
+        remaps: Rules for topics, services and actions, the first that fits counts.
+        parameters: (node pattern, name, value), later ones win.
+        levels: Log levels by logger; "" is everybody's.
+    """
+
+    name: str | None = None
+    namespace: str | None = None
+    remaps: list[Remap] = field(default_factory=list)
+    parameters: list[tuple[str, str, Any]] = field(default_factory=list)
+    levels: dict[str, str] = field(default_factory=dict)
+
+    def parameters_for(self, name: str, namespace: str) -> dict[str, Any]:
+        """The values given for a node, by parameter."""
+        full = join(namespace, name)
+        return {key: value for node, key, value in self.parameters if _fits(node, full, name)}
+
+    def remapped(self, full: str, name: str, namespace: str) -> str:
+        """Another full name for `full`, if a rule of this node says so."""
+        for rule in self.remaps:
+            if rule.node is not None and rule.node.strip("/") not in (name, join(namespace, name)):
+                continue
+            if expand(rule.old, name, namespace) == full:
+                return expand(rule.new, name, namespace)
+        return full
+
+
+def _fits(pattern: str, full: str, name: str) -> bool:
+    pattern = pattern.strip("/")
+    if pattern in ("", "**", name, full):
+        return True
+    parts = ["(?:.*/)?" if part == "**" else "[^/]+/" if part == "*" else re.escape(part) + "/"
+             for part in pattern.split("/")]  # fmt: skip
+    return re.fullmatch("".join(parts).removesuffix("/"), full) is not None
+
+
+def join(namespace: str, name: str) -> str:
+    """A full name without leading slash."""
+    return f"{namespace.strip('/')}/{name}".strip("/")
+
+
+def check_node_name(name: str) -> None:
+    """Refuse what ROS 2 refuses as a node's name.
+
+    Raises:
+        UsageError: If it is no name.
+    """
+    if not _NODE_NAME.fullmatch(name):
+        raise UsageError(
+            f"'{name}' cannot be a node's name: letters, digits and '_', not starting with a digit"
+        )
+
+
+def expand(given: str, name: str, namespace: str) -> str:
+    """The full name of a topic or service, without leading slash.
+
+    Args:
+        given: Relative, absolute (`/x`) or private (`~/x`).
+        name: The node's name.
+        namespace: The node's namespace.
+
+    Raises:
+        UsageError: If it can be no topic's name.
+    """
+    if not given or not _TOPIC_NAME.fullmatch(given):
+        raise UsageError(
+            f"'{given}' cannot be a topic's or service's name: letters, digits, '_' between "
+            "single '/', no part starting with a digit"
+        )
+    if given.startswith("/"):
+        return given.strip("/")
+    if given.startswith("~"):
+        return join(join(namespace, name), given[1:].strip("/"))
+    return join(namespace, given)
+
+
+def parse(argv: Sequence[str]) -> tuple[RosOptions, list[str]]:
+    """Split a node's arguments into ROS 2's and its own.
+
+    Raises:
+        UsageError: If ROS 2's part is malformed.
+        InputError: If a parameter file cannot be read.
+    """
+    options = RosOptions()
+    own: list[str] = []
+    words = iter(argv)
+    inside = False
+    for word in words:
+        if word == "--ros-args":
+            inside = True
+        elif not inside:
+            own.append(word)
+        elif word == "--":
+            inside = False
+        else:
+            _take(options, word, words)
+    return options, own
+
+
+_OPTIONS = {
+    "-p": "--param",
+    "--param": "--param",
+    "-r": "--remap",
+    "--remap": "--remap",
+    "--params-file": "--params-file",
+    "--log-level": "--log-level",
+    "-e": "--enclave",
+    "--enclave": "--enclave",
+    "--log-config-file": "--log-config-file",
+}
+_FLAGS = ("stdout-logs", "rosout-logs", "external-lib-logs")
+
+
+def _take(options: RosOptions, word: str, words: Iterable[str]) -> None:
+    if word.startswith(("--enable-", "--disable-")) and word.endswith(_FLAGS):
+        return
+    known = _OPTIONS.get(word)
+    if known is None:
+        if ":=" in word:  # the old form: a bare rule after --ros-args
+            add_remap(options, word)
+            return
+        near = get_close_matches(word, _OPTIONS, n=1)
+        hint = f"; did you mean '{near[0]}'?" if near else ""
+        raise UsageError(f"'{word}' is no option after --ros-args{hint}")
+    value = next(iter(words), None)
+    if value is None:
+        raise UsageError(f"'{word}' after --ros-args wants a value")
+    if known == "--param":
+        add_parameter(options, value)
+    elif known == "--remap":
+        add_remap(options, value)
+    elif known == "--params-file":
+        options.parameters += read_parameters(Path(value))
+    elif known == "--log-level":
+        logger, found, level = value.partition(":=")
+        options.levels[logger if found else ""] = (level if found else logger).upper()
+
+
+def add_parameter(options: RosOptions, text: str) -> None:
+    """Take `name:=value` or `node:name:=value` in."""
+    name, found, value = text.partition(":=")
+    if not found or not name:
+        raise UsageError(f"'{text}' sets no parameter: write name:=value")
+    node, found, rest = name.rpartition(":")
+    options.parameters.append((node if found else "", rest, yaml_value(value)))
+
+
+def add_remap(options: RosOptions, text: str) -> None:
+    """Take `old:=new` or `node:old:=new` in; `__node:=` and `__ns:=` name the node itself."""
+    old, found, new = text.partition(":=")
+    if not found or not old or not new:
+        raise UsageError(f"'{text}' renames nothing: write old:=new")
+    node, found, rest = old.rpartition(":")
+    if rest in ("__node", "__name"):
+        check_node_name(new)
+        options.name = new
+    elif rest == "__ns":
+        options.namespace = new
+    else:
+        options.remaps.append(Remap(node if found else None, rest.removeprefix("rostopic://"), new))
+
+
+def yaml_value(text: str) -> Any:
+    """A parameter's value as ROS 2 reads it: YAML, so `2` is an int and `2.0` a float."""
+    import yaml
+
+    try:
+        return yaml.safe_load(text) if text else ""
+    except yaml.YAMLError:
+        return text
+
+
+def read_parameters(path: Path) -> list[tuple[str, str, Any]]:
+    """The (node, name, value) of a ROS 2 parameter file.
+
+    Raises:
+        InputError: If it cannot be read, is no YAML, or is laid out otherwise.
+    """
+    import yaml
+
+    try:
+        text = path.read_text(encoding="utf-8")
+    except (OSError, UnicodeDecodeError) as error:
+        reason = error.strerror if isinstance(error, OSError) else "it is not UTF-8 text"
+        raise InputError(f"cannot read the parameter file '{path}': {reason}") from None
+    try:
+        tree = yaml.safe_load(text)
+    except yaml.YAMLError as error:
+        mark = getattr(error, "problem_mark", None)
+        where = f":{mark.line + 1}:{mark.column + 1}" if mark is not None else ""
+        problem = getattr(error, "problem", None) or "not YAML"
+        raise InputError(f"{path}{where}: {problem}") from None
+    found: list[tuple[str, str, Any]] = []
+    _walk(tree, "", found)
+    if not found and tree:
+        raise InputError(
+            f"{path}: no parameters in it; the layout is 'node_name:', below it "
+            "'ros__parameters:', below that 'name: value'"
+        )
+    return found
+
+
+def _walk(tree: Any, node: str, found: list[tuple[str, str, Any]]) -> None:
+    if not isinstance(tree, Mapping):
+        return
+    for key, value in tree.items():
+        if key == "ros__parameters":
+            found += [(node, name, one) for name, one in flatten(value or {})]
+        else:
+            _walk(value, join(node, str(key).strip("/")), found)
+
+
+def flatten(tree: Any, prefix: str = "") -> list[tuple[str, Any]]:
+    """Nested settings as (dotted name, value)."""
+    found: list[tuple[str, Any]] = []
+    for key, value in tree.items() if isinstance(tree, Mapping) else ():
+        if isinstance(value, Mapping):
+            found += flatten(value, f"{prefix}{key}.")
+        else:
+            found.append((f"{prefix}{key}", value))
+    return found

@@ -1,0 +1,239 @@
+"""A program of the user's: what `ros2 run` would start as a process of its own.
+
+It has its arguments, its rclpy context and a fiber on which its `main` runs. To
+the world it is a node; the nodes it makes join beside it.
+"""
+
+import asyncio
+import sys
+import threading
+from collections.abc import Awaitable, Callable, Sequence
+from typing import Any, TypeVar
+
+from tftool.errors import TftoolError
+from tftool.ros import fibers
+from tftool.ros.fibers import Fiber, Place
+from tftool.ros.names import RosOptions
+from tftool.runtime.clock import Phase, SimClock
+from tftool.runtime.node import Node
+from tftool.runtime.world import World
+from tftool.stamps import Duration, Stamp, seconds
+
+T = TypeVar("T")
+
+POLLS = 100
+"""How often a program may look in vain at one simulated instant before time moves on."""
+
+READINGS = 2_000
+"""How often it may read the clock at one simulated instant before time moves on."""
+
+TICK = seconds(0.001)
+"""How far simulated time moves then: a loop that only polls must see an end of its waiting."""
+
+
+class ProgramNode(Node):
+    """A node that a program made: a name, and whatever it subscribes to and serves."""
+
+    def __init__(self, program: "Program", name: str) -> None:
+        self.program = program
+        super().__init__(program.world, name)
+
+
+class Program(Node):
+    """One executable.
+
+    Attributes:
+        argv: What its `sys.argv` is.
+        options: What `--ros-args` said.
+        strict: Whether time stands still while it runs: on the simulated clock.
+        broadcasts: Whether it sends transforms.
+        listens: Whether it asks for them; one that only sends has its timers go before
+            those of the others in the same instant.
+        failure: What ended it, unless it ended well.
+        status: Its exit status once it has ended, None before.
+        nodes: What it made with rclpy, destroyed at the end.
+    """
+
+    def __init__(
+        self,
+        world: World,
+        name: str,
+        body: Callable[[], object] | None,
+        *,
+        argv: Sequence[str] = (),
+        options: RosOptions | None = None,
+        on_exit: Callable[["Program"], object] | None = None,
+    ) -> None:
+        """Join the world; `body` is what runs, None adopts the calling thread.
+
+        Args:
+            world: Where to live.
+            name: The executable's name.
+            body: Its `main`.
+            argv: Its `sys.argv`.
+            options: What `--ros-args` said.
+            on_exit: Called on the loop's thread once it has ended; without one a program
+                that fails ends the run.
+        """
+        self.argv = list(argv)
+        self.options = options or RosOptions()
+        self.strict = isinstance(world.clock, SimClock)
+        self.broadcasts = False
+        self.failure: BaseException | None = None
+        self.listens = False
+        self.status: int | None = None
+        self.context: Any = None
+        self.executor: Any = None
+        self.nodes: list[Any] = []
+        self.log_levels: dict[str, int] = {}
+        self._on_exit = on_exit
+        self._others: list[asyncio.Task[None]] = []
+        self._loop: asyncio.AbstractEventLoop | None = None
+        self._loop_thread = 0
+        self._asked_at: Stamp = 0
+        self._asked = 0.0
+        if body is None:
+            self.fiber = Fiber.adopt(name)
+        else:
+            self.fiber = Fiber(name, body, strict=self.strict, on_busy=self._say_busy)
+        self._own(self.fiber)
+        super().__init__(world, name)
+
+    @property
+    def interrupted(self) -> bool:
+        """Whether it was asked to end."""
+        return self.fiber.interrupted
+
+    @property
+    def turn(self) -> Phase:
+        """Where its timers come within an instant."""
+        return Phase.BROADCAST if self.broadcasts and not self.listens else Phase.CONSUME
+
+    # The loop's side.
+
+    async def run(self) -> None:
+        """Run the body; what it leaves open is closed.
+
+        Raises:
+            BaseException: What ended it, if it failed and nobody waits for its exit.
+        """
+        self._loop = asyncio.get_running_loop()
+        self._loop_thread = threading.get_ident()
+        try:
+            await self.fiber.drive()
+        except Exception as error:
+            self.failure = error
+        finally:
+            for other in self._others:
+                other.cancel()
+            if self._others:
+                await asyncio.gather(*self._others, return_exceptions=True)
+            self._leave()
+        if self._on_exit is not None:
+            self._on_exit(self)
+        elif self.status and self.failure is not None:
+            if isinstance(self.failure, Exception):
+                raise self.failure
+            raise TftoolError(f"it ended with exit status {self.status}") from self.failure
+
+    def _leave(self) -> None:
+        raised = self.failure or self.fiber.error
+        if isinstance(raised, KeyboardInterrupt):
+            self.status, raised = (130 if self.interrupted else 1), None
+        elif isinstance(raised, SystemExit):
+            self.status = exit_status(raised)
+        else:
+            self.status = 0 if raised is None else 1
+        self.failure = raised
+        for node in reversed(list(self.nodes)):
+            node.withdraw()
+        self.nodes.clear()
+
+    def start_fiber(self, fiber: Fiber) -> "asyncio.Task[None]":
+        """Drive one more thread of this program (on the loop's thread)."""
+        self._own(fiber)
+        task = asyncio.get_running_loop().create_task(fiber.drive(), name=fiber.name)
+        self._others.append(task)
+        return task
+
+    def _own(self, fiber: Fiber) -> None:
+        fiber.owner = self
+
+    def _say_busy(self, place: Place | None) -> None:
+        where = str(place) if place is not None else "code that is not yours"
+        wait = "simulated time waits for it" if self.strict else "its other callbacks wait for it"
+        names = ", ".join(f"'{node.get_name()}'" for node in self.nodes) or f"'{self.name}'"
+        self.warn(f"{names} has been busy for {fibers.PATIENCE:g} s and {wait}: {where}")
+
+    # The fibers' side.
+
+    def ask(self, request: Callable[[], Any]) -> Any:
+        """Have something done on the loop's thread, from any thread; see `Fiber.ask`."""
+        fiber = fibers.current()
+        if fiber is not None:
+            return fiber.ask(request)
+        if threading.get_ident() == self._loop_thread:
+            return request()
+        if self._loop is None:
+            raise TftoolError(f"program '{self.name}' is not running yet")
+        return asyncio.run_coroutine_threadsafe(_as_coroutine(request), self._loop).result()
+
+    def now(self) -> Stamp:
+        """The moment it is, by the world's clock."""
+        self._count(1.0 / READINGS)
+        return self.clock.now()
+
+    def looked_in_vain(self) -> None:
+        """Note that it asked for something that was not there, without waiting for it."""
+        self._count(1.0 / POLLS)
+
+    def sleep(self, duration: Duration) -> None:
+        """Block this thread for a while; others go on. Asked to end, it returns at once."""
+        if self.interrupted:
+            return
+        self.ask(lambda: self.clock.sleep(max(0, duration), self.turn, self.rank))
+
+    def _count(self, share: float) -> None:
+        # A loop that looks without ever waiting would hold simulated time still for ever.
+        fiber = fibers.current()
+        if not self.strict or fiber is None:
+            return
+        now = self.clock.now()
+        if now != self._asked_at:
+            self._asked_at, self._asked = now, 0.0
+        self._asked += share
+        if self._asked > 1.0 and not self.interrupted:
+            self._asked = 0.0
+            fiber.ask(lambda: self.clock.sleep(TICK, self.turn, self.rank))
+
+
+def exit_status(error: SystemExit) -> int:
+    """The exit status a process would have had."""
+    code = error.code
+    if code is None:
+        return 0
+    if isinstance(code, int):
+        return code & 0xFF
+    sys.stderr.write(f"{code}\n")
+    return 1
+
+
+async def _as_coroutine(request: Callable[[], Any]) -> Any:
+    value = request()
+    return await value if isinstance(value, Awaitable) else value
+
+
+def current() -> Program:
+    """The program whose code is running.
+
+    Raises:
+        TftoolError: Outside of one.
+    """
+    fiber = fibers.current()
+    owner = fiber.owner if fiber is not None else None
+    if owner is None:
+        raise TftoolError(
+            "this rclpy lives inside tftool: start the file by 'tftool run' or 'tftool launch', "
+            "or use the pytest fixture 'ros_runtime'"
+        )
+    return owner  # type: ignore[no-any-return]

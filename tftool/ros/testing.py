@@ -1,0 +1,106 @@
+"""Unit tests of ROS nodes without ROS, on simulated time.
+
+The test is a program itself: between its calls time stands still, and
+`rclpy.spin_once(node, timeout_sec=10.0)` takes no time at all.
+"""
+
+import threading
+from collections.abc import Callable, Sequence
+from pathlib import Path
+from typing import Any
+
+from tftool.ros import names, users
+from tftool.ros.importing import ros_free
+from tftool.ros.program import Program
+from tftool.runtime.clock import Phase, SimClock, run
+from tftool.runtime.log import LogRecord
+from tftool.runtime.supervisor import live
+from tftool.runtime.world import World
+from tftool.stamps import seconds
+
+
+class RosRuntime:
+    """A world whose event loop runs beside the test; use it with `with`.
+
+    Attributes:
+        clock: The simulated clock; it starts at 1000 s.
+        world: Where nodes live.
+    """
+
+    def __init__(self) -> None:
+        self.clock = SimClock()
+        self.world = World(self.clock)
+        self._imports = ros_free(insist=True)
+        self._failure: BaseException | None = None
+
+    def __enter__(self) -> "RosRuntime":
+        self._finder = self._imports.__enter__()
+        self._program = Program(self.world, "test", None, on_exit=lambda _: self.world.stop())
+        self._thread = threading.Thread(target=self._live, name="tftool", daemon=True)
+        self._thread.start()
+        # The first answer proves that the loop lives.
+        self.ask(lambda: None)
+        return self
+
+    def __exit__(self, *args: object) -> None:
+        try:
+            self._program.fiber.release()
+            self._thread.join()
+        finally:
+            self._imports.__exit__(None, None, None)
+        if self._failure is not None:
+            raise self._failure
+
+    def _live(self) -> None:
+        try:
+            run(self.clock, live(self.world))
+        except Exception as error:
+            self._failure = error
+
+    def ask(self, request: Callable[[], Any]) -> Any:
+        """Have something done in the world, and awaited if it can be: `ask(lambda: …)`."""
+        return self._program.ask(request)
+
+    def sleep(self, duration: float) -> None:
+        """Let so many seconds pass; everything due in them happens."""
+        self._program.ask(lambda: self.clock.sleep(seconds(duration), Phase.WATCH))
+
+    def elapsed(self) -> float:
+        """Seconds since the start."""
+        return (self.clock.now() - self.clock.epoch) / 1e9
+
+    def start(self, what: "Path | str | Callable[[], object]", *argv: str) -> Program:
+        """Start a node's file, or a function such as a module's `main`, as a program of its own.
+
+        Args:
+            what: The file, or the function.
+            argv: What follows the file's name on the command line, `--ros-args` and all.
+
+        Raises:
+            InputError: If the file cannot be read or is no Python.
+            UsageError: If what follows `--ros-args` is malformed.
+        """
+        if callable(what):
+            body: Any = what
+            name = getattr(what, "__module__", "program").rpartition(".")[2]
+        else:
+            body, name = users.file_body(Path(what)), Path(what).stem
+        options, _ = names.parse(argv)
+        taken = {node.name for node in self.world.nodes}
+        number = 1
+        while f"{name}-{number}" in taken:
+            number += 1
+        return self.ask(  # type: ignore[no-any-return]
+            lambda: Program(
+                self.world,
+                f"{name}-{number}",
+                users.whole(body),
+                argv=[str(what) if isinstance(what, str | Path) else name, *argv],
+                options=options,
+            )
+        )
+
+    def log(self, node: str | None = None) -> list[str]:
+        """What was said so far, or what one node said."""
+        records: Sequence[LogRecord] = list(self.world.log.records)
+        return [record.text for record in records if node is None or record.node == node]

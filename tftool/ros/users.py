@@ -1,0 +1,210 @@
+"""Users' code: loading it, and saying what went wrong in it.
+
+In a user's own files `import time` gives a module whose `sleep` and clocks are the
+world's, and `import threading` one whose threads take turns too. Everybody else's
+`time` and `threading` stay as they are.
+"""
+
+import builtins
+import importlib
+import linecache
+import sys
+import threading
+import time
+from collections.abc import Callable
+from functools import cache
+from pathlib import Path
+from types import ModuleType
+from typing import Any
+
+from tftool.errors import InputError, UsageError
+from tftool.ros import fibers, program
+from tftool.ros.fibers import Fiber, place_of_error
+from tftool.stamps import NANOSECONDS, seconds
+
+
+class _Shim(ModuleType):
+    """A standard module with some names replaced."""
+
+    def __init__(self, real: ModuleType, replaced: dict[str, Any]) -> None:
+        super().__init__(real.__name__, real.__doc__)
+        self.__dict__["_real"] = real
+        self.__dict__.update(replaced)
+
+    def __getattr__(self, name: str) -> Any:
+        return getattr(self._real, name)
+
+    def __dir__(self) -> list[str]:
+        return dir(self._real)
+
+
+def _sleep(secs: float) -> None:
+    if secs < 0:
+        raise ValueError("sleep length must be non-negative")
+    program.current().sleep(seconds(secs))
+
+
+def _now_ns() -> int:
+    return program.current().now()
+
+
+def _elapsed_ns() -> int:
+    owner = program.current()
+    return owner.now() - owner.clock.epoch
+
+
+class UserThread(threading.Thread):
+    """A thread of a user's program: a fiber more."""
+
+    def start(self) -> None:
+        """Run it beside the code that started it."""
+        owner = program.current()
+        self._fiber = Fiber(self.name, self.run, strict=owner.strict)
+        self._drive = owner.ask(lambda: [owner.start_fiber(self._fiber)])[0]
+        self._owner = owner
+
+    def join(self, timeout: float | None = None) -> None:
+        """Wait for its end."""
+        if not hasattr(self, "_fiber"):
+            raise RuntimeError("cannot join thread before it is started")
+        limit = None if timeout is None else self._owner.now() + seconds(max(0.0, timeout))
+        while not self._fiber.ended and not self._owner.interrupted:
+            if limit is not None and self._owner.now() >= limit:
+                return
+            self._owner.sleep(seconds(0.001))
+
+    def is_alive(self) -> bool:
+        """Whether it runs."""
+        return hasattr(self, "_fiber") and not self._fiber.ended
+
+
+@cache
+def _shims() -> dict[str, ModuleType]:
+    return {
+        "time": _Shim(
+            time,
+            {
+                "sleep": _sleep,
+                "time": lambda: _now_ns() / NANOSECONDS,
+                "time_ns": _now_ns,
+                "monotonic": lambda: _elapsed_ns() / NANOSECONDS,
+                "monotonic_ns": _elapsed_ns,
+                "perf_counter": lambda: _elapsed_ns() / NANOSECONDS,
+                "perf_counter_ns": _elapsed_ns,
+            },
+        ),
+        "threading": _Shim(threading, {"Thread": UserThread}),
+    }
+
+
+@cache
+def builtins_for_users() -> dict[str, Any]:
+    """Builtins whose `import` gives users' files our `time` and `threading`."""
+    shims = _shims()
+
+    def import_(
+        name: str, globals: Any = None, locals: Any = None, fromlist: Any = (), level: int = 0
+    ) -> Any:
+        if level == 0 and name in shims:
+            return shims[name]
+        return builtins.__import__(name, globals, locals, fromlist, level)
+
+    return {**vars(builtins), "__import__": import_}
+
+
+def file_body(path: Path) -> Callable[[], None]:
+    """What runs a node's file as `python3 FILE` would.
+
+    Raises:
+        InputError: If the file cannot be read or is no Python; the line is shown.
+    """
+    code = compile_file(path)
+
+    def body() -> None:
+        folder = str(path.resolve().parent)
+        if folder not in sys.path:
+            sys.path.insert(0, folder)
+        module = ModuleType("__main__")
+        module.__file__ = str(path)
+        module.__dict__["__builtins__"] = builtins_for_users()
+        exec(code, module.__dict__)
+
+    return body
+
+
+def compile_file(path: Path) -> Any:
+    """A file's code.
+
+    Raises:
+        InputError: If it cannot be read or is no Python.
+    """
+    try:
+        source = path.read_bytes()
+    except OSError as error:
+        raise InputError(f"cannot read '{path}': {error.strerror}") from None
+    try:
+        # An attribute that users' own `from __future__` decides, not ours.
+        return compile(source, str(path), "exec", dont_inherit=True)
+    except SyntaxError as error:
+        raise InputError(syntax_sentence(error)) from None
+    except ValueError as error:
+        raise InputError(f"'{path}' is no Python text: {error}") from None
+
+
+def syntax_sentence(error: SyntaxError) -> str:
+    """Where a syntax error is, and the user's own line with a caret below it."""
+    where = f"{error.filename}:{error.lineno}:{error.offset}"
+    sentence = f"{where}: {type(error).__name__}: {error.msg}"
+    text = (error.text or "").rstrip("\n")
+    if not text and error.filename and error.lineno:
+        text = linecache.getline(error.filename, error.lineno).rstrip("\n")
+    if not text:
+        return sentence
+    line = text.lstrip()
+    column = max(0, (error.offset or 1) - 1 - (len(text) - len(line)))
+    return f"{sentence}\n    {line}\n    {' ' * column}^"
+
+
+def entry_point_body(module: str, function: str) -> Callable[[], None]:
+    """What runs a console script as its installed wrapper would."""
+
+    def body() -> None:
+        target: Any = importlib.import_module(module)
+        for part in function.split("."):
+            if not hasattr(target, part):
+                raise UsageError(
+                    f"the console script names {module}:{function}, but there is no '{part}' in "
+                    f"{getattr(target, '__file__', module)}"
+                )
+            target = getattr(target, part)
+        status = target()
+        if status is not None:
+            raise SystemExit(status)
+
+    return body
+
+
+def whole(body: Callable[[], None]) -> Callable[[], None]:
+    """A program's body that destroys what it leaves behind, as the end of a node should."""
+
+    def run() -> None:
+        owner = program.current()
+        try:
+            body()
+        finally:
+            for node in reversed(list(owner.nodes)):
+                if owner.interrupted:
+                    node.destroy_node()
+
+    return run
+
+
+def sentence_of(error: BaseException) -> str:
+    """What went wrong in users' code: file, line, function, the line, the error."""
+    if isinstance(error, SyntaxError):
+        return syntax_sentence(error)
+    if isinstance(error, InputError | UsageError | fibers.StuckError):
+        return str(error)
+    what = f"{type(error).__name__}: {error}" if str(error) else type(error).__name__
+    place = place_of_error(error.__traceback__)
+    return what if place is None else f"{what}\n    {place}"
