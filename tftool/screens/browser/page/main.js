@@ -64,6 +64,7 @@ let dirty = true;
 let filters = { only: null, not: null };
 let drawn = []; // what is on screen: { index, name, pose, … }
 let frames = []; // per frame: what the list says of it
+let lines = []; // the trails on screen
 let extent = 5;
 
 // ---- the server
@@ -103,8 +104,7 @@ const wire = new Wire({
   },
   range(message) {
     reach = message;
-    // Nothing can be told apart from a quiet network here, but it is news of the server.
-    changed();
+    dirty = true;
   },
   poses(poses) {
     unsaid = poses.sequence;
@@ -255,6 +255,7 @@ function render(now) {
   solve();
   stage.resize();
   if (drawn.length) extent = Math.max(...drawn.map(({ pose }) => Math.max(Math.abs(pose[0]), Math.abs(pose[1]))), 1);
+  lines = trails();
   if (ours && outgrown()) fit(seen);
   picture();
   if (now - listsAt > LISTS_EVERY) {
@@ -278,9 +279,9 @@ function picture() {
   const special = new Set([state.chosen, ...(pair?.found ? [pair.source, pair.target] : [])]);
   const labels = drawn
     .filter(({ name }) => state.names || special.has(name))
-    .map(({ name, pose, alpha }) => ({ name, pose, alpha, first: special.has(name) }))
+    .map(({ name, pose, alpha, grey }) => ({ name, pose, alpha, grey, first: special.has(name) }))
     .sort((one, other) => other.first - one.first);
-  stage.drawUnder(trails());
+  stage.drawUnder(lines);
   const chosen = model.index.get(state.chosen);
   stage.drawOver(labels, chain(), chosen === undefined ? null : model.absolute[chosen]);
 }
@@ -336,7 +337,7 @@ function words() {
 /** Whether something drawn left the box of all that was drawn before; the box grows with it. */
 function outgrown() {
   if (!drawn.length) return false;
-  const now = boxOf(drawn);
+  const now = boxOf([...drawn.map(({ pose }) => pose), ...lines.flatMap(({ points }) => points)]);
   if (seen && now.low.every((value, side) => value >= seen.low[side]) && now.high.every((value, side) => value <= seen.high[side])) {
     return false;
   }
@@ -350,9 +351,9 @@ function outgrown() {
   return true;
 }
 
-function boxOf(some) {
+function boxOf(poses) {
   const box = { low: [Infinity, Infinity, Infinity], high: [-Infinity, -Infinity, -Infinity] };
-  for (const { pose } of some) {
+  for (const pose of poses) {
     for (let side = 0; side < 3; side++) {
       box.low[side] = Math.min(box.low[side], pose[side]);
       box.high[side] = Math.max(box.high[side], pose[side]);
@@ -628,7 +629,13 @@ globalThis.tftool = {
       arrow: Boolean(parent),
       pixel: stage.project(...pose.slice(0, 3)),
     })),
+  fade,
   moment: () => model.poses?.at ?? null,
   pair: () => pair,
   reach: () => reach,
+  remembered: () => model.history.length,
+  picture() {
+    picture();
+    return stage.picture();
+  },
 };

@@ -21,6 +21,7 @@ export function fill(list, rows) {
     const cell = list.children[2 * at + 1];
     if (name.textContent !== term) name.textContent = term;
     if (typeof value === "string") {
+      cell.className = "one";
       if (cell.textContent !== value) cell.textContent = value;
       return;
     }
@@ -86,7 +87,7 @@ export function showPair(pair) {
     ["RPY, rad", angles, 6],
     ["RPY, deg", angles.map((angle) => (angle === null ? null : degrees(angle))), 3],
     ["Distance", [translation.includes(null) ? null : Math.hypot(...translation)], 6],
-    ["At time", [pair.moment === null ? 0 : Number(pair.stamp)], 6],
+    ["At time", pair.moment === null ? "always (static)" : `${pair.stamp} s`],
   ]);
   $("chain").textContent =
     pair.chain.length > 1 ? `Chain, source to target: ${pair.chain.join(" · ")}` : "One and the same frame";

@@ -30,7 +30,6 @@ export const THEMES = {
     text: "#e8edf4",
     halo: "rgba(20, 23, 29, 0.85)",
     accent: "#ffb84d",
-    grey: 0.55,
   },
   light: {
     background: "#f4f6fa",
@@ -38,12 +37,12 @@ export const THEMES = {
     text: "#1b2430",
     halo: "rgba(244, 246, 250, 0.9)",
     accent: "#c77700",
-    grey: 0.68,
   },
 };
 const AXES = ["#f0454b", "#3fc45c", "#3d84ff"];
 const SHAFT = "#cfbf57";
 const HEAD = "#ff3d94";
+const GREY = new Color(0.7, 0.7, 0.7).convertSRGBToLinear().r; // what stale frames turn into
 
 function fading(mesh) {
   // three has no opacity per instance; one number more per instance gives it.
@@ -157,10 +156,17 @@ export class Stage {
     this.controls.top.update();
 
     const radius = Math.max(size.length() / 2, 0.7);
-    const share = Math.min(free.x, free.y) / Math.max(this.height, 1);
-    const distance = (radius * 0.9) / Math.tan((orbit.fov * Math.PI) / 360) / Math.max(share, 0.3);
+    const half = Math.tan((orbit.fov * Math.PI) / 360);
+    const distance = (radius * 0.8 * this.height) / (half * Math.min(free.x, free.y));
+    const away = new Vector3(-0.62, -0.62, 0.55).normalize();
+    // The middle of the picture is not the middle of what the panels leave free.
+    const metres = (2 * distance * half) / this.height;
+    const right = new Vector3(0, 0, 1).cross(away).normalize();
+    const upward = away.clone().cross(right);
+    middle.addScaledVector(right, ((inset.right - inset.left) / 2) * metres);
+    middle.addScaledVector(upward, ((inset.top - inset.bottom) / 2) * metres);
     this.controls.orbit.target.copy(middle);
-    orbit.position.copy(middle).add(new Vector3(-0.62, -0.62, 0.55).normalize().multiplyScalar(distance));
+    orbit.position.copy(middle).addScaledVector(away, distance);
     this.controls.orbit.update();
     this.changed();
   }
@@ -229,9 +235,8 @@ export class Stage {
     const way = new Vector3();
     const put = (mesh, index, frame) => {
       mesh.setMatrixAt(index, matrix);
-      const { grey } = this.theme;
       const { color } = mesh.userData;
-      const blend = (own) => own + (grey * grey - own) * frame.grey;
+      const blend = (own) => own + (GREY - own) * frame.grey;
       mesh.instanceColor.setXYZ(index, blend(color.r), blend(color.g), blend(color.b));
       mesh.geometry.attributes.fade.setX(index, frame.alpha);
     };
@@ -368,7 +373,7 @@ export class Stage {
     pen.textBaseline = "top";
     pen.lineJoin = "round";
     const taken = new Set();
-    for (const { name, pose, alpha, first } of labels) {
+    for (const { name, pose, alpha, grey, first } of labels) {
       const spot = this.project(pose[0], pose[1], pose[2]);
       if (!spot || spot[0] < -200 || spot[0] > this.width + 200 || spot[1] < -40 || spot[1] > this.height + 40) continue;
       const text = name.length > 48 ? `${name.slice(0, 30)}…${name.slice(-16)}` : name;
@@ -381,7 +386,7 @@ export class Stage {
       }
       if (!first && cells.some((cell) => taken.has(cell))) continue;
       cells.forEach((cell) => taken.add(cell));
-      pen.globalAlpha = alpha;
+      pen.globalAlpha = alpha * (1 - 0.4 * grey);
       pen.strokeStyle = this.theme.halo;
       pen.lineWidth = 4;
       pen.strokeText(text, spot[0], y);

@@ -1,0 +1,90 @@
+"""A world and its page, alive in a thread of their own, so that a browser can be driven beside."""
+
+import asyncio
+import threading
+
+from tftool.cli.session import open_session
+from tftool.frames.sample import TransformStamped
+from tftool.geometry.rigid import Transform
+from tftool.runtime.clock import WallClock, run
+from tftool.runtime.world import World
+from tftool.screens.browser.server import PageServer
+from tftool.stamps import seconds
+
+PATIENCE = 30
+
+
+class Stage:
+    def __init__(self, *, port=0, scenario=None, lived=0.0):
+        self._port = port
+        self._scenario = scenario
+        self._lived = seconds(lived)
+        self._ready = threading.Event()
+        self._thread = threading.Thread(target=self._run)
+
+    def __enter__(self):
+        self._thread.start()
+        assert self._ready.wait(PATIENCE)
+        return self
+
+    def __exit__(self, *error):
+        self.end()
+
+    @property
+    def url(self):
+        return self._page.url
+
+    @property
+    def port(self):
+        return self._page.port
+
+    def do(self, action):
+        """Call `action(world)` in the world's own thread and return what it returns."""
+
+        async def call():
+            return action(self._world)
+
+        return asyncio.run_coroutine_threadsafe(call(), self._loop).result(PATIENCE)
+
+    def put(self, x, y=0.0, *, at=1.0, parent="world", child="turtle", rotation=(0, 0, 0, 1)):
+        """Broadcast one transform, stamped so many seconds after the clock's epoch."""
+
+        def broadcast(world):
+            stamp = world.clock.epoch + seconds(at)
+            pose = Transform((x, y, 0.0), rotation)
+            world.broadcast([TransformStamped(stamp, parent, child, pose)], "test")
+
+        self.do(broadcast)
+
+    def mount(self, child, *, parent="world", x=0.0):
+        """Broadcast one static transform."""
+        pose = Transform((x, 0.0, 0.0))
+        self.do(
+            lambda world: world.broadcast(
+                [TransformStamped(0, parent, child, pose)], "mount", static=True
+            )
+        )
+
+    def end(self):
+        """End the session; its page is told."""
+        if self._thread.is_alive():
+            self._loop.call_soon_threadsafe(self._over.set)
+            self._thread.join(PATIENCE)
+
+    def _run(self):
+        if self._scenario is not None:
+            session = open_session(self._scenario, head_start=self._lived)
+            session.run(self._serve(session.world))
+            return
+        clock = WallClock()
+        run(clock, self._serve(World(clock)))
+
+    async def _serve(self, world):
+        self._world = world
+        self._loop = asyncio.get_running_loop()
+        self._over = asyncio.Event()
+        async with PageServer(world, port=self._port) as self._page:
+            running = asyncio.ensure_future(self._page.run())
+            self._ready.set()
+            await self._over.wait()
+            running.cancel()

@@ -1,0 +1,466 @@
+"""The page in a real browser: what a person sees and clicks."""
+
+import math
+import os
+import shutil
+from pathlib import Path
+
+import pytest
+import yaml
+
+pytest.importorskip("websockets", reason="the extra `view` is not installed")
+webdriver = pytest.importorskip("selenium.webdriver", reason="selenium is not installed")
+
+from selenium.webdriver.chrome.service import Service  # noqa: E402
+from selenium.webdriver.common.by import By  # noqa: E402
+from selenium.webdriver.support.ui import Select, WebDriverWait  # noqa: E402
+
+from tests.screens.browser.stage import PATIENCE, Stage  # noqa: E402
+from tftool.stamps import display, seconds  # noqa: E402
+
+CHROMIUM = shutil.which("chromium")
+CHROMEDRIVER = shutil.which("chromedriver")
+pytestmark = pytest.mark.skipif(
+    not (CHROMIUM and CHROMEDRIVER),
+    reason="no chromium and chromedriver: apt-get install chromium chromium-driver",
+)
+
+FLAGS = [
+    "--headless=new",
+    "--no-sandbox",  # a container's root has no other choice
+    "--disable-dev-shm-usage",
+    "--use-angle=swiftshader",  # three.js draws without a graphics card
+    "--enable-unsafe-swiftshader",
+    "--window-size=1280,800",
+    "--hide-scrollbars",
+    # Every window draws, whether or not another one lies over it.
+    "--disable-backgrounding-occluded-windows",
+    "--disable-renderer-backgrounding",
+    # Nothing is asked of anybody but the page's own server.
+    "--disable-background-networking",
+    "--disable-component-update",
+    "--disable-quic",
+    "--disable-sync",
+    "--no-first-run",
+]
+
+VECTORS = Path(__file__).parents[2] / "reference" / "turtlesim_vectors.yaml"
+PICTURE = Path(__file__).parents[2] / "pictures" / "view.png"
+
+
+@pytest.fixture(scope="module")
+def chromium():
+    options = webdriver.ChromeOptions()
+    options.binary_location = CHROMIUM
+    for flag in FLAGS:
+        options.add_argument(flag)
+    options.set_capability("goog:loggingPrefs", {"browser": "ALL"})
+    driver = webdriver.Chrome(options=options, service=Service(CHROMEDRIVER))
+    driver.set_script_timeout(PATIENCE)
+    yield driver
+    driver.quit()
+
+
+@pytest.fixture
+def stage():
+    with Stage() as stage:
+        yield stage
+
+
+class Page:
+    """The page as a person uses it."""
+
+    def __init__(self, driver, stage, state=""):
+        self.driver = driver
+        driver.get("about:blank")
+        driver.get(f"{stage.url}#{state}")
+
+    def until(self, condition):
+        """Wait until `condition()` holds; return what it gave."""
+        return WebDriverWait(self.driver, PATIENCE, poll_frequency=0.02).until(
+            lambda _: condition()
+        )
+
+    def find(self, selector):
+        return self.driver.find_element(By.CSS_SELECTOR, selector)
+
+    def texts(self, selector):
+        script = "return [...document.querySelectorAll(arguments[0])].map(e => e.textContent)"
+        return self.driver.execute_script(script, selector)
+
+    def text(self, selector):
+        return self.texts(selector)[0]
+
+    def drawn(self):
+        """What is drawn in 3-D, by name: pose in the fixed frame, pixel, arrow, fading."""
+        return {
+            frame["name"]: frame for frame in self.driver.execute_script("return tftool.drawn()")
+        }
+
+    def x_of(self, name):
+        return self.drawn().get(name, {}).get("pose", [None])[0]
+
+    def row(self, name):
+        rows = self.driver.find_elements(By.CSS_SELECTOR, "#tree .row")
+        names = self.texts("#tree .name")
+        return rows[names.index(name)]
+
+    def scrub(self, moment):
+        """Move the timeline's handle, as a pointer or the arrow keys do."""
+        script = (
+            "const line = document.getElementById('scrub'); line.value = arguments[0];"
+            "line.dispatchEvent(new Event('input'))"
+        )
+        self.driver.execute_script(script, moment)
+
+    def complaints(self):
+        return [entry for entry in self.driver.get_log("browser") if entry["level"] == "SEVERE"]
+
+
+def test_frames_appear_and_move(chromium, stage):
+    stage.put(1.0, 2.0)
+    page = Page(chromium, stage)
+    page.until(lambda: page.x_of("turtle") == 1.0)
+
+    before = page.drawn()
+    stage.put(4.0, 2.0, at=2.0)
+    page.until(lambda: page.x_of("turtle") == 4.0)
+    after = page.drawn()
+
+    assert page.texts("#tree .name") == ["world", "turtle"]
+    assert before["turtle"]["arrow"]
+    assert not before["world"]["arrow"]
+    # Seen from above, four metres are further to the right than one.
+    assert (
+        after["turtle"]["pixel"][0] - after["world"]["pixel"][0]
+        > before["turtle"]["pixel"][0] - before["world"]["pixel"][0]
+    )
+    assert page.complaints() == []
+
+
+def test_axes_are_painted_in_their_colours(chromium, stage):
+    stage.put(1.0, 1.0)
+    page = Page(chromium, stage, "names=0&arrows=0&theme=dark&scale=2")
+    page.until(lambda: "turtle" in page.drawn())
+
+    painted = chromium.execute_script(
+        """
+        const sheet = tftool.picture();
+        const [x, y] = tftool.drawn().find(({ name }) => name === "turtle").pixel;
+        const ratio = sheet.width / innerWidth;
+        const far = 60;
+        const area = sheet.getContext("2d").getImageData((x - far) * ratio, (y - far) * ratio,
+                                                         2 * far * ratio, 2 * far * ratio);
+        const seen = { red: 0, green: 0 };
+        for (let at = 0; at < area.data.length; at += 4) {
+          const [r, g, b] = area.data.slice(at, at + 3);
+          if (r > 140 && g < 110 && b < 110) seen.red++;
+          if (g > 120 && r < 110 && b < 130) seen.green++;
+        }
+        return seen;
+        """
+    )
+
+    assert painted["red"] > 50
+    assert painted["green"] > 50
+
+
+def test_a_switch_hides_one_frame_and_the_master_switch_all(chromium, stage):
+    stage.put(1.0)
+    stage.put(2.0, child="other")
+    page = Page(chromium, stage)
+    page.until(lambda: {"turtle", "other"} <= page.drawn().keys())
+    page.until(lambda: page.find("#all").is_selected())
+
+    page.row("turtle").find_element(By.TAG_NAME, "input").click()
+    page.until(lambda: "turtle" not in page.drawn())
+    assert "other" in page.drawn()
+    page.until(lambda: not page.find("#all").is_selected())
+
+    page.find("#all").click()
+    page.until(lambda: {"turtle", "other"} <= page.drawn().keys())
+    page.find("#all").click()
+    page.until(lambda: not page.drawn())
+
+
+def test_a_filter_shows_matching_names_only_and_says_what_is_wrong_with_it(chromium, stage):
+    stage.put(1.0)
+    stage.put(2.0, child="other")
+    page = Page(chromium, stage)
+    page.until(lambda: {"turtle", "other"} <= page.drawn().keys())
+
+    page.find("#only").send_keys("^tur")
+    page.until(lambda: list(page.drawn()) == ["turtle"])
+    page.find("#only").clear()
+    page.find("#not").send_keys("^o|w")
+    page.until(lambda: list(page.drawn()) == ["turtle"])
+    page.find("#not").send_keys("(")
+    page.until(lambda: "regular expression" in page.text("#wrong"))
+
+
+def test_scrubbing_shows_the_asked_moment_and_live_returns(chromium, stage):
+    for second in (1.0, 2.0, 3.0):
+        stage.put(10 * second, at=second)
+    page = Page(chromium, stage)
+    page.until(lambda: page.x_of("turtle") == 30.0)
+
+    page.scrub(1.25)
+    page.until(lambda: page.x_of("turtle") == pytest.approx(12.5))
+    page.until(lambda: page.text("#status") == "past")
+    assert chromium.execute_script("return tftool.moment()") == 1.25
+    assert page.text("#moment").startswith("1.250 s")
+
+    page.find("#forth").click()
+    page.until(lambda: page.x_of("turtle") == pytest.approx(13.5))
+    page.find("#live").click()
+    page.until(lambda: page.x_of("turtle") == 30.0)
+    page.until(lambda: page.text("#status") == "live")
+
+
+def test_playing_runs_through_the_past_into_the_present(chromium, stage):
+    for second in (1.0, 2.0):
+        stage.put(second, at=second)
+    page = Page(chromium, stage)
+    page.until(lambda: page.x_of("turtle") == 2.0)
+
+    page.scrub(1.0)
+    page.until(lambda: page.x_of("turtle") == 1.0)
+    page.find("#play").click()
+    page.until(lambda: 1.0 < page.x_of("turtle") < 2.0)
+    page.until(lambda: page.text("#status") == "live" and page.x_of("turtle") == 2.0)
+
+
+def numbers(page):
+    """The pair panel's numbers, by their terms."""
+    told = {}
+    terms = page.texts("#numbers dt")
+    for place, term in enumerate(terms, start=1):
+        told[term] = [float(text) for text in page.texts(f"#numbers dd:nth-of-type({place}) span")]
+    return told
+
+
+@pytest.mark.parametrize("moment", [None, 1.5])
+def test_a_pairs_numbers_are_those_of_lookup_transform(chromium, stage, moment):
+    turned = (0.034270798550482, 0.106020511061796, 0.143572175027392, 0.983347443256356)
+    for second in (1.0, 2.0):
+        stage.put(math.pi * second, math.e, at=second, rotation=turned)
+        stage.put(-second / 3, 7 / 9, at=second, child="other", rotation=(0, 0, 0.6, 0.8))
+    page = Page(chromium, stage)
+    page.until(lambda: "other" in page.drawn())
+    if moment is not None:
+        page.scrub(moment)
+
+    Select(page.find("#source")).select_by_visible_text("turtle")
+    Select(page.find("#target")).select_by_visible_text("other")
+    at = 0 if moment is None else stage.do(lambda world: world.clock.epoch) + seconds(moment)
+    found = stage.do(lambda world: world.buffer.lookup_transform("other", "turtle", at))
+    page.until(lambda: f"{display(found.stamp)} s" in page.texts("#numbers dd"))
+
+    told = numbers(page)
+    assert told["Translation"] == pytest.approx(found.transform.translation, abs=1e-6)
+    assert told["Quaternion"] == pytest.approx(found.transform.rotation, abs=1e-6)
+    assert told["Distance"][0] == pytest.approx(math.hypot(*found.transform.translation), abs=1e-6)
+    assert page.text("#sentence") == "turtle in other"
+    assert page.text("#chain") == "Chain, source to target: turtle · world · other"
+
+
+def test_a_pair_without_a_transform_says_why(chromium, stage):
+    stage.put(1.0)
+    stage.put(1.0, parent="elsewhere", child="lost")
+    page = Page(chromium, stage, "target=turtle&source=lost")
+
+    page.until(lambda: "not part of the same tree" in page.text("#why"))
+
+
+def test_a_frame_of_another_tree_is_listed_and_said_to_have_no_transform(chromium, stage):
+    stage.put(1.0)
+    stage.put(1.0, child="second")
+    stage.put(1.0, parent="elsewhere", child="lost")
+    page = Page(chromium, stage, "chosen=lost")
+
+    page.until(lambda: page.text("#trouble") == "No transform from [lost] to [world]")
+    assert "lost" not in page.drawn()
+    Select(page.find("#fixed")).select_by_visible_text("elsewhere")
+    page.until(lambda: set(page.drawn()) == {"lost", "elsewhere"})
+
+
+def test_the_chosen_frame_is_told_absolute_and_relative(chromium, stage):
+    stage.put(1.0, 2.0, rotation=(0, 0, math.sqrt(0.5), math.sqrt(0.5)))
+    stage.mount("camera", parent="turtle", x=0.5)
+    page = Page(chromium, stage)
+    page.until(lambda: "camera" in page.drawn())
+
+    page.row("camera").find_element(By.CLASS_NAME, "name").click()
+    page.until(lambda: page.text("#chosen") == "camera")
+
+    assert page.texts("#absolute dd span") == [
+        *("1.0000", "2.5000", "0.0000"),
+        *("0.0000", "0.0000", "0.7071", "0.7071"),
+        *("0.00", "0.00", "90.00"),
+    ]
+    assert page.texts("#relative dd span")[:3] == ["0.5000", "0.0000", "0.0000"]
+    assert page.texts("#link-facts dd") == ["turtle", "mount", "static"]
+
+
+HOSTILE = "<img src=x onerror=\"document.title='owned'\">"
+
+
+def test_markup_in_a_name_is_text(chromium, stage):
+    names = [HOSTILE, "</script><script>document.title='owned'</script>", "a\x1b[31m", "שלום", "🐢"]
+    for name in names:
+        stage.put(1.0, child=name)
+    page = Page(chromium, stage)
+    page.until(lambda: HOSTILE in page.drawn())
+
+    page.row(HOSTILE).find_element(By.CLASS_NAME, "name").click()
+    Select(page.find("#source")).select_by_visible_text(HOSTILE)
+    Select(page.find("#target")).select_by_visible_text("world")
+    page.until(lambda: page.text("#sentence") == f"{HOSTILE} in world")
+
+    assert set(names) <= set(page.texts("#tree .name"))
+    assert page.text("#chosen") == HOSTILE
+    assert chromium.find_elements(By.CSS_SELECTOR, "#tree img, #right img, #tree script") == []
+    assert chromium.title == "tftool view"
+
+
+def test_a_stale_frame_fades_away_and_comes_back_and_statics_never_fade(chromium, stage):
+    stage.put(1.0)
+    stage.mount("camera")
+    page = Page(chromium, stage, "timeout=1")
+
+    page.until(lambda: "camera" in page.drawn() and "turtle" not in page.drawn())
+    assert (page.drawn()["camera"]["grey"], page.drawn()["camera"]["alpha"]) == (0, 1)
+    # Data with old stamps that keeps coming is fresh.
+    stage.put(2.0, at=1.5)
+    page.until(lambda: page.x_of("turtle") == 2.0)
+
+
+def test_fading_has_rvizs_three_stages(chromium, stage):
+    page = Page(chromium, stage)
+    vectors = yaml.safe_load(VECTORS.read_text(encoding="utf-8"))["stale_fade"]
+
+    for age, axis, *_ in vectors["rows"]:
+        told = page.driver.execute_script(
+            "return tftool.fade(...arguments)", age, vectors["frame_timeout"]
+        )
+        if axis is None:
+            assert told["alpha"] == 0
+        else:
+            red, green, blue, alpha = axis
+            grey = told["grey"]
+            assert 1 - 0.3 * grey == pytest.approx(red, abs=1e-6)
+            assert 0.7 * grey == pytest.approx(green, abs=1e-6) == pytest.approx(blue, abs=1e-6)
+            assert told["alpha"] == pytest.approx(alpha, abs=1e-3)
+
+
+def test_another_sites_page_gets_no_frames(chromium, stage):
+    stage.put(1.0)
+    chromium.get("data:text/html,<title>another site</title>")
+
+    told = chromium.execute_async_script(
+        """
+        const [url, done] = arguments;
+        const socket = new WebSocket(url);
+        socket.onopen = () => done("opened");
+        socket.onerror = () => done("refused");
+        """,
+        f"ws://127.0.0.1:{stage.port}/frames",
+    )
+
+    assert told == "refused"
+
+
+def test_a_second_window_joins_with_a_view_of_its_own(chromium, stage):
+    stage.put(1.0)
+    first = Page(chromium, stage)
+    first.until(lambda: first.x_of("turtle") == 1.0)
+    first_window = chromium.current_window_handle
+
+    chromium.switch_to.new_window("window")
+    second = Page(chromium, stage, "view=orbit")
+    second.until(lambda: second.x_of("turtle") == 1.0)
+    assert second.find("#orbit").get_attribute("aria-pressed") == "true"
+    stage.put(2.0, at=2.0)
+    second.until(lambda: second.x_of("turtle") == 2.0)
+    chromium.close()
+    chromium.switch_to.window(first_window)
+
+    first.until(lambda: first.x_of("turtle") == 2.0)
+    assert first.find("#orbit").get_attribute("aria-pressed") == "false"
+
+
+def test_the_end_of_the_session_is_shown_and_the_page_finds_the_next_one(chromium):
+    with Stage() as ended:
+        ended.put(1.0)
+        page = Page(chromium, ended)
+        page.until(lambda: page.text("#status") == "live")
+        page.until(lambda: page.x_of("turtle") == 1.0)
+    page.until(lambda: page.text("#status").startswith("session ended"))
+    assert page.x_of("turtle") == 1.0  # the last picture stays
+
+    with Stage(port=ended.port) as found:
+        found.put(5.0, child="newcomer")
+        page.until(lambda: page.text("#status") == "live")
+        page.until(lambda: page.texts("#tree .name") == ["world", "newcomer"])
+        page.until(lambda: page.x_of("newcomer") == 5.0)
+
+
+def test_before_any_frame_the_page_says_what_it_waits_for(chromium, stage):
+    page = Page(chromium, stage)
+
+    page.until(lambda: page.text("#empty").startswith("No tf data yet"))
+    stage.put(1.0)
+    page.until(lambda: "turtle" in page.drawn() and not page.find("#empty").is_displayed())
+
+
+def test_the_address_carries_the_view(chromium, stage):
+    for second in (1.0, 2.0):
+        stage.put(second, at=second)
+    page = Page(chromium, stage)
+    page.until(lambda: page.x_of("turtle") == 2.0)
+    page.row("turtle").find_element(By.CLASS_NAME, "name").click()
+    page.find("#orbit").click()
+    page.find("#grid").click()
+    Select(page.find("#source")).select_by_visible_text("turtle")
+    Select(page.find("#target")).select_by_visible_text("world")
+    page.scrub(1.5)
+    page.until(lambda: "at=1.5" in chromium.current_url and "target=world" in chromium.current_url)
+
+    again = Page(chromium, stage, chromium.current_url.partition("#")[2])
+    again.until(lambda: again.x_of("turtle") == 1.5)
+    again.until(lambda: again.text("#chosen") == "turtle")
+    again.until(lambda: again.text("#sentence") == "turtle in world")
+    assert again.find("#orbit").get_attribute("aria-pressed") == "true"
+    assert again.find("#grid").get_attribute("aria-pressed") == "false"
+
+
+def test_thousands_of_frames_are_answered_and_what_is_left_out_is_said(chromium, stage):
+    for index in range(1, 5000):
+        stage.mount(f"f{index}", parent=f"f{(index - 1) // 3}", x=0.5)
+    page = Page(chromium, stage)
+
+    page.until(lambda: "2000 of 5000 frames shown" in page.text("#left-out"))
+    page.until(lambda: len(page.drawn()) == 2000)
+
+
+@pytest.mark.skipif(
+    PICTURE.exists() and not os.environ.get("TFTOOL_PICTURES"),
+    reason="the README's picture is there; TFTOOL_PICTURES=1 makes it anew",
+)
+def test_the_readmes_picture_is_made_from_the_page_as_it_is(chromium):
+    chromium.set_window_size(1280, 960)
+    with Stage(scenario="robot", lived=20.0) as stage:
+        page = Page(
+            chromium,
+            stage,
+            "view=orbit&theme=dark&trails=1&fixed=map&chosen=laser_link"
+            "&target=map&source=laser_point",
+        )
+        page.until(lambda: page.text("#sentence") == "laser_point in map")
+        page.until(lambda: page.text("#chosen") == "laser_link")
+        page.until(lambda: chromium.execute_script("return tftool.remembered()") >= 100)
+        PICTURE.parent.mkdir(exist_ok=True)
+        assert chromium.save_screenshot(str(PICTURE))
+
+    assert PICTURE.read_bytes().startswith(b"\x89PNG")
+    assert PICTURE.stat().st_size < 300_000
