@@ -2,7 +2,8 @@
 
 from xml.sax.saxutils import escape
 
-from tftool.views.picture import Box, Link, Picture, Text
+from tftool.views.font import width
+from tftool.views.picture import MOST_WIDTH, Box, Link, Picture, Text
 
 _STYLE = """\
 svg { background: #fbfbfd; font-family: Helvetica, Arial, sans-serif; }
@@ -29,6 +30,9 @@ text { fill: #a3aebd; }
 path { stroke: #7f96b6; }
 path.still { stroke: #b4964a; }
 }"""
+
+
+_NEARLY_FULL = 0.7 * MOST_WIDTH
 
 
 def render(picture: Picture) -> str:
@@ -70,9 +74,13 @@ def _box(box: Box) -> str:
 
 
 def _text(text: Text) -> str:
+    length = width(text.text, text.size, bold=text.kind == "name")
+    # A viewer's font may be wider than Helvetica: what nearly fills its box is kept inside.
+    fitted = f' textLength="{_number(length)}" lengthAdjust="spacingAndGlyphs"'
     return (
         f'<text class="{text.kind}" x="{_number(text.x)}" y="{_number(text.y)}" '
-        f'font-size="{_number(text.size)}">{escape(text.text)}</text>'
+        f'font-size="{_number(text.size)}"{fitted if length > _NEARLY_FULL else ""}>'
+        f"{escape(text.text)}</text>"
     )
 
 

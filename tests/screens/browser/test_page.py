@@ -284,6 +284,18 @@ def test_a_frame_of_another_tree_is_listed_and_said_to_have_no_transform(chromiu
     page.until(lambda: set(page.drawn()) == {"lost", "elsewhere"})
 
 
+def test_a_loop_is_listed_and_said_and_everything_else_goes_on(chromium, stage):
+    stage.put(1.0, parent="hen", child="egg")
+    stage.put(1.0, parent="egg", child="hen")
+    stage.put(1.0)
+    page = Page(chromium, stage, "chosen=egg&target=egg&source=turtle")
+
+    page.until(lambda: "its chain is a loop" in page.text("#trouble"))
+    page.until(lambda: page.text("#why"))
+    assert set(page.texts("#tree .name")) == {"hen", "egg", "world", "turtle"}
+    assert set(page.drawn()) == {"world", "turtle"}
+
+
 def test_the_chosen_frame_is_told_absolute_and_relative(chromium, stage):
     stage.put(1.0, 2.0, rotation=(0, 0, math.sqrt(0.5), math.sqrt(0.5)))
     stage.mount("camera", parent="turtle", x=0.5)

@@ -72,6 +72,10 @@ export class Tree {
     }
     row.append(fold, box, label, told);
     row.onclick = () => this.handlers.choose(name);
+    row.tabIndex = 0;
+    row.onkeydown = (event) => {
+      if (event.target === row && event.key === "Enter") this.handlers.choose(name);
+    };
     item.append(row);
     this.rows[index] = { row, box, told };
     return item;
