@@ -321,6 +321,17 @@ def test_another_frame_is_a_bare_arrow_with_its_name():
     assert " ↑ carrot1" in text
 
 
+def test_a_frame_nobody_hears_of_fades_and_is_gone():
+    def ink(age):
+        lines = draw(Picture(marks=(Mark("carrot1", 3.0, 3.0, 0.0, age),)))
+        row = words(lines)[11]
+        return style_at(lines, row.index("→"), 11).color.name if "→" in row else None
+
+    assert ink(0.0) == theme.hexadecimal(theme.of_name("carrot1"))
+    assert ink(10.0) == "#b2b2b2"
+    assert ink(15.1) is None
+
+
 def test_the_view_may_be_another_square_of_the_world():
     picture = Picture(marks=(Mark("m", -3.5, 11.5),), left=-5.0, bottom=3.0, size=10.0)
 

@@ -11,7 +11,7 @@ from tftool.messages import Color
 from tftool.nodes.turtlesim import Turtlesim
 from tftool.runtime.world import World
 from tftool.stamps import LATEST, Duration, Stamp, as_seconds, seconds
-from tftool.views import canvas, theme
+from tftool.views import canvas
 
 FLASH = seconds(0.4)
 """How long a wall stays lit after it was run into."""
@@ -245,15 +245,15 @@ def _placed(turtle: canvas.Turtle, snapshot: Snapshot) -> canvas.Turtle:
 def _marks(
     snapshot: Snapshot, ages: dict[str, float], turtles: frozenset[str]
 ) -> tuple[canvas.Mark, ...]:
-    """Every other frame seen from above, until it is stale."""
+    """Every other frame seen from above."""
     marks = []
     for info in snapshot.frames:
         pose = info.root_from_frame
-        if info.frame in turtles or pose is None or ages[info.frame] > theme.FRAME_TIMEOUT:
+        if info.frame in turtles or pose is None:
             continue
         x, y = pose.translation.x, pose.translation.y
         # A root lies at its own origin, the field's corner: no news to those who see a field.
         if (turtles and info.parent is None) or not math.isfinite(x + y) or abs(x) + abs(y) > 1e6:
             continue
-        marks.append(canvas.Mark(info.frame, x, y, heading(pose)))
+        marks.append(canvas.Mark(info.frame, x, y, heading(pose), ages[info.frame]))
     return tuple(marks)

@@ -474,16 +474,12 @@ class TurtleApp(App[None]):
             return [Hint(updown, "source"), Hint("x", "swap"), *travel, Hint("Tab", "panel"), *ends]
         if focused == "log":
             return [Hint(updown, "scroll"), *travel, Hint("Tab", "panel"), *ends]
-        drive = (
-            []
-            if self._press is None
-            else [
-                Hint(arrows, "drive"),
-                Hint("gbvcdert", "turn"),
-                Hint("f", "cancel"),
-            ]
-        )
-        return [*drive, *travel, Hint("Tab", "panel"), *ends]
+        drive, turn = [], []
+        if self._press is not None:
+            drive = [Hint(arrows, "drive")]
+            turn = [Hint("gbvcdert", "turn, f cancel")]
+        # In the order in which they are left out, the last ones first.
+        return [*drive, *travel, Hint("Tab", "panel"), ends[0], *turn, ends[1]]
 
     # Keys
 

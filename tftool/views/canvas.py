@@ -42,12 +42,16 @@ class Turtle:
 
 @dataclass(frozen=True, slots=True)
 class Mark:
-    """A frame that is no turtle, seen from above: a carrot, a laser."""
+    """A frame that is no turtle, seen from above: a carrot, a laser.
+
+    Metres, radians, and seconds since it was last heard of: it fades as `theme` says.
+    """
 
     name: str
     x: float
     y: float
     theta: float = 0.0
+    age: float = 0.0
 
 
 Stroke: TypeAlias = tuple[float, float, float, float, Color, int]
@@ -217,6 +221,10 @@ class Canvas:
                 continue
             color = theme.of_name(shown.name)
             if isinstance(shown, Mark):
+                faded = theme.faded(color, shown.age, picture.background)
+                if faded is None:
+                    continue
+                color = faded
                 arrows = sprites.ASCII_ARROWS if self._ascii else sprites.ARROWS
                 sign = arrows[sprites.octant(shown.theta)]
                 cells: Iterable[tuple[int, int, Cell]] = (
