@@ -28,6 +28,7 @@ PROMISED = [
     "TftoolError",
     "TimeoutException",
     "Transform",
+    "TransformArray",
     "TransformException",
     "TransformStamped",
     "UsageError",

@@ -20,6 +20,7 @@ if TYPE_CHECKING:
         TransformException,
         UsageError,
     )
+    from tftool.frames.arrays import TransformArray
     from tftool.frames.buffer import Buffer
     from tftool.frames.sample import FrameInfo, Snapshot, TransformStamped
     from tftool.geometry.conversions import quaternion_from_rpy, rpy_from_quaternion
@@ -54,6 +55,7 @@ __all__ = [
     "TftoolError",
     "TimeoutException",
     "Transform",
+    "TransformArray",
     "TransformException",
     "TransformStamped",
     "UsageError",
@@ -86,6 +88,7 @@ _HOMES = {
         "TransformException",
         "UsageError",
     ),
+    "tftool.frames.arrays": ("TransformArray",),
     "tftool.frames.buffer": ("Buffer",),
     "tftool.frames.sample": ("FrameInfo", "Snapshot", "TransformStamped"),
     "tftool.geometry.conversions": ("quaternion_from_rpy", "rpy_from_quaternion"),

@@ -1,6 +1,7 @@
 """The buffer: remembers transforms over time and answers how frames lie to each other."""
 
 from collections.abc import Callable
+from typing import TYPE_CHECKING, Literal
 
 from tftool.errors import TransformException
 from tftool.frames import export, names, refusals, sweep, velocity
@@ -13,6 +14,11 @@ from tftool.frames.sample import FrameInfo, Snapshot, TransformStamped
 from tftool.geometry import quaternions, rigid
 from tftool.geometry.rigid import Quaternion, Transform, Vector3
 from tftool.stamps import Duration, Stamp, seconds
+
+if TYPE_CHECKING:
+    import numpy.typing as npt
+
+    from tftool.frames.arrays import TransformArray
 
 __all__ = ["NEVER", "Buffer"]
 
@@ -252,6 +258,71 @@ class Buffer:
         target_from_fixed = self.lookup_transform(target_frame, fixed_frame, target_time)
         found = rigid.canonical(target_from_fixed.transform @ fixed_from_source.transform)
         return TransformStamped(target_from_fixed.stamp, target_frame, source_frame, found)
+
+    def lookup_transforms(
+        self,
+        target_frame: str,
+        source_frame: str,
+        times: "npt.ArrayLike",
+        *,
+        missing: Literal["raise", "nan"] = "raise",
+        threads: int | None = None,
+    ) -> "TransformArray":
+        """Row by row what `lookup_transform` gives, for many moments at once, in numpy.
+
+        Args:
+            target_frame: What the answers are expressed in.
+            source_frame: What is asked about.
+            times: Whole nanoseconds, shape (n,), in any order; 0 for the latest.
+            missing: What becomes of a moment for which there is no pose: "raise", or "nan"
+                for a row of NaN that is not `valid`. A wrong name raises in any case.
+            threads: How many to work with; None for one a core where that pays.
+
+        Raises:
+            TransformException: As `lookup_transform`, for the first row that is refused.
+            TypeError: If the times are no whole numbers.
+            ValueError: If the shape is another.
+        """
+        # The single lookup does without numpy; who asks for many has it.
+        from tftool.frames import bulk
+
+        return bulk.lookup_transforms(
+            self._forest, self._lookups, target_frame, source_frame, times, missing, threads
+        )
+
+    def lookup_transforms_full(
+        self,
+        target_frame: str,
+        target_times: "npt.ArrayLike",
+        source_frame: str,
+        source_times: "npt.ArrayLike",
+        fixed_frame: str,
+        *,
+        missing: Literal["raise", "nan"] = "raise",
+        threads: int | None = None,
+    ) -> "TransformArray":
+        """Row by row what `lookup_transform_full` gives.
+
+        One of the two kinds of times may be a single moment; see `lookup_transforms`.
+
+        Raises:
+            TransformException: As `lookup_transform_full`, for the first row that is refused.
+            TypeError: If the times are no whole numbers.
+            ValueError: If the shapes do not fit.
+        """
+        from tftool.frames import bulk
+
+        return bulk.lookup_transforms_full(
+            self._forest,
+            self._lookups,
+            target_frame,
+            target_times,
+            source_frame,
+            source_times,
+            fixed_frame,
+            missing,
+            threads,
+        )
 
     def get_latest_common_time(self, target_frame: str, source_frame: str) -> Stamp:
         """The newest moment for which every link between two frames has data; 0 if none moves.

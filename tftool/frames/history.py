@@ -20,6 +20,9 @@ Sample: TypeAlias = tuple[float, float, float, float, float, float, float]
 Refusal: TypeAlias = tuple[int, Stamp]
 """Why a link has no pose at a moment: NO_DATA, FORWARD or BACKWARD, and the stamp it does have."""
 
+Columns: TypeAlias = "tuple[array[int], array[float], array[int] | None]"
+"""Stamps, samples flat, and parents (None where there is but one), oldest first."""
+
 NO_PARENT = -1
 """In place of a parent's number: none."""
 
@@ -385,6 +388,25 @@ class History(Link):
             (self._stamps[index], self._parent(index), self._sample(index))
             for index in range(len(self._stamps) - 1, self._start - 1, -1)
         ]
+
+    def columns(self) -> "Columns":
+        """Stamps, samples (seven numbers each) and parents, oldest first: copies.
+
+        They are of one moment, even if another thread inserts or forgets meanwhile: what
+        was copied is held against what is remembered, and copied again where they differ.
+        """
+        while True:
+            start, newest, parents = self._start, self.newest_stamp, self._parents
+            stamps, samples = self._stamps[start:], self._samples[7 * start :]
+            if parents is not None:
+                parents = parents[start:]
+            if (
+                len(samples) == 7 * len(stamps)
+                and (parents is None or len(parents) == len(stamps))
+                and (start, newest) == (self._start, self.newest_stamp)
+                and (not stamps or (stamps[0], stamps[-1]) == (self.oldest_stamp, newest))
+            ):
+                return stamps, samples, parents
 
     def _sample(self, index: int) -> Sample:
         sample: Sample = _unpack_one(self._samples, _WIDTH * index)

@@ -1,0 +1,239 @@
+"""One question for many moments, in numpy: `Buffer.lookup_transforms`."""
+
+import os
+from collections.abc import Callable
+from concurrent.futures import ThreadPoolExecutor
+
+import numpy as np
+import numpy.typing as npt
+
+from tftool.errors import TransformException
+from tftool.frames import kernel, routes
+from tftool.frames.arrays import TransformArray
+from tftool.frames.columns import Column, Columns, Stamps, stamps_of
+from tftool.frames.forest import Forest
+from tftool.frames.history import Sample
+from tftool.frames.lookups import Lookups
+from tftool.frames.plans import Plan
+from tftool.geometry import batch
+from tftool.stamps import Stamp
+
+CHUNK = 1 << 16
+"""So many rows are looked at together; what a batch needs beyond its answers grows with it."""
+
+# Below this, a second thread costs more than it brings.
+_WORTH_A_THREAD = 2 * CHUNK
+
+
+def lookup_transforms(
+    forest: Forest,
+    lookups: Lookups,
+    target: str,
+    source: str,
+    times: npt.ArrayLike,
+    missing: str = "raise",
+    threads: int | None = None,
+) -> TransformArray:
+    """See `Buffer.lookup_transforms`."""
+    if missing not in ("raise", "nan"):
+        raise ValueError(f"missing is 'raise' or 'nan', not {missing!r}")
+    workers = _workers(threads)
+    stamps = stamps_of(times, "times")
+    if target == source:
+        return _identities(forest, target, stamps)
+    numbers = (
+        lookups.number(target, "target_frame", "lookupTransform", target, source),
+        lookups.number(source, "source_frame", "lookupTransform", target, source),
+    )
+    batch = _Batch(forest, numbers, stamps, lambda time: lookups.pose(target, source, time))
+    batch.run(missing == "raise", workers if len(stamps) >= _WORTH_A_THREAD else 1)
+    return TransformArray(
+        target, source, batch.stamps, batch.translations, batch.rotations, batch.valid
+    )
+
+
+def lookup_transforms_full(
+    forest: Forest,
+    lookups: Lookups,
+    target: str,
+    target_times: npt.ArrayLike,
+    source: str,
+    source_times: npt.ArrayLike,
+    fixed: str,
+    missing: str = "raise",
+    threads: int | None = None,
+) -> TransformArray:
+    """See `Buffer.lookup_transforms_full`."""
+    if missing not in ("raise", "nan"):
+        raise ValueError(f"missing is 'raise' or 'nan', not {missing!r}")
+    for frame, argument in (
+        (target, "target_frame"),
+        (source, "source_frame"),
+        (fixed, "fixed_frame"),
+    ):
+        lookups.number(frame, argument, "lookupTransform", target, source)
+    theirs, ours = _paired(target_times, source_times)
+    fixed_from_source = lookup_transforms(forest, lookups, fixed, source, ours, "nan", threads)
+    target_from_fixed = lookup_transforms(forest, lookups, target, fixed, theirs, "nan", threads)
+    found = target_from_fixed @ fixed_from_source
+    if missing == "raise":
+        for row in np.flatnonzero(~found.valid).tolist():
+            # One of the two is refused, and says why: the first comes first.
+            lookups.pose(fixed, source, int(ours[row]))
+            lookups.pose(target, fixed, int(theirs[row]))
+    return found
+
+
+class _Batch:
+    """One question under way: what it reads, and the answers as they come in."""
+
+    def __init__(
+        self,
+        forest: Forest,
+        numbers: tuple[int, int],
+        times: Stamps,
+        ask: Callable[[Stamp], tuple[Stamp, Sample]],
+    ) -> None:
+        self.forest = forest
+        self.target, self.source = numbers
+        self.times = times
+        self.ask = ask
+        self.columns = Columns()
+        self.plan = routes.steady_plan(forest, self.target, self.source)
+        self.first, self.last = -(2**63), 2**63 - 1
+        for link in self.plan.moving if self.plan else ():
+            column = self.columns.of(link)
+            assert isinstance(column, Column)
+            self.first = max(self.first, column.oldest)
+            self.last = min(self.last, column.newest)
+        self.latest: tuple[Stamp, Sample] | TransformException | None = None
+        n = len(times)
+        self.stamps = np.empty(n, dtype=np.int64)
+        self.translations = np.empty((n, 3))
+        self.rotations = np.empty((n, 4))
+        self.valid = np.empty(n, dtype=np.bool_)
+
+    def run(self, complete: bool, workers: int) -> None:
+        """Answer every row; if they must be complete, the first that is refused raises."""
+        starts = range(0, len(self.times), CHUNK)
+        if workers == 1 or len(starts) < 2:
+            for start in starts:
+                self.fill(start, complete)
+            return
+        with ThreadPoolExecutor(workers) as pool:
+            try:
+                for _ in pool.map(lambda start: self.fill(start, complete), starts):
+                    pass
+            except BaseException:
+                pool.shutdown(cancel_futures=True)
+                raise
+
+    def fill(self, start: int, complete: bool) -> None:
+        """Answer one chunk of rows."""
+        rows = slice(start, start + CHUNK)
+        times = self.times[rows]
+        self.stamps[rows] = times
+        usable = (times >= self.first) & (times <= self.last) & (times != 0)
+        if self.plan is not None and usable.all():
+            self.solve(self.plan, times, self.translations[rows], self.rotations[rows])
+            self.valid[rows] = True
+            return
+        self.valid[rows] = False
+        self.translations[rows] = np.nan
+        self.rotations[rows] = np.nan
+        rest = np.flatnonzero(times != 0)
+        if self.plan is not None:
+            self.scatter(self.plan, start, np.flatnonzero(usable))
+            rest = np.flatnonzero(~usable & (times != 0))
+        if len(rest):
+            moments = times[rest]
+            for plan, chosen in routes.by_moment(
+                self.forest, self.columns, self.target, self.source, moments
+            ):
+                held = routes.covered(plan, self.columns, moments[chosen])
+                self.scatter(plan, start, rest[chosen[held]])
+        self.fill_latest(start + np.flatnonzero(times == 0))
+        if complete:
+            for row in (start + np.flatnonzero(~self.valid[rows])).tolist():
+                self.put(row, self.ask(int(self.times[row])))
+
+    def solve(
+        self, plan: Plan, times: Stamps, translations: batch.Floats, rotations: batch.Floats
+    ) -> None:
+        """Answer moments that a plan has data for."""
+        up = [self.columns.of(link) for link in plan.up]
+        down = [self.columns.of(link) for link in plan.down]
+        kernel.solve(up, down, times, translations, rotations)
+
+    def scatter(self, plan: Plan, start: int, rows: routes.Rows) -> None:
+        """Answer some rows of a chunk."""
+        if not len(rows):
+            return
+        rows = rows + start
+        translations, rotations = np.empty((len(rows), 3)), np.empty((len(rows), 4))
+        self.solve(plan, self.times[rows], translations, rotations)
+        self.translations[rows] = translations
+        self.rotations[rows] = rotations
+        self.valid[rows] = True
+
+    def fill_latest(self, rows: routes.Rows) -> None:
+        """Answer the rows that ask for the latest: all alike."""
+        if not len(rows):
+            return
+        if self.latest is None:
+            try:
+                self.latest = self.ask(0)
+            except TransformException as refused:
+                self.latest = refused
+        if not isinstance(self.latest, TransformException):
+            self.put(rows, self.latest)
+
+    def put(self, rows: "routes.Rows | int", answer: tuple[Stamp, Sample]) -> None:
+        """Write one answer into one or more rows."""
+        stamp, sample = answer
+        self.stamps[rows] = stamp
+        self.translations[rows] = sample[:3]
+        self.rotations[rows] = sample[3:]
+        self.valid[rows] = True
+
+
+def _identities(forest: Forest, frame: str, times: Stamps) -> TransformArray:
+    """A frame in itself; as for a single lookup, the name may be any."""
+    number = forest.numbers.get(frame)
+    newest = 0 if number is None else forest.newest_stamp(number)
+    n = len(times)
+    rotations = np.zeros((n, 4))
+    rotations[:, 3] = 1.0
+    return TransformArray(
+        frame,
+        frame,
+        np.where(times == 0, newest, times),
+        np.zeros((n, 3)),
+        rotations,
+        np.ones(n, dtype=np.bool_),
+    )
+
+
+def _paired(target_times: npt.ArrayLike, source_times: npt.ArrayLike) -> tuple[Stamps, Stamps]:
+    """Two arrays of moments of one length; a single moment stands for as many as needed."""
+    theirs, ours = np.asarray(target_times), np.asarray(source_times)
+    if theirs.ndim == 0 and ours.ndim == 1:
+        theirs = np.broadcast_to(theirs, ours.shape)
+    elif ours.ndim == 0 and theirs.ndim == 1:
+        ours = np.broadcast_to(ours, theirs.shape)
+    target_stamps = stamps_of(theirs, "target_times")
+    source_stamps = stamps_of(ours, "source_times")
+    if len(target_stamps) != len(source_stamps):
+        raise ValueError(
+            f"there are {len(target_stamps)} target_times, but {len(source_stamps)} source_times"
+        )
+    return target_stamps, source_stamps
+
+
+def _workers(threads: int | None) -> int:
+    """How many threads to use: as many as were asked for, else one for each core."""
+    if threads is None:
+        return os.cpu_count() or 1
+    if threads < 1:
+        raise ValueError(f"threads must be 1 or more, not {threads}")
+    return threads

@@ -1,0 +1,135 @@
+"""What `rigid` and `quaternions` do for one, for many at once: shapes (..., 3) and (..., 4).
+
+Quaternions are in xyzw order and leading axes broadcast. Each function gives row by row
+what its namesake for plain floats gives.
+"""
+
+from typing import TypeAlias
+
+import numpy as np
+import numpy.typing as npt
+
+Floats: TypeAlias = npt.NDArray[np.float64]
+"""Numbers in double precision, of any shape."""
+
+# As in `quaternions`: what is a unit quaternion but for rounding is left as it is.
+_ROUNDING = 8e-16
+_LEAST_SQUARE = 2.0 / 1.7976931348623157e308
+
+
+def multiply(first: Floats, second: Floats) -> Floats:
+    """Chain rotations: `second` is applied first. Shapes (..., 4)."""
+    ax, ay, az, aw = np.moveaxis(first, -1, 0)
+    bx, by, bz, bw = np.moveaxis(second, -1, 0)
+    return np.stack(
+        (
+            aw * bx + ax * bw + ay * bz - az * by,
+            aw * by + ay * bw + az * bx - ax * bz,
+            aw * bz + az * bw + ax * by - ay * bx,
+            aw * bw - ax * bx - ay * by - az * bz,
+        ),
+        axis=-1,
+    )
+
+
+def conjugate(quaternions: Floats) -> Floats:
+    """Undo unit quaternions, shape (..., 4)."""
+    undone: Floats = quaternions * np.array([-1.0, -1.0, -1.0, 1.0])
+    return undone
+
+
+def rotate(quaternions: Floats, vectors: Floats) -> Floats:
+    """Turn vectors, shape (..., 3), by unit quaternions, shape (..., 4)."""
+    qx, qy, qz, qw = np.moveaxis(quaternions, -1, 0)
+    x, y, z = np.moveaxis(vectors, -1, 0)
+    cx = 2.0 * (qy * z - qz * y)
+    cy = 2.0 * (qz * x - qx * z)
+    cz = 2.0 * (qx * y - qy * x)
+    return np.stack(
+        (
+            x + qw * cx + qy * cz - qz * cy,
+            y + qw * cy + qz * cx - qx * cz,
+            z + qw * cz + qx * cy - qy * cx,
+        ),
+        axis=-1,
+    )
+
+
+def unit(quaternions: Floats) -> Floats:
+    """Scale quaternions to length one, shape (..., 4); NaN for those without a direction."""
+    with np.errstate(all="ignore"):
+        x, y, z, w = np.moveaxis(quaternions, -1, 0)
+        square = x * x + y * y + z * z + w * w
+        # Squares of huge numbers overflow although the direction is plain to see.
+        if np.any(square == np.inf):
+            largest = np.max(np.abs(quaternions), axis=-1)
+            huge = (square == np.inf) & (largest < np.inf)
+            smaller = np.where(huge[..., None], quaternions / largest[..., None], quaternions)
+            again = unit(smaller) if np.any(huge) else quaternions
+        else:
+            huge, again = np.zeros(np.shape(square), dtype=bool), quaternions
+        exact = np.abs(square - 1.0) < _ROUNDING
+        scale = np.where(exact, 1.0, 1.0 / np.sqrt(square))
+        usable = (square > _LEAST_SQUARE) & (square < np.inf)
+        scaled = np.where(usable[..., None], quaternions * scale[..., None], np.nan)
+        return np.where(huge[..., None], again, scaled)
+
+
+def canonical(quaternions: Floats) -> Floats:
+    """Give unit quaternions, shape (..., 4), the sign tf2 gives; see `quaternions.canonical`."""
+    x, y, z, w = np.moveaxis(quaternions, -1, 0)
+    xx, yy, zz = x * x, y * y, z * z
+    side = np.where(xx < yy, np.where(yy < zz, z, y), np.where(xx < zz, z, x))
+    lead = np.where(w * w > 0.25, w, side)
+    return np.where((lead < 0.0)[..., None], -quaternions, quaternions)
+
+
+def matrices(translations: Floats, rotations: Floats) -> Floats:
+    """Homogeneous matrices, shape (..., 4, 4), of poses with unit quaternions."""
+    x, y, z, w = np.moveaxis(rotations, -1, 0)
+    result = np.zeros((*x.shape, 4, 4))
+    result[..., 0, 0] = 1.0 - 2.0 * (y * y + z * z)
+    result[..., 0, 1] = 2.0 * (x * y - w * z)
+    result[..., 0, 2] = 2.0 * (x * z + w * y)
+    result[..., 1, 0] = 2.0 * (x * y + w * z)
+    result[..., 1, 1] = 1.0 - 2.0 * (x * x + z * z)
+    result[..., 1, 2] = 2.0 * (y * z - w * x)
+    result[..., 2, 0] = 2.0 * (x * z - w * y)
+    result[..., 2, 1] = 2.0 * (y * z + w * x)
+    result[..., 2, 2] = 1.0 - 2.0 * (x * x + y * y)
+    result[..., :3, 3] = translations
+    result[..., 3, 3] = 1.0
+    return result
+
+
+def slerp(start: Floats, end: Floats, fraction: Floats) -> Floats:
+    """Turn from `start` to `end`, unit quaternions, along the shorter arc; fractions (...)."""
+    dot = np.sum(start * end, axis=-1, keepdims=True)
+    end = np.where(dot < 0.0, -end, end)
+    # arccos of the dot product would lose half the digits of a small angle.
+    half = np.arctan2(_length(end - start), _length(end + start))
+    angle = 2.0 * half
+    tiny = angle < 1e-9
+    sine = np.where(tiny, 1.0, np.sin(angle))
+    share = fraction[..., None]
+    keep = np.where(tiny, 1.0 - share, np.sin((1.0 - share) * angle) / sine)
+    take = np.where(tiny, share, np.sin(share * angle) / sine)
+    turned: Floats = keep * start + take * end
+    return turned
+
+
+def rotation_vectors(quaternions: Floats) -> Floats:
+    """Axis times angle, radians from 0 to π, shape (..., 3), of unit quaternions."""
+    signed = np.where(quaternions[..., 3:] < 0.0, -quaternions, quaternions)
+    vector = signed[..., :3]
+    sine = _length(vector)
+    angle = 2.0 * np.arctan2(sine, signed[..., 3:])
+    # Of a turn too small to have an axis, the vector part is half the angle.
+    tiny = sine < 1e-150
+    turned: Floats = vector * np.where(tiny, 2.0, angle / np.where(tiny, 1.0, sine))
+    return turned
+
+
+def _length(vectors: Floats) -> Floats:
+    length: Floats = np.sqrt(np.sum(vectors * vectors, axis=-1, keepdims=True))
+    return length
