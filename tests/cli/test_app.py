@@ -1,3 +1,4 @@
+import errno
 import gc
 import io
 import os
@@ -191,3 +192,34 @@ def test_as_a_process_it_leaves_at_once_on_a_signal(monkeypatch, capsys):
             signal.signal(number, handler)
 
     assert left == [130, 130]
+
+
+@pytest.mark.parametrize(
+    ("error", "sentence"),
+    [
+        (
+            OSError(errno.ENOSPC, "No space left on device"),
+            "the output cannot be written: No space left on device.",
+        ),
+        (
+            PermissionError(errno.EACCES, "Permission denied", "x.sock"),
+            "x.sock: Permission denied.",
+        ),
+    ],
+)
+def test_a_full_disk_and_its_kin_are_one_sentence(monkeypatch, capsys, error, sentence):
+    class Full(io.StringIO):
+        def write(self, text):
+            raise error
+
+    monkeypatch.setattr(sys, "stdout", Full())
+
+    assert app.main(["--help"]) == 3
+    assert capsys.readouterr().err == f"tftool: {sentence}\n"
+
+
+def test_without_a_stdout_it_does_its_work_all_the_same(monkeypatch):
+    monkeypatch.setattr(sys, "stdout", None)
+
+    assert app.main(["--version"]) == 0
+    sys.stdout.close()

@@ -100,10 +100,7 @@ def main(argv: "Sequence[str] | None" = None) -> int:
             gc.disable()
             _leave_on_signals()
             argv = sys.argv[1:]
-        for stream in (sys.stdout, sys.stderr):
-            # A name that the terminal cannot show is shown as an escape, not as an error.
-            if hasattr(stream, "reconfigure"):
-                stream.reconfigure(errors="backslashreplace")
+        _prepare_output()
         status = _run(list(argv))
         sys.stdout.flush()
     except KeyboardInterrupt:
@@ -113,7 +110,24 @@ def main(argv: "Sequence[str] | None" = None) -> int:
         # buffered would be written at exit, so it goes nowhere.
         _forget_output()
         status = DONE
+    except OSError as error:
+        # Whoever opens a file answers for it; what is left is mostly stdout on a full disk.
+        _forget_output()
+        what = error.filename or "the output cannot be written"
+        _complain("tftool", f"{what}: {error.strerror or error}.")
+        status = UNREADABLE
     return status
+
+
+def _prepare_output() -> None:
+    """See to it that there is a stdout and a stderr, and that they take any text."""
+    for name in ("stdout", "stderr"):
+        stream = getattr(sys, name)
+        if stream is None:  # closed by whoever started us
+            setattr(sys, name, open(os.devnull, "w", encoding="utf-8"))
+        elif hasattr(stream, "reconfigure"):
+            # A name that the terminal cannot show is shown as an escape, not as an error.
+            stream.reconfigure(errors="backslashreplace")
 
 
 def _forget_output() -> None:
@@ -189,5 +203,4 @@ def _usage_sentence(error: "Any") -> tuple[str, str]:
 def _complain(who: str, sentence: str) -> None:
     from tftool.views.escaping import visible_lines
 
-    sys.stdout.flush()
     sys.stderr.write(f"{who}: {visible_lines(sentence.rstrip())}\n")
