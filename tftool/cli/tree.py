@@ -28,18 +28,13 @@ class Format(str, Enum):
     pdf = "pdf"
 
 
-SUFFIXES = {
+TEXTS = {
     ".txt": Format.tree,
     ".json": Format.json,
     ".yaml": Format.yaml,
     ".yml": Format.yaml,
-    ".dot": Format.dot,
-    ".gv": Format.dot,
-    ".mmd": Format.mermaid,
-    ".mermaid": Format.mermaid,
-    ".svg": Format.svg,
-    ".pdf": Format.pdf,
 }
+"""What a file's suffix asks for, where it is no drawing."""
 
 LISTEN = 5.0
 """Seconds a scenario is played before its frames are shown, as view_frames listens."""
@@ -105,13 +100,16 @@ def tree(
 def _form_of(output: Path | None) -> Format:
     if output is None or str(output) == "-":
         return Format.tree
-    try:
-        return SUFFIXES[output.suffix.lower()]
-    except KeyError:
-        known = ", ".join(sorted(SUFFIXES))
+    from tftool.views.drawing import SUFFIXES
+
+    known = TEXTS | {suffix: Format(form) for suffix, form in SUFFIXES.items()}
+    suffix = output.suffix.lower()
+    if suffix not in known:
         raise UsageError(
-            f"'{output}' does not say what to write: end it in {known}, or give --format."
-        ) from None
+            f"'{output}' does not say what to write: end it in {', '.join(sorted(known))}, "
+            "or give --format."
+        )
+    return known[suffix]
 
 
 def _write(snapshot: "Snapshot", form: Format, output: Path | None) -> None:
