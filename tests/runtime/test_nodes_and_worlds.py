@@ -153,6 +153,21 @@ def test_the_finally_of_a_node_runs_when_its_world_ends():
     assert ended == ["careful"]
 
 
+def test_a_node_that_raises_on_its_way_out_is_named_too():
+    world = World(SimClock())
+
+    class Careless(Node):
+        async def run(self):
+            try:
+                await self.clock.sleep(seconds(100))
+            finally:
+                raise OSError("disk full")
+
+    Careless(world, "careless")
+    with pytest.raises(NodeFailed, match="node 'careless' failed: OSError: disk full"):
+        lived(world, seconds(1))
+
+
 def test_a_node_may_join_and_leave_a_living_world():
     world = World(SimClock())
     late = []

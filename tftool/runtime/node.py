@@ -7,6 +7,7 @@ from tftool.frames.buffer import Buffer
 from tftool.frames.sample import TransformStamped
 from tftool.runtime.clock import Clock, Phase
 from tftool.runtime.parameters import Parameters, Value
+from tftool.runtime.resident import Resident
 from tftool.runtime.world import World
 from tftool.stamps import Duration, Stamp, as_seconds
 
@@ -16,7 +17,7 @@ CATCH_UP = 5
 """How many late ticks of a timer are made up for before it slips."""
 
 
-class Node:
+class Node(Resident):
     """Override `run`, and wait by `every` or the clock.
 
     Attributes:

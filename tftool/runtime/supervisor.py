@@ -4,8 +4,8 @@ import asyncio
 
 from tftool.errors import NodeFailed
 from tftool.runtime.clock import Phase
-from tftool.runtime.node import Node
-from tftool.runtime.world import Supervision, World
+from tftool.runtime.resident import Resident, Supervision
+from tftool.runtime.world import World
 from tftool.stamps import Stamp
 
 
@@ -37,6 +37,9 @@ async def live(world: World, *, until: Stamp | None = None) -> None:
         if end is not None:
             end.cancel()
         await supervisor.cancel()
+    # Asked last: a node may also fail on its way out.
+    if supervisor.failure is not None:
+        raise supervisor.failure
 
 
 class _Supervisor(Supervision):
@@ -44,49 +47,49 @@ class _Supervisor(Supervision):
 
     def __init__(self, has_end: bool) -> None:
         self.over: asyncio.Future[None] = asyncio.get_running_loop().create_future()
+        self.failure: NodeFailed | None = None
         self._has_end = has_end
-        self._nodes: list[Node] = []
-        self._tasks: dict[Node, asyncio.Task[None]] = {}
+        self._nodes: list[Resident] = []
+        self._tasks: dict[Resident, asyncio.Task[None]] = {}
 
-    def start(self, node: Node) -> None:
-        self._nodes.append(node)
-        self._tasks[node] = asyncio.get_running_loop().create_task(self._run(node), name=node.name)
+    def start(self, resident: Resident) -> None:
+        self._nodes.append(resident)
+        self._tasks[resident] = asyncio.get_running_loop().create_task(
+            self._run(resident), name=resident.name
+        )
 
-    def end(self, node: Node) -> None:
-        task = self._tasks.get(node)
+    def end(self, resident: Resident) -> None:
+        task = self._tasks.get(resident)
         if task is not None:
             task.cancel()
-        node.close()
+        resident.close()
 
     def stop(self) -> None:
         if not self.over.done():
             self.over.set_result(None)
 
-    def fail(self, node: Node, error: BaseException) -> None:
-        if not self.over.done():
-            failure = NodeFailed(node.name, error)
-            failure.__cause__ = error
-            self.over.set_exception(failure)
+    def fail(self, resident: Resident, error: BaseException) -> None:
+        if self.failure is None:
+            self.failure = NodeFailed(resident.name, error)
+            self.failure.__cause__ = error
+        self.stop()
 
     async def cancel(self) -> None:
-        """Cancel what still runs, and wait for it; a failure on the way out counts too."""
+        """Cancel what still runs, and wait for it."""
         tasks = list(self._tasks.values())
         for task in tasks:
             task.cancel()
         await asyncio.gather(*tasks, return_exceptions=True)
-        for node in self._nodes:
-            node.close()
-        if self.over.done() and not self.over.cancelled():
-            # Asked for here, so that a failure nobody awaited is not reported twice.
-            self.over.exception()
+        for resident in self._nodes:
+            resident.close()
 
-    async def _run(self, node: Node) -> None:
+    async def _run(self, resident: Resident) -> None:
         try:
-            await node.run()
+            await resident.run()
         except Exception as error:
-            self.fail(node, error)
+            self.fail(resident, error)
         finally:
             # What it subscribed to goes on: many nodes only listen.
-            self._tasks.pop(node, None)
+            self._tasks.pop(resident, None)
             if not self._tasks and not self._has_end:
                 self.stop()

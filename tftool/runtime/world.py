@@ -4,7 +4,7 @@ import inspect
 from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass
 from types import MappingProxyType
-from typing import TYPE_CHECKING, Any, TypeVar, cast
+from typing import Any, TypeVar, cast
 
 from tftool.errors import TftoolError
 from tftool.frames.buffer import Buffer
@@ -12,11 +12,9 @@ from tftool.frames.sample import TransformStamped
 from tftool.runtime import waiting
 from tftool.runtime.clock import Clock
 from tftool.runtime.log import Log
+from tftool.runtime.resident import Resident, Supervision
 from tftool.runtime.topics import Acceptor, GoalHandle, Handler, Topic
 from tftool.stamps import Duration, Stamp, seconds
-
-if TYPE_CHECKING:
-    from tftool.runtime.node import Node
 
 T = TypeVar("T")
 
@@ -49,7 +47,7 @@ class World:
         self.clock = clock
         self.log = Log(clock.now)
         self.buffer = buffer or Buffer(cache_time, log=self._log_buffer)
-        self.nodes: list[Node] = []
+        self.nodes: list[Resident] = []
         self._joined = 0
         self._topics: dict[str, Topic[Any]] = {}
         self._services: dict[str, Handler] = {}
@@ -238,7 +236,7 @@ class World:
 
     # Nodes
 
-    def add(self, node: "Node") -> None:
+    def add(self, node: Resident) -> None:
         """Let a node join; in a world that lives already it starts at once.
 
         Raises:
@@ -253,7 +251,7 @@ class World:
         if self._supervisor is not None:
             self._supervisor.start(node)
 
-    def remove(self, node: "Node") -> None:
+    def remove(self, node: Resident) -> None:
         """Stop a node and let it leave."""
         if node in self.nodes:
             self.nodes.remove(node)
@@ -261,7 +259,7 @@ class World:
         if self._supervisor is not None:
             self._supervisor.end(node)
 
-    def node(self, name: str) -> "Node":
+    def node(self, name: str) -> Resident:
         """The node of that name.
 
         Raises:
@@ -277,7 +275,7 @@ class World:
         if self._supervisor is not None:
             self._supervisor.stop()
 
-    def fail(self, node: "Node", error: BaseException) -> None:
+    def fail(self, node: Resident, error: BaseException) -> None:
         """Report that a node raised outside its `run`, in a callback for example.
 
         Raises:
@@ -287,7 +285,7 @@ class World:
             raise error
         self._supervisor.fail(node, error)
 
-    def supervise(self, supervision: "Supervision | None") -> None:
+    def supervise(self, supervision: Supervision | None) -> None:
         """Name who starts and stops nodes from now on (the supervisor's own call)."""
         self._supervisor = supervision
 
@@ -296,23 +294,3 @@ class World:
             self.log.error("buffer", text)
         else:
             self.log.warn("buffer", text)
-
-
-class Supervision:
-    """What a world asks of whoever runs its nodes."""
-
-    def start(self, node: "Node") -> None:
-        """Start a node that joined."""
-        raise NotImplementedError
-
-    def end(self, node: "Node") -> None:
-        """Stop a node that leaves."""
-        raise NotImplementedError
-
-    def stop(self) -> None:
-        """End the run."""
-        raise NotImplementedError
-
-    def fail(self, node: "Node", error: BaseException) -> None:
-        """End the run because a node raised."""
-        raise NotImplementedError
