@@ -7,7 +7,9 @@ from tftool.frames.sample import FrameInfo, Snapshot, TransformStamped
 from tftool.geometry.rigid import Transform
 from tftool.runtime.log import LogRecord
 from tftool.screens import panels
-from tftool.screens.panels import Hint, Journal, Look
+from tftool.screens.journal import Journal
+from tftool.screens.look import Look, wrapped
+from tftool.screens.panels import Hint
 from tftool.screens.scene import Moment, Pair
 from tftool.stamps import seconds
 from tftool.views import theme
@@ -326,5 +328,5 @@ def test_names_are_darker_on_a_light_panel():
 
 
 def test_a_word_wider_than_the_panel_is_cut_into_pieces():
-    assert words(panels.wrapped("ab🐢🐢cd", 3)) == ["ab", "🐢", "🐢c", "d"]
-    assert words(panels.wrapped("🐢", 1)) == ["🐢", ""]
+    assert words(wrapped("ab🐢🐢cd", 3)) == ["ab", "🐢", "🐢c", "d"]
+    assert words(wrapped("🐢", 1)) == ["🐢", ""]

@@ -7,7 +7,8 @@ from pathlib import Path
 
 import pytest
 
-from tftool.screens.terminal import Setting, TurtleApp
+from tftool.screens.setting import Setting
+from tftool.screens.terminal import TurtleApp
 
 PICTURE = Path(__file__).parents[1] / "pictures" / "demo.svg"
 SIZE = (116, 34)

@@ -10,8 +10,10 @@ from tftool.runtime.clock import WallClock, run
 from tftool.runtime.node import Node
 from tftool.runtime.supervisor import live
 from tftool.runtime.world import World
+from tftool.screens.panel import Panel
 from tftool.screens.scene import Scene
-from tftool.screens.terminal import Panel, Setting, TurtleApp, setting_from, show
+from tftool.screens.setting import Setting, setting_from
+from tftool.screens.terminal import TurtleApp, show
 from tftool.stamps import seconds
 from tftool.views import theme
 

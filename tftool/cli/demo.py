@@ -70,7 +70,7 @@ def demo(
         typer.echo(as_json(played) if for_programs else written(played))
         return 0 if played.verdict.ok else 1
 
-    from tftool.screens.terminal import Setting
+    from tftool.screens.setting import Setting
 
     play = build(_left_to_a_person(chosen), WallClock(rate))
     drives = simulator_of(play.world) is not None

@@ -14,7 +14,7 @@ if TYPE_CHECKING:
     from tftool.nodes.turtlesim import Turtlesim
     from tftool.runtime.world import World
     from tftool.screens.scene import Scene
-    from tftool.screens.terminal import Setting
+    from tftool.screens.setting import Setting
 
 Ascii = Annotated[
     bool, typer.Option("--ascii", help="Draw with plain characters, for fonts that have no others.")
@@ -77,7 +77,8 @@ def run_app(
     """
     from tftool.runtime.clock import run
     from tftool.screens.scene import Scene
-    from tftool.screens.terminal import TurtleApp, setting_from, show
+    from tftool.screens.setting import setting_from
+    from tftool.screens.terminal import TurtleApp, show
 
     setting = setting_from(os.environ, sys.stdout.encoding or "ascii", setting)
     scene = Scene(world, simulator_of(world))

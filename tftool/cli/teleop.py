@@ -46,7 +46,7 @@ def teleop(
             'Give the keys on the command line instead: --keys "up up left".'
         )
 
-    from tftool.screens.terminal import Setting
+    from tftool.screens.setting import Setting
 
     session = open_session()
     driver = driver_of(session.world, turtle)

@@ -1,45 +1,20 @@
 """The text in the panels of the terminal app: pure, from a moment to lines of a given width."""
 
 import math
-import re
-from collections import deque
 from collections.abc import Iterable, Sequence
-from dataclasses import dataclass
 from typing import NamedTuple
 
 from rich.cells import cell_len
-from rich.style import Style
 from rich.text import Text
 
 from tftool.frames.sample import FrameInfo, Snapshot
 from tftool.geometry.conversions import rpy_from_quaternion
-from tftool.messages import Color
-from tftool.runtime.log import LogRecord
+from tftool.screens.layout import BLOCK_LINES, BLOCK_WIDTH
+from tftool.screens.look import Look, wrapped
 from tftool.screens.scene import Moment
-from tftool.stamps import Stamp, as_seconds
+from tftool.stamps import as_seconds
 from tftool.views import echo, theme
-from tftool.views.plain import fitted, padded, plain
-
-
-class Look(NamedTuple):
-    """How a screen paints: its palette, and whether it may use more than ASCII."""
-
-    palette: theme.Palette = theme.DARK
-    ascii_only: bool = False
-
-    @property
-    def more(self) -> str:
-        """What stands for text that was left out."""
-        return "~" if self.ascii_only else "…"
-
-    def ink(self, color: Color, *, bold: bool = False) -> Style:
-        """A style with this ink."""
-        return Style(color=theme.hexadecimal(color), bold=bold or None)
-
-    def of_name(self, name: str) -> Color:
-        """A name's colour, dark enough to be read on a light panel."""
-        color = theme.of_name(name)
-        return theme.blend(color, theme.INK, 0.55) if self.palette is theme.LIGHT else color
+from tftool.views.plain import fitted, padded
 
 
 class Row(NamedTuple):
@@ -88,7 +63,7 @@ def tree(
     """
     dim, accent = look.ink(look.palette.dim), look.ink(look.palette.accent, bold=True)
     if not listed:
-        return _wrapped("No frames yet.", width, dim)
+        return wrapped("No frames yet.", width, dim)
     columns = _Columns.of(width)
     head = padded("  frame", columns.name) + f"{'Hz':>{columns.rate}}{'age':>{columns.age}}"
     lines = [Text(fitted(head + ("  from" if columns.sender else ""), width, more=""), dim)]
@@ -157,14 +132,6 @@ def _facts(info: FrameInfo, age: float, columns: _Columns, look: Look) -> str:
     return f"{rate:>{columns.rate}}{shown:>{columns.age}}"
 
 
-PAIR_LINES = 6
-"""Lines `pair` needs to say everything shortly."""
-
-BLOCK_LINES = 12
-"""Lines, and columns, from which it says everything as tf2_echo does."""
-BLOCK_WIDTH = 62
-
-
 def pair(moment: Moment, width: int, height: int, look: Look) -> list[Text]:
     """Say where the source is in the target: shortly, or with room as tf2_echo does."""
     asked, dim = moment.pair, look.ink(look.palette.dim)
@@ -176,7 +143,7 @@ def pair(moment: Moment, width: int, height: int, look: Look) -> list[Text]:
     )
     lines = [Text.assemble(source, (" in ", dim), target)]
     if asked.found is None:
-        return lines + _wrapped(asked.refusal, width, look.ink(look.palette.warning))
+        return lines + wrapped(asked.refusal, width, look.ink(look.palette.warning))
     away = _away(*asked.found.transform.translation, look)
     if width >= BLOCK_WIDTH and height >= BLOCK_LINES:
         block = echo.block(asked.found).splitlines()
@@ -223,111 +190,6 @@ def _numbers(values: Iterable[float], digits: int) -> str:
 
 def _degree(look: Look) -> str:
     return "d" if look.ascii_only else "°"
-
-
-@dataclass(slots=True)
-class _Entry:
-    first: LogRecord
-    last: LogRecord
-    kind: str
-    times: int = 1
-
-
-class Journal:
-    """The log as a person wants it: what repeats is one line with a count."""
-
-    KEPT = 300
-    # What a node warns of again and again differs in its numbers.
-    _NUMBERS = re.compile(r"-?\d+(\.\d+)?")
-
-    def __init__(self, records: Iterable[LogRecord] = ()) -> None:
-        self.revision = 0
-        self._entries: deque[_Entry] = deque(maxlen=self.KEPT)
-        for record in records:
-            self.add(record)
-
-    def add(self, record: LogRecord) -> None:
-        """Take in a line of the world's log."""
-        self.revision += 1
-        warns = record.level in {"WARN", "ERROR"}
-        text = self._NUMBERS.sub("#", record.text) if warns else record.text
-        kind = f"{record.level}\n{record.node}\n{text}"
-        # Those that repeat themselves take turns: the last few lines are looked at.
-        for entry in list(self._entries)[-4:]:
-            if entry.kind == kind:
-                entry.last = record
-                entry.times += 1
-                return
-        self._entries.append(_Entry(record, record, kind))
-
-    def lines(
-        self, until: Stamp, start: Stamp, width: int, height: int, look: Look, *, back: int = 0
-    ) -> list[Text]:
-        """Show the newest lines up to a moment, the newest at the bottom.
-
-        Args:
-            until: The moment shown.
-            start: The moment that counts as 0.
-            width: Cells across.
-            height: Lines.
-            look: How to paint.
-            back: How many of the newest lines to leave out.
-        """
-        told = [entry for entry in self._entries if entry.first.stamp <= until]
-        told = told[: max(len(told) - back, 1)]
-        if not told:
-            return [Text("Nothing was said yet.", look.ink(look.palette.dim))]
-        shown: list[Text] = []
-        for entry in reversed(told):
-            lines = self._entry(entry, start, width, look)
-            shown[:0] = lines[: max(0, height - len(shown))]
-            if len(shown) >= height:
-                break
-        return shown
-
-    def _entry(self, entry: _Entry, start: Stamp, width: int, look: Look) -> list[Text]:
-        palette = look.palette
-        color = {"WARN": palette.warning, "ERROR": palette.error}.get(
-            entry.last.level, palette.text
-        )
-        when = f"{as_seconds(entry.last.stamp - start):.1f} "
-        indent = 2 if width < 40 else 7
-        when = when.rjust(indent)
-        times = f" {'x' if look.ascii_only else '×'}{entry.times}" if entry.times > 1 else ""
-        words = f"{entry.last.node}: {entry.last.text}"
-        # The first line shares its place with the time, the others stand a little in.
-        lines = _wrapped(words, max(8, width - indent), look.ink(color), max(8, width - len(when)))
-        lines[0] = Text.assemble((when, look.ink(palette.dim)), lines[0])
-        lines[1:] = [Text.assemble(" " * indent, line) for line in lines[1:3]]
-        if times:
-            lines[-1].truncate(max(0, width - len(times)))
-            lines[-1].append(times, look.ink(palette.accent, bold=True))
-        return lines
-
-
-def wrapped(words: str, width: int) -> list[Text]:
-    """Break a sentence into lines of at most `width` cells."""
-    return _wrapped(words, max(1, width), Style())
-
-
-def _wrapped(words: str, width: int, style: Style, first: int | None = None) -> list[Text]:
-    """Break a sentence into lines, the first of another width, at blanks where there are any."""
-    lines: list[str] = []
-    line, room = "", width if first is None else first
-    for word in plain(words).split(" "):
-        longer = f"{line} {word}" if line else word
-        if cell_len(longer) <= room:
-            line = longer
-            continue
-        if line:
-            lines.append(line)
-            room = width
-        line = word
-        while cell_len(line) > room:
-            head = fitted(line, room, more="") or line[:1]
-            lines.append(head)
-            line, room = line[len(head) :], width
-    return [Text(one, style) for one in [*lines, line]]
 
 
 def header(title: str, moment: Moment, rate: float, width: int, look: Look) -> Text:

@@ -12,6 +12,7 @@ from tftool.nodes.turtlesim import Turtlesim
 from tftool.runtime.world import World
 from tftool.stamps import LATEST, Duration, Stamp, as_seconds, seconds
 from tftool.views import canvas
+from tftool.views.ink import Stroke
 
 FLASH = seconds(0.4)
 """How long a wall stays lit after it was run into."""
@@ -80,8 +81,8 @@ class Scene:
         self._news: dict[str, tuple[Stamp, Stamp]] = {}
         self._seen: deque[_Seen] = deque()
         # Trails that were wiped, for as long as one can go back to them.
-        self._wiped: dict[int, tuple[int, tuple[canvas.Stroke, ...]]] = {}
-        self._strokes: tuple[canvas.Stroke, ...] = ()
+        self._wiped: dict[int, tuple[int, tuple[Stroke, ...]]] = {}
+        self._strokes: tuple[Stroke, ...] = ()
         self._hits: dict[str, int] = {}
         self._lit: dict[str, Stamp] = {}
         self._view: tuple[float, float, float] | None = None

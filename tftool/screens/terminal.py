@@ -6,8 +6,8 @@ Time in it is the world's; how often it looks is real time, so that a world at
 """
 
 import asyncio
-from collections.abc import Callable, Coroutine, Mapping
-from dataclasses import dataclass, replace
+from collections.abc import Callable, Coroutine
+from dataclasses import replace
 from typing import Any, ClassVar
 
 from rich.segment import Segment
@@ -16,23 +16,17 @@ from textual import events
 from textual.app import App, ComposeResult
 from textual.binding import Binding, BindingType
 from textual.containers import Container
-from textual.geometry import Region
-from textual.strip import Strip
-from textual.theme import Theme
-from textual.widget import Widget
 
 from tftool.errors import TftoolError
-from tftool.screens import panels
-from tftool.screens.panels import Hint, Look
+from tftool.screens import keys, panels
+from tftool.screens.journal import Journal
+from tftool.screens.layout import SMALLEST, arranged
+from tftool.screens.look import Look, wrapped
+from tftool.screens.panel import Panel, themes
 from tftool.screens.scene import Moment, Scene
+from tftool.screens.setting import Setting
 from tftool.stamps import Duration, Stamp, seconds
 from tftool.views import canvas, theme
-
-SMALLEST = (30, 10)
-"""Columns and rows below which there is nothing but a sentence."""
-
-WITH_PANELS = 56
-"""Columns from which the field gets company."""
 
 LOOKS_PER_SECOND = 20
 PANELS_EVERY = 3
@@ -47,119 +41,6 @@ REST = 4.0
 STEP, LEAP = seconds(0.1), seconds(1.0)
 
 Press = Callable[[str], object]
-
-
-@dataclass(frozen=True, slots=True)
-class Setting:
-    """What the terminal can show, and what is asked for.
-
-    Attributes:
-        title: What runs, for the top line.
-        pair: Target and source to begin with.
-        ascii_only: Draw with ASCII alone.
-        colors: Whether colours may be used.
-        light: Whether the terminal's ground is light.
-        drive_only: Whether the field has the screen to itself, as in teleop.
-        banner: Lines to show above the field.
-    """
-
-    title: str = "tftool"
-    pair: tuple[str, str] = ("turtle2", "turtle1")
-    ascii_only: bool = False
-    colors: bool = True
-    light: bool = False
-    drive_only: bool = False
-    banner: tuple[str, ...] = ()
-
-
-def setting_from(environment: Mapping[str, str], encoding: str, wanted: Setting) -> Setting:
-    """Complete `wanted` by what the environment says of the terminal.
-
-    Args:
-        environment: Its TERM, NO_COLOR, COLORFGBG and LC_ALL count.
-        encoding: What the terminal's text is encoded in.
-        wanted: What was asked for; it is only ever restricted.
-    """
-    terminal = environment.get("TERM", "")
-    ascii_only = (
-        not encoding.lower().replace("-", "").startswith("utf")
-        or environment.get("LC_ALL") in {"C", "POSIX"}
-        # Its font has neither braille nor quadrant blocks.
-        or terminal in {"linux", "vt100", "vt220", "dumb"}
-    )
-    return replace(
-        wanted,
-        ascii_only=wanted.ascii_only or ascii_only,
-        colors=wanted.colors and not environment.get("NO_COLOR"),
-        light=wanted.light or theme.prefers_light(environment),
-    )
-
-
-class Panel(Widget):
-    """Lines of text that repaints only those that changed."""
-
-    def __init__(self, name: str, title: str = "", *, can_focus: bool = True) -> None:
-        super().__init__(id=name)
-        self.can_focus = can_focus
-        self._title = title
-        self._strips: list[Strip] = []
-
-    def show(self, lines: list[Text] | list[list[Segment]]) -> None:
-        """Show these lines from now on."""
-        width, height = self.size
-        strips = [
-            Strip(line.render(self.app.console, end="") if isinstance(line, Text) else line)
-            for line in lines[:height]
-        ]
-        ground = self.rich_style
-        strips = [strip.adjust_cell_length(width).apply_style(ground) for strip in strips]
-        before, self._strips = self._strips, strips
-        for y in range(max(len(before), len(strips))):
-            if y >= len(before) or y >= len(strips) or before[y] != strips[y]:
-                self.refresh(Region(0, y, width, 1))
-
-    def render_line(self, y: int) -> Strip:
-        """Give one line to textual."""
-        if y < len(self._strips):
-            return self._strips[y]
-        return Strip.blank(self.size.width, self.rich_style)
-
-
-def _themes() -> list[Theme]:
-    return [
-        Theme(
-            name=name,
-            primary=theme.hexadecimal(palette.accent),
-            accent=theme.hexadecimal(palette.accent),
-            foreground=theme.hexadecimal(palette.text),
-            background=theme.hexadecimal(palette.ground),
-            surface=theme.hexadecimal(palette.panel),
-            panel=theme.hexadecimal(palette.panel),
-            secondary=theme.hexadecimal(theme.blend(palette.ground, palette.dim, 0.6)),
-            dark=palette is theme.DARK,
-        )
-        for name, palette in (("tftool-dark", theme.DARK), ("tftool-light", theme.LIGHT))
-    ]
-
-
-KEYS = """\
- Arrow keys   drive turtle1; a press lasts a second
- g t r e      turn to 0, 45, 90, 135 degrees
- d c v b      turn to 180, -135, -90, -45 degrees
- f            give the turn up
-
- Tab          next panel (Shift+Tab: back)
- Up, Down     in the tree: pick a frame (also j, k)
- Enter        measure from the frame picked
- x            swap the two frames
-
- [ ]          back and on in time by 0.1 s
- { }          by a second
- l            back to live
-
- m            light or dark
- q            quit
-"""
 
 
 class TurtleApp(App[None]):
@@ -241,7 +122,7 @@ class TurtleApp(App[None]):
         self._back = 0
         self._rest_until = 0.0
         self._canvas = canvas.Canvas(0, 0)
-        self._journal = panels.Journal(scene.world.log.records)
+        self._journal = Journal(scene.world.log.records)
         self._unlisten = scene.world.log.listen(self._journal.add)
 
     # Building
@@ -265,7 +146,7 @@ class TurtleApp(App[None]):
         # textual makes new tasks start eagerly where Python can; the nodes of the world on
         # this loop are to run in the order they always run in.
         asyncio.get_running_loop().set_task_factory(None)
-        for one in _themes():
+        for one in themes():
             self.register_theme(one)
         self._shade()
         self.screen.set_class(self.setting.ascii_only, "ascii")
@@ -293,50 +174,27 @@ class TurtleApp(App[None]):
         self.call_after_refresh(self.redraw)
 
     def _arrange(self, width: int, height: int) -> None:
-        small = width < SMALLEST[0] or height < SMALLEST[1]
-        for name in ("header", "footer"):
-            self.panel(name).display = not small
-        self.query_one("#body").display = not small
-        self.panel("small").display = small
         banner = self._banner(width) if height >= 24 else []
-        self.panel("banner").display = bool(banner) and not small
+        frames = 3 if self._moment is None else len(self._moment.snapshot.frames)
+        layout = arranged(width, height, len(banner), frames)
+        for name in ("header", "footer"):
+            self.panel(name).display = not layout.small
+        self.panel("small").display = layout.small
+        self.panel("banner").display = bool(banner) and not layout.small
         self.panel("banner").styles.height = len(banner)
-        if small:
-            return
-        room = height - 2 - len(banner)
-        alone = width < WITH_PANELS
-        self.query_one("#side").display = not alone
-        beside = min(room - 2, (width - (28 if width < 84 else 38)) // 2)
-        above = min((width - 2) // 2, room - 12)
-        portrait = not alone and above > beside * 1.15
-        self.screen.set_class(portrait, "portrait")
-        field = self.panel("field")
-        if alone:
-            field.styles.width, field.styles.height = "1fr", "1fr"
-        elif portrait:
-            field.styles.width, field.styles.height = "1fr", above + 2
-        else:
-            field.styles.width, field.styles.height = 2 * beside + 2, "1fr"
-        self._share(room, portrait)
+        self.query_one("#body").display = not layout.small
+        self.query_one("#side").display = not layout.alone
+        self.screen.set_class(layout.portrait, "portrait")
+        field, tree, pair, log = (self.panel(name) for name in ("field", "tree", "pair", "log"))
+        field.styles.width = layout.field[0] or "1fr"
+        field.styles.height = layout.field[1] or "1fr"
+        for panel, lines in ((tree, layout.tree), (pair, layout.pair), (log, 0)):
+            panel.styles.width = "1fr" if layout.portrait else "100%"
+            panel.styles.height = lines or "1fr"
+        tree.display = pair.display = not self.setting.drive_only
 
     def _banner(self, width: int) -> list[Text]:
-        return [line for text in self.setting.banner for line in panels.wrapped(text, width)]
-
-    def _share(self, room: int, portrait: bool) -> None:
-        """Share the side out: the tree what it needs, the pair its lines, the log the rest."""
-        tree, pair, log = (self.panel(name) for name in ("tree", "pair", "log"))
-        for panel in (tree, pair):
-            panel.display = not self.setting.drive_only
-        for panel in (tree, pair, log):
-            panel.styles.width = "1fr" if portrait else "100%"
-            panel.styles.height = "1fr"
-        if portrait:
-            return
-        lines = panels.BLOCK_LINES if room >= 40 else panels.PAIR_LINES
-        frames = 3 if self._moment is None else len(self._moment.snapshot.frames)
-        least_log = max(3, room // 4)
-        tree.styles.height = min(max(4, frames + 3), max(5, room - lines - 2 - least_log))
-        pair.styles.height = lines + 2
+        return [line for text in self.setting.banner for line in wrapped(text, width)]
 
     # Looking
 
@@ -374,7 +232,7 @@ class TurtleApp(App[None]):
         if self.panel("small").display:
             least = f"{SMALLEST[0]}x{SMALLEST[1]}"
             words = f"This terminal is {width}x{height}; tftool needs {least} or more."
-            self.panel("small").show(panels.wrapped(words, width))
+            self.panel("small").show(wrapped(words, width))
             return
         moment = self._moment
         if self._at is None or self._stale or moment is None:
@@ -441,7 +299,13 @@ class TurtleApp(App[None]):
         look, clock = self.look, self.scene.world.clock
         width = self.size.width
         self.panel("header").show([panels.header(self.title, moment, clock.rate, width, look)])
-        self.panel("footer").show([panels.footer(self._hints(), width, look)])
+        hints = keys.hints(
+            (self.focused.id or "") if self.focused else "",
+            drives=self._press is not None,
+            past=self._at is not None,
+            ascii_only=look.ascii_only,
+        )
+        self.panel("footer").show([panels.footer(hints, width, look)])
         self.panel("banner").show(self._banner(width))
         if not self.query_one("#side").display:
             return
@@ -452,34 +316,6 @@ class TurtleApp(App[None]):
         log.show(
             self._journal.lines(moment.stamp, self.scene.start, *log.size, look, back=self._back)
         )
-
-    def _hints(self) -> list[Hint]:
-        arrows = "arrows" if self.setting.ascii_only else "↑↓←→"
-        updown = "up/down" if self.setting.ascii_only else "↑↓"
-        focused = self.focused.id if self.focused else ""
-        travel = [Hint("[ ]", "past")]
-        if self._at is not None:
-            travel = [Hint("l", "live"), Hint("[ ]", "time")]
-        ends = [Hint("?", "keys"), Hint("q", "quit")]
-        if focused == "tree":
-            return [
-                Hint(updown, "pick"),
-                Hint("Enter", "measure from"),
-                Hint("x", "swap"),
-                *travel,
-                Hint("Tab", "panel"),
-                *ends,
-            ]
-        if focused == "pair":
-            return [Hint(updown, "source"), Hint("x", "swap"), *travel, Hint("Tab", "panel"), *ends]
-        if focused == "log":
-            return [Hint(updown, "scroll"), *travel, Hint("Tab", "panel"), *ends]
-        drive, turn = [], []
-        if self._press is not None:
-            drive = [Hint(arrows, "drive")]
-            turn = [Hint("gbvcdert", "turn, f cancel")]
-        # In the order in which they are left out, the last ones first.
-        return [*drive, *travel, Hint("Tab", "panel"), ends[0], *turn, ends[1]]
 
     # Keys
 
@@ -559,13 +395,13 @@ class TurtleApp(App[None]):
 
     def action_keys(self) -> None:
         """Show or hide what every key does."""
-        keys = self.panel("keys")
-        keys.display = not keys.display
-        lines = KEYS.splitlines()
+        panel = self.panel("keys")
+        panel.display = not panel.display
+        lines = keys.KEYS.splitlines()
         width, height = self.size
-        keys.styles.height = len(lines) + 2
-        keys.styles.offset = max(0, (width - 56) // 2), max(0, (height - len(lines) - 2) // 2)
-        self.call_after_refresh(lambda: keys.show([Text(line) for line in lines]))
+        panel.styles.height = len(lines) + 2
+        panel.styles.offset = max(0, (width - 56) // 2), max(0, (height - len(lines) - 2) // 2)
+        self.call_after_refresh(lambda: panel.show([Text(line) for line in lines]))
 
     def action_leave(self) -> None:
         """End."""

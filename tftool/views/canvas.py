@@ -18,13 +18,12 @@ from rich.style import Style
 
 from tftool.messages import Color
 from tftool.views import sprites, theme
+from tftool.views.ink import Ink, Stroke
 from tftool.views.plain import fitted
 from tftool.views.sprites import Cell
 
 EDGE = 11.088889122009277
 """Metres along one side of turtlesim's field."""
-
-PIXELS_PER_METRE = 45.0
 
 Line: TypeAlias = list[Segment]
 _Overlay: TypeAlias = dict[int, dict[int, Cell]]
@@ -52,10 +51,6 @@ class Mark:
     y: float
     theta: float = 0.0
     age: float = 0.0
-
-
-Stroke: TypeAlias = tuple[float, float, float, float, Color, int]
-"""A straight piece of trail: x and y of both ends in metres, colour, width in pixels."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -111,9 +106,10 @@ class Canvas:
         self.rows = max(0, rows)
         self._ascii = ascii_only
         self._arrows = ascii_only or arrows
-        self._view = (0.0, 0.0, EDGE)
         self._wipes = 0
-        self._wipe_ink()
+        self._drawn = 0
+        self._ink = Ink(self.columns, self.rows, 0.0, 0.0, EDGE)
+        self._kept: list[tuple[tuple[int, Color], Line] | None] = [None] * self.rows
 
     def lines(self, picture: Picture) -> list[Line]:
         """Draw `picture`: `rows` lines, each exactly `columns` cells wide."""
@@ -128,82 +124,32 @@ class Canvas:
             for row in range(self.rows)
         ]
 
-    # The trail: dots that stay.
-
-    def _wipe_ink(self) -> None:
-        self._drawn = 0
-        self._dots = [bytearray(self.columns) for _ in range(self.rows)]
-        self._inks: list[list[Color | None]] = [[None] * self.columns for _ in range(self.rows)]
-        self._kept: list[tuple[Color, Line] | None] = [None] * self.rows
-
     def _follow_trail(self, picture: Picture) -> None:
-        view = (picture.left, picture.bottom, picture.size)
-        total = picture.forgotten + len(picture.strokes)
-        if view != self._view or picture.wipes != self._wipes or total < self._drawn:
-            self._view, self._wipes = view, picture.wipes
-            self._wipe_ink()
+        """Draw what the trail has grown by; begin anew when it is another one, or shorter."""
+        ink, total = self._ink, picture.forgotten + len(picture.strokes)
+        view = picture.left, picture.bottom, picture.size
+        if (
+            view != (ink.left, ink.bottom, ink.size)
+            or picture.wipes != self._wipes
+            or total < self._drawn
+        ):
+            ink = self._ink = Ink(self.columns, self.rows, *view)
+            self._wipes, self._drawn = picture.wipes, 0
+            self._kept = [None] * self.rows
         for stroke in picture.strokes[max(0, self._drawn - picture.forgotten) :]:
-            self._draw(stroke)
+            ink.draw(stroke)
         self._drawn = total
-
-    def _draw(self, stroke: Stroke) -> None:
-        left, bottom, size = self._view
-        x0, y0, x1, y1, color, width = stroke
-        start = (x0 - left) / size, (y0 - bottom) / size
-        clipped = _clip(*start, (x1 - left) / size, (y1 - bottom) / size)
-        if clipped is None:
-            return
-        across, down = 2 * self.columns, 4 * self.rows
-        x0, y0, x1, y1 = clipped
-        x0, x1 = x0 * across, x1 * across
-        y0, y1 = (1.0 - y0) * down, (1.0 - y1) * down
-        steps = max(1, math.ceil(max(abs(x1 - x0), abs(y1 - y0))))
-        # Dots leave gaps between them, so a trail needs a few more to look as wide as it is.
-        wide = max(1, round(1.3 * width / PIXELS_PER_METRE * across / size))
-        before = (wide - 1) // 2
-        seen = None
-        for step in range(steps + 1):
-            share = step / steps
-            dot = int(x0 + share * (x1 - x0)), int(y0 + share * (y1 - y0))
-            if dot == seen:
-                continue
-            seen = dot
-            for x in range(dot[0] - before, dot[0] - before + wide):
-                for y in range(dot[1] - before, dot[1] - before + wide):
-                    self._dot(x, y, color)
-
-    def _dot(self, x: int, y: int, color: Color) -> None:
-        # The far edges belong to the field: their dots are the last ones inside.
-        x, y = min(x, 2 * self.columns - 1), min(y, 4 * self.rows - 1)
-        if x < 0 or y < 0:
-            return
-        column, row = x >> 1, y >> 2
-        bit = _BITS[x & 1][y & 3]
-        dots, inks = self._dots[row], self._inks[row]
-        if not dots[column] & bit or inks[column] != color:
-            dots[column] |= bit
-            inks[column] = color
-            self._kept[row] = None
 
     def _under(self, row: int, ground: Color) -> Line:
         """Give a line with nothing but trail on it, kept until the trail changes there."""
-        kept = self._kept[row]
-        if kept is None or kept[0] != ground:
-            kept = ground, _line(self._trail(row), ground)
+        kept, state = self._kept[row], (self._ink.revisions[row], ground)
+        if kept is None or kept[0] != state:
+            kept = state, _line(self._ink.cells(row, ascii_only=self._ascii), ground)
             self._kept[row] = kept
         return kept[1]
 
-    def _trail(self, row: int) -> list[Cell]:
-        signs = _ASCII_DOTS if self._ascii else _BRAILLE
-        return [
-            Cell(signs[mask], ink) if mask else _BLANK
-            for mask, ink in zip(self._dots[row], self._inks[row], strict=True)
-        ]
-
-    # What moves: drawn anew in every picture.
-
     def _over(self, row: int, cells: dict[int, Cell], ground: Color) -> Line:
-        line = self._trail(row)
+        line = self._ink.cells(row, ascii_only=self._ascii)
         for column, cell in cells.items():
             line[column] = cell
         return _line(line, ground)
@@ -247,8 +193,8 @@ class Canvas:
 
     def _place(self, x: float, y: float) -> tuple[float, float] | None:
         """Give the (column, row) of a point, or None for what lies far off or nowhere."""
-        left, bottom, size = self._view
-        across, up = (x - left) / size, (y - bottom) / size
+        ink = self._ink
+        across, up = (x - ink.left) / ink.size, (y - ink.bottom) / ink.size
         # Asked this way round, NaN is nowhere.
         if not (-0.1 <= across <= 1.1 and -0.1 <= up <= 1.1):
             return None
@@ -354,34 +300,6 @@ def _style(ink: Color | None, ground: Color, bold: bool) -> Style:
         bgcolor=theme.hexadecimal(ground),
         bold=bold or None,
     )
-
-
-def _clip(x0: float, y0: float, x1: float, y1: float) -> tuple[float, float, float, float] | None:
-    """Cut a line to the unit square (Liang and Barsky); None when nothing is left."""
-    first, last = 0.0, 1.0
-    along, up = x1 - x0, y1 - y0
-    if not math.isfinite(along + up + x0 + y0):
-        return None
-    for speed, room in ((-along, x0), (along, 1.0 - x0), (-up, y0), (up, 1.0 - y0)):
-        if speed == 0.0:
-            if room < 0.0:
-                return None
-        elif speed < 0.0:
-            first = max(first, room / speed)
-        else:
-            last = min(last, room / speed)
-    if first > last:
-        return None
-    return x0 + first * along, y0 + first * up, x0 + last * along, y0 + last * up
-
-
-_BLANK = Cell(" ")
-_BITS = ((0x01, 0x02, 0x04, 0x40), (0x08, 0x10, 0x20, 0x80))
-_BRAILLE = [chr(0x2800 + mask) for mask in range(256)]
-_UPPER, _LOWER = 0x01 | 0x02 | 0x08 | 0x10, 0x04 | 0x40 | 0x20 | 0x80
-_ASCII_DOTS = [
-    ":" if mask & _UPPER and mask & _LOWER else "'" if mask & _UPPER else "." for mask in range(256)
-]
 
 
 @dataclass(frozen=True, slots=True)

@@ -1,0 +1,49 @@
+"""What the keys of the terminal app do, in words."""
+
+from collections.abc import Sequence
+
+from tftool.screens.panels import Hint
+
+KEYS = """\
+ Arrow keys   drive turtle1; a press lasts a second
+ g t r e      turn to 0, 45, 90, 135 degrees
+ d c v b      turn to 180, -135, -90, -45 degrees
+ f            give the turn up
+
+ Tab          next panel (Shift+Tab: back)
+ Up, Down     in the tree: pick a frame (also j, k)
+ Enter        measure from the frame picked
+ x            swap the two frames
+
+ [ ]          back and on in time by 0.1 s
+ { }          by a second
+ l            back to live
+
+ m            light or dark
+ q            quit
+"""
+
+
+def hints(panel: str, *, drives: bool, past: bool, ascii_only: bool) -> Sequence[Hint]:
+    """List the keys that matter now, in the order in which a narrow line keeps them.
+
+    Args:
+        panel: The panel that has the keys.
+        drives: Whether something can be driven.
+        past: Whether an earlier moment is shown.
+        ascii_only: Whether keys are written in ASCII.
+    """
+    arrows, updown = ("arrows", "up/down") if ascii_only else ("↑↓←→", "↑↓")
+    travel = [Hint("l", "live"), Hint("[ ]", "time")] if past else [Hint("[ ]", "past")]
+    always = [*travel, Hint("Tab", "panel"), Hint("?", "keys")]
+    end = Hint("q", "quit")
+    if panel == "tree":
+        pick = [Hint(updown, "pick"), Hint("Enter", "measure from"), Hint("x", "swap")]
+        return [*pick, *always, end]
+    if panel == "pair":
+        return [Hint(updown, "source"), Hint("x", "swap"), *always, end]
+    if panel == "log":
+        return [Hint(updown, "scroll"), *always, end]
+    if not drives:
+        return [*always, end]
+    return [Hint(arrows, "drive"), *always, Hint("gbvcdert", "turn, f cancel"), end]
