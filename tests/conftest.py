@@ -1,7 +1,10 @@
 """What every test shares."""
 
 import os
+import tempfile
+from pathlib import Path
 
+import pytest
 from hypothesis import settings
 
 # No test compares wall time, so hypothesis may not either; and a build machine draws the
@@ -11,3 +14,18 @@ settings.register_profile("ci", deadline=None, derandomize=True)
 settings.load_profile("ci" if os.environ.get("CI") else "desk")
 
 pytest_plugins = ["pytester", "tftool.ros.pytest_plugin"]
+
+
+@pytest.fixture(scope="session", autouse=True)
+def own_sessions():
+    """A session folder of our own: no test's process meets anybody else's."""
+    # Not pytest's own folder: a unix socket's name has about a hundred letters.
+    with tempfile.TemporaryDirectory(prefix="tf") as folder:
+        before = os.environ.get("TFTOOL_SESSION_DIR")
+        os.environ["TFTOOL_SESSION_DIR"] = str(Path(folder) / "s")
+        os.environ.pop("ROS_DOMAIN_ID", None)
+        yield
+        if before is None:
+            del os.environ["TFTOOL_SESSION_DIR"]
+        else:
+            os.environ["TFTOOL_SESSION_DIR"] = before

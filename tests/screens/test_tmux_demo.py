@@ -42,7 +42,11 @@ class Terminal:
         # exec, so that the number in the file is the command's own.
         line = f"sh -c {shlex.quote(f'echo $$ > {self.pid_file}; exec {command}')}"
         line += '; echo "ended with $?"; exec cat'
-        kept = {key: os.environ[key] for key in ("PATH", "HOME") if key in os.environ}
+        kept = {
+            key: os.environ[key]
+            for key in ("PATH", "HOME", "TFTOOL_SESSION_DIR")
+            if key in os.environ
+        }
         self.environment = {
             **kept,
             "LC_ALL": "C.UTF-8",

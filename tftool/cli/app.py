@@ -15,7 +15,18 @@ if TYPE_CHECKING:
     import typer
 
 # In the order of the help. Each is a function of its own name in a module of its own name.
-COMMANDS = ("demo", "teleop", "echo", "static", "tree", "follow", "monitor", "view", "check")
+COMMANDS = (
+    "demo",
+    "teleop",
+    "echo",
+    "static",
+    "tree",
+    "follow",
+    "monitor",
+    "view",
+    "session",
+    "check",
+)
 
 DONE = 0
 FAILED = 1
@@ -66,11 +77,16 @@ def build(only: str | None = None) -> "typer.Typer":
         if context.invoked_subcommand is None:
             sys.stdout.write(context.get_help() + "\n")
 
+    from tftool.cli.sharing import shares
+
     for name in (only,) if only in COMMANDS else COMMANDS:
-        command = getattr(import_module(f"tftool.cli.{name}"), name)
+        # The module that decides who joins and who hosts has the name already.
+        module = "members" if name == "session" else name
+        command = getattr(import_module(f"tftool.cli.{module}"), name)
         # A frame may lie at a negative place: -1 is a number there, not an option.
         takes_numbers = {"ignore_unknown_options": True} if name == "static" else None
-        app.command(help=_laid_out(command), context_settings=takes_numbers)(command)
+        offered = command if name == "check" else shares(command)
+        app.command(help=_laid_out(command), context_settings=takes_numbers)(offered)
     return app
 
 

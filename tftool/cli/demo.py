@@ -10,14 +10,20 @@ from tftool.cli.options import ForPrograms, positive
 from tftool.errors import UsageError
 
 if TYPE_CHECKING:
+    from tftool.nodes.teleop import Teleop
     from tftool.scenario.schema import Scenario
 
 
 def demo(
     scenario: Annotated[
-        str,
-        typer.Argument(metavar="[SCENARIO]", help="Scenario to play: a built-in name or a file."),
-    ] = "turtles",
+        str | None,
+        typer.Argument(
+            metavar="[SCENARIO]",
+            help="Scenario to play, a built-in name or a file. "
+            "If not said: what runs here already, else turtles.",
+            show_default=False,
+        ),
+    ] = None,
     source_frame: Annotated[
         str | None,
         typer.Option(metavar="FRAME", help="Whom turtle2 follows: turtle1, carrot1, ..."),
@@ -54,6 +60,8 @@ def demo(
     tftool demo time_travel --rate 2 --set delay=3
     """
     from tftool.cli.onscreen import driver_of, has_terminal, run_app, simulator_of
+    from tftool.cli.session import HOME, host_link, join_session, shared
+    from tftool.cli.sharing import choice
     from tftool.runtime.clock import WallClock
     from tftool.scenario.builtin import find
     from tftool.scenario.load import load
@@ -61,31 +69,48 @@ def demo(
     from tftool.stamps import seconds
 
     arguments = _arguments(settings or (), source_frame)
-    chosen = load(find(scenario), arguments)
+    chosen = load(find(scenario or HOME), arguments)
     duration = None if lasting is None else seconds(lasting)
     if for_programs or not has_terminal():
         from tftool.cli.summary import as_json, play_through, written
 
+        if choice().is_asked_for:
+            raise UsageError(
+                "Without a terminal the demo plays on simulated time, which nobody can share. "
+                "'tftool monitor' and 'tftool view' share a session without one."
+            )
         played = play_through(chosen, duration)
         typer.echo(as_json(played) if for_programs else written(played))
         return 0 if played.verdict.ok else 1
 
     from tftool.screens.setting import Setting
 
-    play = build(_left_to_a_person(chosen), WallClock(rate))
-    drives = simulator_of(play.world) is not None
+    # Whoever asks for nothing in particular sees what runs here already.
+    joined = None
+    if scenario is None and not arguments and rate == 1.0:
+        joined = join_session(needs_turtles=True)
+    if joined is not None:
+        world, live = joined.world, joined.live
 
-    async def life() -> None:
-        # Counted from here: the screen takes a while to come up.
-        until = None if duration is None else play.world.clock.now() + duration
-        await play.live(until, endless=until is None)
+        async def life() -> None:
+            await live(None if duration is None else world.clock.now() + duration)
 
-    run_app(
-        play.world,
-        life(),
-        driver_of(play.world, "turtle1") if drives else None,
-        Setting(title=f"tftool demo {chosen.name}", ascii_only=ascii_only, light=light),
-    )
+        driver: Teleop | None = driver_of(world, "turtle1")
+        title = f"tftool demo, in {joined.name}"
+    else:
+        link = host_link(scenario or HOME)
+        play = build(_left_to_a_person(chosen), WallClock(rate))
+        world = play.world
+
+        async def life() -> None:
+            # Counted from here: the screen takes a while to come up.
+            until = None if duration is None else world.clock.now() + duration
+            with shared(link, world, is_host=True):
+                await play.live(until, endless=until is None)
+
+        driver = None if simulator_of(world) is None else driver_of(world, "turtle1")
+        title = f"tftool demo {chosen.name}"
+    run_app(world, life(), driver, Setting(title=title, ascii_only=ascii_only, light=light))
     return 0
 
 

@@ -12,6 +12,9 @@ if TYPE_CHECKING:
 
 NAME = "turtle_following"
 
+SETTLE = seconds(0.5)
+"""How long a joined session is listened to before it counts as not having a frame."""
+
 
 def follow(
     leader: Annotated[str, typer.Argument(metavar="[LEADER]", help="Frame to follow.")] = "turtle1",
@@ -110,11 +113,13 @@ def follow(
         head_start=0,
         cache_time=None if cache_time is None else seconds(cache_time),
         without=lambda node: node.kind == "follower",
+        needs_turtles=True,
     )
     world = session.world
 
     def tell(record: "LogRecord") -> None:
-        if record.node == NAME or record.level in ("WARN", "ERROR"):
+        # What the link has to say the session tells.
+        if record.node == NAME or (record.level in ("WARN", "ERROR") and record.node != "link"):
             second, rest = divmod(record.stamp, NANOSECONDS)
             text = visible_lines(record.text.rstrip())
             notice(f"[{record.level}] [{second}.{rest:09d}] [{record.node}]: {text}")
@@ -134,7 +139,17 @@ def follow(
         speed_limit=max_speed,
         stale_after=None if stale_after is None else seconds(stale_after),
     )
-    if not any(isinstance(node, Broadcaster) and node.turtle == follower for node in world.nodes):
+    broadcasters = [node.turtle for node in world.nodes if isinstance(node, Broadcaster)]
+    if session.is_hosted and follower not in broadcasters:
         Broadcaster(world, f"broadcaster_{follower}", turtle=follower)
     notice(f"{visible(follower)} follows {visible(leader)}, looking every {period:g} s.")
-    session.run(session.lasting(None if run_for is None else seconds(run_for)))
+
+    async def last() -> None:
+        if not session.is_hosted:
+            # Somebody else may broadcast the follower already: two would be one too many.
+            await session.lasting(SETTLE)
+            if not world.buffer.frame_exists(follower):
+                Broadcaster(world, f"broadcaster_{follower}", turtle=follower)
+        await session.lasting(None if run_for is None else seconds(run_for))
+
+    session.run(last())

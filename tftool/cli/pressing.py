@@ -1,12 +1,15 @@
 """Keys given on the command line, pressed one after the other on simulated time."""
 
 import math
+from collections.abc import Callable
 
 from tftool.cli.onscreen import driver_of, simulator_of
-from tftool.cli.session import open_session
+from tftool.cli.session import join_session, open_session
 from tftool.errors import UsageError
+from tftool.messages import Pose2D
 from tftool.nodes.teleop import KEYS
 from tftool.runtime.clock import SimClock
+from tftool.runtime.world import World
 from tftool.stamps import seconds
 
 START = seconds(5)
@@ -36,6 +39,9 @@ def press_all(turtle: str, keys: str) -> str:
             raise UsageError(f"{word!r} is no key of teleop; there are {', '.join(KEYS)}.")
     if not words:
         raise UsageError('--keys needs at least one key, such as --keys "up up left".')
+    joined = join_session(needs_turtles=True)
+    if joined is not None:
+        return joined.run(_press_there(joined.world, turtle, words))
     session = open_session(clock=SimClock())
     world = session.world
     driver, simulator = driver_of(world, turtle), simulator_of(world)
@@ -62,3 +68,48 @@ def press_all(turtle: str, keys: str) -> str:
         )
 
     return session.run(press())
+
+
+async def _press_there(world: World, turtle: str, words: list[str]) -> str:
+    """Press keys in a joined session, where a turtle is known by its poses alone.
+
+    Raises:
+        UsageError: If it is not there.
+    """
+    poses = world.topic(f"{turtle}/pose", Pose2D)
+    # Subscribed, so that they come in.
+    stop = poses.subscribe(lambda pose: None)
+    clock = world.clock
+
+    async def seen(past: int, condition: Callable[[Pose2D], bool]) -> None:
+        end = clock.now() + PATIENCE
+        while clock.now() < end:
+            if poses.count > past and poses.latest is not None and condition(poses.latest):
+                return
+            await clock.sleep(LOOK)
+
+    try:
+        await seen(0, lambda pose: True)
+        if poses.latest is None:
+            there = ", ".join(
+                name.removesuffix("/pose") for name in sorted(world.topics()) if "/pose" in name
+            )
+            raise UsageError(f"There is no turtle {turtle!r} here; there are {there or 'none'}.")
+        driver = driver_of(world, turtle)
+        for word in words:
+            past = poses.count
+            if driver.press(word) == "quit":
+                break
+            await clock.sleep(LOOK)
+            # It takes a few poses until the command has crossed and shows.
+            await seen(past + 10, _is_at_rest)
+        pose = poses.latest
+    finally:
+        stop()
+    return (
+        f"{turtle} is at x {pose.x:.3f}, y {pose.y:.3f}, heading {math.degrees(pose.theta):.1f}°."
+    )
+
+
+def _is_at_rest(pose: Pose2D) -> bool:
+    return pose.linear_velocity == 0.0 and pose.angular_velocity == 0.0

@@ -1,17 +1,20 @@
 """Join or host: the one place that decides where a command's world comes from.
 
-A source named on the command line is always hosted. Without one, a session that
-runs on this machine would be joined; as there is no link between processes yet,
-every command hosts its own.
+A source named on the command line is always hosted. Without one, the session that
+runs on this machine is joined; if none runs, the command hosts one, and others join
+it. A world hosted while a session runs keeps to itself, so that two worlds never mix.
 """
 
 import asyncio
 import sys
-from collections.abc import Awaitable, Callable, Coroutine
+from collections.abc import Awaitable, Callable, Coroutine, Iterator
+from contextlib import contextmanager
 from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Any, TypeVar
 
-from tftool.errors import UsageError
+from tftool.cli.sharing import Choice, Mode, choice, open_link
+from tftool.errors import LinkError, UsageError
+from tftool.runtime import clock as clocks
 from tftool.runtime.clock import Clock, Phase, WallClock, run
 from tftool.runtime.supervisor import live
 from tftool.runtime.world import World
@@ -19,6 +22,8 @@ from tftool.stamps import Duration, Stamp, as_seconds, seconds
 from tftool.views.escaping import visible
 
 if TYPE_CHECKING:
+    from tftool.link.session import Link
+    from tftool.runtime.log import LogRecord
     from tftool.scenario.schema import NodeEntry, Scenario
 
 T = TypeVar("T")
@@ -28,6 +33,10 @@ HOME = "turtles"
 
 HEAD_START = seconds(3)
 """How long a hosted world has lived when its command first looks: both turtles are there."""
+
+
+CACHE_TIME = seconds(10)
+"""How far back the buffer of a joined world remembers; tf2's own figure."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -41,6 +50,7 @@ class Session:
         live: Lives the world through, for ever or until a moment.
         head_start: How much of it is lived through before work begins.
         duration: How long its scenario lasts; None where nothing says so.
+        link: What joins it to other processes; None for a world on its own.
     """
 
     world: World
@@ -49,6 +59,7 @@ class Session:
     live: Callable[[Stamp | None], Awaitable[None]]
     head_start: Duration = 0
     duration: Duration | None = None
+    link: "Link | None" = None
 
     def run(self, work: Coroutine[Any, Any, T]) -> T:
         """Do some work while the world lives, on the world's clock.
@@ -89,6 +100,7 @@ class Session:
 
     async def along(self, work: Coroutine[Any, Any, T]) -> T:
         """The same inside a running loop, for those who bring their own."""
+        stop_telling = self.world.log.listen(_tell)
         living = asyncio.ensure_future(self.live(None))
         working = asyncio.ensure_future(self._after_head_start(work))
         both = {living, working}
@@ -102,6 +114,7 @@ class Session:
             for task in both:
                 task.cancel()
             await asyncio.gather(*both, return_exceptions=True)
+            stop_telling()
 
     async def lasting(self, duration: Duration | None) -> None:
         """Do nothing for so long, in nanoseconds; for ever if None."""
@@ -124,6 +137,7 @@ def open_session(
     head_start: Duration = HEAD_START,
     cache_time: Duration | None = None,
     without: Callable[["NodeEntry"], bool] | None = None,
+    needs_turtles: bool = False,
 ) -> Session:
     """Give the world a command works in, and say so on stderr when it had to be made.
 
@@ -131,13 +145,95 @@ def open_session(
         source: A scenario, by its built-in name or its file; None for the session that runs.
         clock: What a hosted world lives by, from its beginning on; None for the wall clock.
         head_start: How much of a hosted world on the wall clock is lived through at once.
-        cache_time: How far back a hosted world's buffer remembers, in place of the
-            scenario's own.
+        cache_time: How far back the world's buffer remembers, in place of the scenario's own.
         without: Says which of a hosted scenario's nodes to leave out.
+        needs_turtles: Whether only a session with a turtle simulator will do.
 
     Raises:
         InputError: If there is no such scenario, or it cannot be read.
+        LinkError: If a session was asked for and there is none.
     """
+    link = None
+    if clock is None:
+        joined, link = _look_around(source, needs_turtles, cache_time)
+        if joined is not None:
+            return joined
+    try:
+        return _hosted(source, clock, head_start, cache_time, without, link)
+    except BaseException:
+        if link is not None:
+            link.close()
+        raise
+
+
+def join_session(
+    *, needs_turtles: bool = False, cache_time: Duration | None = None
+) -> Session | None:
+    """Give the world of the session that runs here; None where none does.
+
+    For commands that host on simulated time: nothing is opened for others to join.
+
+    Raises:
+        LinkError: If a session was asked for and there is none.
+    """
+    chosen = choice()
+    if chosen.mode is Mode.HOST or (not chosen.is_asked_for and not _somebody_is_here(chosen)):
+        return None
+    joined, link = _look_around(None, needs_turtles, cache_time)
+    if link is not None:
+        link.close()
+    return joined
+
+
+def open_empty_session(clock: Clock | None = None) -> Session:
+    """Give a world with nothing in it to whoever brings all there is to it; others see it."""
+    world = World(clock or WallClock())
+    link = _open_link(choice()) if _is_real(world.clock) else None
+    return Session(world, True, "an empty world", _lived(world, link), link=link)
+
+
+def _look_around(
+    source: str | None, needs_turtles: bool, cache_time: Duration | None
+) -> tuple[Session | None, "Link | None"]:
+    """Join what runs here; else give the link by which a host lets others in."""
+    chosen = choice()
+    if source is not None and chosen.mode is Mode.JOIN:
+        raise UsageError(f"'{source}' is always hosted: leave out --join, or the name.")
+    link = _open_link(chosen)
+    if link is None:
+        return None, None
+    there = not link.graph.is_empty
+    if source is None and chosen.mode is not Mode.HOST:
+        if there and (not needs_turtles or _has_turtles(link)):
+            world = World(WallClock(), cache_time=cache_time or CACHE_TIME)
+            name = _name_of(link)
+            notice(f"Joined {name}.")
+            return Session(world, False, name, _lived(world, link), link=link), None
+        if chosen.mode is Mode.JOIN or chosen.read_only:
+            link.close()
+            what = "session with turtles" if there else "session"
+            raise LinkError(
+                f"No {what} is running in domain {chosen.domain}: start one with 'tftool demo', "
+                "or leave out the option to host one here."
+            )
+    elif there:
+        link.close()
+        notice(
+            f"A session is running here, {_name_of(link)}; this world keeps to itself "
+            "(--domain N would give it a session of its own)."
+        )
+        return None, None
+    return None, link
+
+
+def _hosted(
+    source: str | None,
+    clock: Clock | None,
+    head_start: Duration,
+    cache_time: Duration | None,
+    without: Callable[["NodeEntry"], bool] | None,
+    link: "Link | None",
+) -> Session:
     from tftool.scenario.builtin import find
     from tftool.scenario.load import load
     from tftool.scenario.play import build
@@ -152,21 +248,98 @@ def open_session(
     play = build(scenario, clock)
 
     async def alive(until: Stamp | None) -> None:
-        # People look for as long as they like, whatever the scenario's duration.
-        await play.live(until, endless=until is None)
+        with shared(link, play.world, is_host=True):
+            # People look for as long as they like, whatever the scenario's duration.
+            await play.live(until, endless=until is None)
 
     name = f"scenario '{visible(scenario.name)}'"
-    return Session(play.world, True, name, alive, head_start, scenario.duration)
+    return Session(play.world, True, name, alive, head_start, scenario.duration, link)
 
 
-def open_empty_session(clock: Clock | None = None) -> Session:
-    """Give a world with nothing in it to whoever brings all there is to it."""
-    world = World(clock or WallClock())
+def host_link(source: str) -> "Link | None":
+    """The link by which the host of `source` lets others in; None when it keeps to itself.
 
+    Raises:
+        LinkError: If a link was asked for and cannot be opened.
+        UsageError: If it was told to join: what is named is hosted.
+    """
+    return _look_around(source, False, None)[1]
+
+
+@contextmanager
+def shared(link: "Link | None", world: World, *, is_host: bool) -> Iterator[None]:
+    """Let others share a world for as long as this lasts; call inside its loop."""
+    if link is None:
+        yield
+        return
+    try:
+        link.attach(world, is_host=is_host)
+        yield
+    finally:
+        link.close()
+
+
+def _lived(
+    world: World, link: "Link | None", *, is_host: bool = False
+) -> Callable[[Stamp | None], Awaitable[None]]:
     async def alive(until: Stamp | None) -> None:
-        await live(world, until=until)
+        with shared(link, world, is_host=is_host):
+            await live(world, until=until)
 
-    return Session(world, True, "an empty world", alive)
+    return alive
+
+
+def _open_link(chosen: Choice) -> "Link | None":
+    """Open the link; a place that has none can still host, and says why it is alone.
+
+    Raises:
+        LinkError: If something was asked for that only a link can give.
+    """
+    if not _is_real(WallClock()):
+        return None
+    try:
+        return open_link()
+    except LinkError as error:
+        if chosen.is_asked_for:
+            raise
+        notice(f"Nobody can join this world: {visible(str(error))}.")
+        return None
+
+
+def _somebody_is_here(chosen: Choice) -> bool:
+    """Whether some process of this machine waits to be joined, without opening anything."""
+    from tftool.link.rendezvous import is_anybody_there
+
+    return is_anybody_there(chosen.domain)
+
+
+def _has_turtles(link: "Link") -> bool:
+    from tftool.link.graph import hosts
+
+    # A host that has only just begun has no turtles yet, and will have some.
+    return bool(hosts(link.graph.processes()) or link.graph.entities("SS", name="spawn"))
+
+
+def _is_real(clock: Clock) -> bool:
+    """Whether a clock's time is that of other processes too."""
+    return isinstance(clock, clocks.WallClock)
+
+
+def _name_of(link: "Link") -> str:
+    from tftool.link.graph import hosts
+
+    processes = link.graph.processes()
+    first = next(iter(hosts(processes) or processes), None)
+    if first is not None:
+        return f"the session of {visible(str(first))}"
+    nodes = sorted({one.node for one in link.graph.entities("NN")})
+    return f"the session of ROS node '{visible(nodes[0])}'" if nodes else "a session"
+
+
+def _tell(record: "LogRecord") -> None:
+    """Tell the user what the link has to say."""
+    if record.node == "link" and record.level == "WARN":
+        notice(visible(record.text))
 
 
 def notice(sentence: str) -> None:

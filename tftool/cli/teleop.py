@@ -48,7 +48,7 @@ def teleop(
 
     from tftool.screens.setting import Setting
 
-    session = open_session()
+    session = open_session(needs_turtles=True)
     driver = driver_of(session.world, turtle)
     # Said before the screen is taken, so that it can be read after it is given back too.
     sys.stdout.write("\n".join(BANNER) + "\n")

@@ -12,6 +12,8 @@ from tftool.errors import InputError, UsageError
 from tftool.stamps import Duration, seconds
 
 if TYPE_CHECKING:
+    from collections.abc import Callable
+
     from tftool.cli.session import Session
     from tftool.frames.sample import Snapshot
 
@@ -38,6 +40,9 @@ TEXTS = {
 
 LISTEN = 5.0
 """Seconds a scenario is played before its frames are shown, as view_frames listens."""
+
+LISTEN_LIVE = 2.0
+"""Seconds a session that runs is listened to: enough for a rate."""
 
 
 def tree(
@@ -79,7 +84,7 @@ def tree(
     tftool tree robot -o robot.svg
     tftool tree --watch
     """
-    from tftool.cli.session import open_session
+    from tftool.cli.session import join_session, open_session
     from tftool.runtime.clock import SimClock
 
     form = form or _form_of(output)
@@ -87,10 +92,18 @@ def tree(
     if watch:
         if form is not Format.tree or output is not None or at is not None:
             raise UsageError("--watch draws on the terminal: leave out --format, -o and --at.")
-        _watch(open_session(place, cache_time=cache), None if run_for is None else seconds(run_for))
+        _watch(
+            lambda: open_session(place, cache_time=cache),
+            None if run_for is None else seconds(run_for),
+        )
         return
     if run_for is not None:
         raise UsageError("--for goes with --watch; without it the tree is written once.")
+    joined = None if place is not None or at is not None else join_session(cache_time=cache)
+    if joined is not None:
+        joined.run(joined.lasting(seconds(LISTEN_LIVE)))
+        _write(joined.world.buffer.snapshot(joined.world.clock.now()), form, output)
+        return
     clock = SimClock()
     session = open_session(place, clock=clock, cache_time=cache)
     session.live_until(session.moment(seconds(LISTEN if at is None else at)))
@@ -171,7 +184,7 @@ def _drawn(snapshot: "Snapshot", *, to_file: bool) -> str:
     return capture.get()
 
 
-def _watch(session: "Session", duration: Duration | None) -> None:
+def _watch(open_session: "Callable[[], Session]", duration: Duration | None) -> None:
     from rich.console import Console
     from rich.live import Live
 
@@ -181,6 +194,7 @@ def _watch(session: "Session", duration: Duration | None) -> None:
     console = Console()
     if not console.is_terminal:
         raise UsageError("--watch needs a terminal; without it the tree is written once.")
+    session = open_session()
     world = session.world
 
     async def draw() -> None:

@@ -34,8 +34,6 @@ _STAMP: Final = struct.Struct("<iI")
 _LONGEST_NAME_KEPT: Final = 256
 _NAMES_KEPT: Final = 4096
 
-_transform = Transform._make
-
 # Names repeat in every message: their bytes are turned into text once. Emptied when
 # full, so that a stranger with ever new names cannot make it grow.
 _names: dict[bytes, str] = {}
@@ -83,6 +81,7 @@ def decode_transforms(payload: bytes) -> tuple[TransformStamped, ...]:
     size = len(payload)
     position = 8
     found = []
+    new = tuple.__new__
     try:
         for _ in range(count):
             sec, nanosec, length = _STAMP_AND_LENGTH.unpack_from(payload, position)
@@ -108,17 +107,13 @@ def decode_transforms(payload: bytes) -> tuple[TransformStamped, ...]:
             # To the grid of 8 that starts behind the header.
             position = ((end + 3) & ~7) + 4
 
-            x, y, z, qx, qy, qz, qw = _SEVEN.unpack_from(payload, position)
+            seven = _SEVEN.unpack_from(payload, position)
             position += 56
-            found.append(
-                TransformStamped(
-                    sec * NANOSECONDS + nanosec,
-                    parent,
-                    child,
-                    # As they are: seven doubles need no conversion, and the buffer judges them.
-                    _transform((Vector3(x, y, z), Quaternion(qx, qy, qz, qw))),
-                )
-            )
+            # Made as plain tuples are, past the constructors: seven doubles need no
+            # conversion, and the buffer judges them.
+            pose = new(Transform, (new(Vector3, seven[:3]), new(Quaternion, seven[3:])))
+            stamp = sec * NANOSECONDS + nanosec
+            found.append(new(TransformStamped, (stamp, parent, child, pose)))
     except struct.error as error:
         raise MalformedMessage(
             "tf2_msgs/TFMessage", f"it ends within transform {len(found) + 1} of {count}"

@@ -48,6 +48,14 @@ def folder(environment: Mapping[str, str] = os.environ) -> Path:
     return Path(tempfile.gettempdir()) / f"tftool-{owner}"
 
 
+def is_anybody_there(domain: int, home: Path | None = None) -> bool:
+    """Whether some process waits to be joined; looks without touching anything."""
+    place = (folder() if home is None else home) / str(domain)
+    with contextlib.suppress(OSError):
+        return next(_living(place, sweep=False), None) is not None
+    return False
+
+
 class Rendezvous:
     """One process's place among the others of its machine and domain.
 
@@ -77,7 +85,7 @@ class Rendezvous:
         _make_private(self.folder)
         try:
             self._take_lock()
-            self.others = tuple(self._living())
+            self.others = tuple(_living(self.folder))
             self.endpoint = self._place()
         except OSError as error:
             self.settle()
@@ -130,19 +138,21 @@ class Rendezvous:
         (self.folder / f"{self._name}.port").write_text(str(port))
         return f"tcp/127.0.0.1:{port}"
 
-    def _living(self) -> Iterator[str]:
-        for path in sorted(self.folder.iterdir()):
-            if path.suffix == ".sock":
-                if HAS_UNIX_SOCKETS and _answers(socket.AF_UNIX, str(path)):
-                    yield f"unixsock-stream/{path}"
-                else:
-                    _sweep(path, path.with_name(f"{path.name}.lock"))
-            elif path.suffix == ".port":
-                port = _port_in(path)
-                if port and _answers(socket.AF_INET, ("127.0.0.1", port)):
-                    yield f"tcp/127.0.0.1:{port}"
-                else:
-                    _sweep(path)
+
+def _living(folder: Path, *, sweep: bool = True) -> Iterator[str]:
+    """Endpoints of those who answer; files of those who do not are swept away."""
+    for path in sorted(folder.iterdir()):
+        if path.suffix == ".sock":
+            if HAS_UNIX_SOCKETS and _answers(socket.AF_UNIX, str(path)):
+                yield f"unixsock-stream/{path}"
+            elif sweep:
+                _sweep(path, path.with_name(f"{path.name}.lock"))
+        elif path.suffix == ".port":
+            port = _port_in(path)
+            if port and _answers(socket.AF_INET, ("127.0.0.1", port)):
+                yield f"tcp/127.0.0.1:{port}"
+            elif sweep:
+                _sweep(path)
 
 
 def _make_private(path: Path) -> None:

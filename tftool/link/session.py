@@ -33,7 +33,10 @@ NAME: Final = "link"
 REACHING: Final = 3.0
 """Seconds to wait for somebody at the other end of `connect`."""
 
-_STEP = 0.02
+NEARBY: Final = 1.0
+"""Seconds to wait for the processes of this machine."""
+
+_STEP = 0.005
 _PLAIN = re.compile(r"[A-Za-z_][A-Za-z0-9_]*(/[A-Za-z_][A-Za-z0-9_]*)*", re.ASCII)
 
 
@@ -382,20 +385,26 @@ class Link:
 
     def _reach_out(self, others: int) -> None:
         """Wait until somebody is there, where somebody should be."""
+        # zenoh itself gives up waiting early, and a busy machine is slow to say hello: who
+        # took that for nobody would host a second world. A stopped process never says it.
+        self._await_neighbours(others, NEARBY)
         reach = self.options.reach
-        if not reach.connect and reach.config is None:
-            return
-        pause = threading.Event()
-        for _ in range(round(REACHING / _STEP)):
-            if self.wire.neighbours > others:
-                return
-            pause.wait(_STEP)
-        if self.wire.neighbours <= others and reach.connect:
+        if reach.config is not None:
+            self._await_neighbours(1, NEARBY)
+        elif reach.connect and not self._await_neighbours(others + 1, REACHING):
             self.close_quietly()
             raise LinkError(
                 f"nobody answers at {', '.join(reach.connect)} within {REACHING:g} s; "
                 "is the other side running, and reachable from here?"
             )
+
+    def _await_neighbours(self, count: int, patience: float) -> bool:
+        pause = threading.Event()
+        for _ in range(round(patience / _STEP)):
+            if self.wire.neighbours >= count:
+                return True
+            pause.wait(_STEP)
+        return self.wire.neighbours >= count
 
     def close_quietly(self) -> None:
         """Give up while opening."""

@@ -25,6 +25,7 @@ MOST_BYTES = 256 * 1024 * 1024
 
 _SLICE = 200
 _CONGESTED = 1_000_000  # microseconds a sender waits for a reader that takes nothing
+_NEAR_HELLO, _FAR_HELLO = 1000, 5000  # milliseconds for two processes to get to know each other
 _SCOUTING_DELAY = 100  # milliseconds `open` waits at most for a peer that does not answer
 
 
@@ -426,6 +427,9 @@ def settings(reach: Reach, endpoint: str, others: tuple[str, ...]) -> dict[str, 
         # Latched messages are told apart by their time.
         "timestamping/enabled": True,
         "transport/shared_memory/enabled": False,
+        # A stopped process takes a connection and never speaks: closing would wait for it.
+        "transport/unicast/open_timeout": _FAR_HELLO if outward else _NEAR_HELLO,
+        "transport/unicast/accept_timeout": _FAR_HELLO if outward else _NEAR_HELLO,
         "transport/link/tx/queue/congestion_control/block/wait_before_close": _CONGESTED,
     }
     if reach.certificates is not None:

@@ -1,0 +1,93 @@
+"""Commands as processes of their own, and what they say."""
+
+import os
+import signal
+import subprocess
+import sys
+import threading
+from pathlib import Path
+
+ROOT = Path(__file__).parents[2]
+TRIES, PAUSE = 800, 0.025
+
+
+class Process:
+    """`tftool WORDS` in a process of its own; its stdout and stderr are collected."""
+
+    def __init__(self, *words, prefix=()):
+        self.lines = []
+        self.started = subprocess.Popen(
+            [*prefix, sys.executable, "-u", "-m", "tftool", *map(str, words)],
+            stdin=subprocess.DEVNULL,
+            stdout=subprocess.PIPE,
+            stderr=subprocess.STDOUT,
+            text=True,
+            cwd=ROOT,
+            env={**os.environ, "PYTHONPATH": str(ROOT)},
+        )
+        self._reader = threading.Thread(target=self._read, daemon=True)
+        self._reader.start()
+
+    def _read(self):
+        for line in self.started.stdout:
+            self.lines.append(line.rstrip("\n"))
+
+    @property
+    def pid(self):
+        return self.started.pid
+
+    @property
+    def text(self):
+        return "\n".join(self.lines)
+
+    def says(self, words, *, after=0, tries=TRIES):
+        """Wait until a line with `words` comes; give the number of lines up to it."""
+        for _ in range(tries):
+            for number, line in enumerate(self.lines[after:], after):
+                if words in line:
+                    return number + 1
+            if self.started.poll() is not None:
+                self._reader.join(5)
+                if not any(words in line for line in self.lines[after:]):
+                    break
+            threading.Event().wait(PAUSE)
+        raise AssertionError(
+            f"{self.started.args[3:]} never said {words!r} (status {self.started.poll()}); "
+            f"it said:\n{self.text}"
+        )
+
+    def kill(self):
+        self.started.kill()
+        return self.end()
+
+    def interrupt(self):
+        self.started.send_signal(signal.SIGINT)
+        return self.end()
+
+    def end(self):
+        status = self.started.wait(20)
+        self._reader.join(5)
+        self.started.stdout.close()
+        return status
+
+    def __enter__(self):
+        return self
+
+    def __exit__(self, *error):
+        if self.started.poll() is None:
+            self.kill()
+        elif not self.started.stdout.closed:
+            self.end()
+
+
+def run(*words):
+    """Run `tftool WORDS` to its end."""
+    return subprocess.run(
+        [sys.executable, "-m", "tftool", *map(str, words)],
+        stdin=subprocess.DEVNULL,
+        capture_output=True,
+        text=True,
+        cwd=ROOT,
+        timeout=60,
+        check=False,
+    )

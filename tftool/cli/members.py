@@ -1,0 +1,148 @@
+"""`tftool session`: who is there, what they publish, how often, since when."""
+
+import sys
+from typing import TYPE_CHECKING, Annotated, Any
+
+import typer
+
+from tftool.cli.options import ForPrograms, positive
+from tftool.stamps import as_seconds, seconds
+
+if TYPE_CHECKING:
+    from tftool.link.session import Link
+
+
+def session(
+    listen_for: Annotated[
+        float,
+        typer.Option(
+            "--for", metavar="SECONDS", callback=positive, help="How long to listen for rates."
+        ),
+    ] = 1.0,
+    for_programs: ForPrograms = False,
+) -> None:
+    """Show who shares the session that runs here (ros2 node list, ros2 topic list and hz).
+
+    Every process of tftool, its command and since when it is there; every node; every
+    topic and how often something comes in on it; every service.
+
+    tftool session
+    tftool session --connect tcp/localhost:7447
+    """
+    import json
+
+    from tftool.cli.session import notice
+    from tftool.cli.sharing import choice, open_link
+    from tftool.errors import UsageError
+
+    if choice().mode.name == "HOST":
+        raise UsageError("session lists who is there: it has nothing to --host.")
+    link = open_link()
+    if link.graph.is_empty:
+        notice(f"Nobody is here in domain {choice().domain}: start 'tftool demo', for example.")
+    found = _listened(link, listen_for)
+    sys.stdout.write((json.dumps(found) if for_programs else _written(found)) + "\n")
+
+
+def _listened(link: "Link", duration: float) -> dict[str, Any]:
+    """Everything that is known of a session after listening for a while."""
+    import asyncio
+
+    from tftool.link import keys
+    from tftool.link.transport import Arrived
+    from tftool.runtime.clock import WallClock, run
+
+    counts: dict[str, int] = {}
+    clock = WallClock()
+
+    def count(name: str) -> Any:
+        def heard(_: Arrived) -> None:
+            counts[name] = counts.get(name, 0) + 1
+
+        return heard
+
+    async def listen() -> None:
+        link.wire.start(asyncio.get_running_loop())
+        for name, ros_type in {
+            (one.name, one.ros_type) for one in link.graph.entities(keys.PUBLISHER)
+        }:
+            key = keys.any_hash_key(link.options.domain, name, ros_type)
+            link.wire.subscriber(key, count(name))
+        link.settle()
+        await clock.sleep(seconds(duration))
+
+    if not link.graph.is_empty:
+        run(clock, listen())
+    graph = link.graph
+    topics: dict[str, dict[str, Any]] = {}
+    for one in graph.entities(keys.PUBLISHER, keys.SUBSCRIBER):
+        topic = topics.setdefault(
+            one.name, {"type": one.ros_type, "publishers": [], "subscribers": [], "rate": 0.0}
+        )
+        topic["publishers" if one.kind == keys.PUBLISHER else "subscribers"].append(one.node)
+        topic["rate"] = counts.get(one.name, 0) / duration
+    for topic in topics.values():
+        topic["publishers"].sort()
+        topic["subscribers"].sort()
+    return {
+        "domain": link.options.domain,
+        "processes": [
+            {
+                "command": one.command,
+                "pid": one.pid,
+                "host": one.is_host,
+                "since": as_seconds(one.since),
+                "nodes": sorted(
+                    {each.node for each in graph.entities("NN") if each.session == one.session}
+                ),
+            }
+            for one in graph.processes()
+        ],
+        "nodes": sorted({one.node for one in graph.entities("NN")}),
+        "topics": {name: topics[name] for name in sorted(topics)},
+        "services": {
+            one.name: {"type": one.ros_type, "node": one.node}
+            for one in sorted(graph.entities(keys.SERVER), key=lambda one: one.name)
+        },
+    }
+
+
+def _written(found: dict[str, Any]) -> str:
+    """Say it to a person; names come from strangers and are made harmless."""
+    from datetime import datetime
+
+    from tftool.views.escaping import visible
+
+    lines = [f"Processes ({len(found['processes'])})"]
+    for one in found["processes"]:
+        since = datetime.fromtimestamp(one["since"]).strftime("%H:%M:%S")
+        nodes = ", ".join(visible(node) for node in one["nodes"]) or "no nodes"
+        role = "hosts" if one["host"] else "joined"
+        lines.append(
+            f"  tftool {visible(one['command'])}, process {one['pid']}, {role}, "
+            f"since {since}: {nodes}"
+        )
+    ours = {node for one in found["processes"] for node in one["nodes"]}
+    others = [node for node in found["nodes"] if node not in ours]
+    if others:
+        lines.append(f"Other nodes ({len(others)})")
+        lines += [f"  {visible(node)}" for node in others]
+    lines.append(f"Topics ({len(found['topics'])})")
+    width = max((len(visible(name)) for name in found["topics"]), default=0)
+    for name, topic in found["topics"].items():
+        lines.append(
+            f"  {visible(name):{width}}  {topic['rate']:7.1f} Hz  {visible(topic['type'])}  "
+            f"from {_several(topic['publishers'])}, to {_several(topic['subscribers'])}"
+        )
+    lines.append(f"Services ({len(found['services'])})")
+    lines += [
+        f"  {visible(name)}  {visible(service['type'])}"
+        for name, service in found["services"].items()
+    ]
+    return "\n".join(lines)
+
+
+def _several(nodes: list[str]) -> str:
+    from tftool.views.escaping import visible
+
+    return ", ".join(visible(node) for node in sorted(set(nodes))) or "nobody"
