@@ -31,6 +31,7 @@ FLAGS = [
     "--disable-dev-shm-usage",
     "--use-angle=swiftshader",  # three.js draws without a graphics card
     "--enable-unsafe-swiftshader",
+    "--disable-gpu",
     "--window-size=1280,800",
     "--hide-scrollbars",
     # Every window draws, whether or not another one lies over it.
@@ -460,7 +461,7 @@ def test_thousands_of_frames_are_answered_and_what_is_left_out_is_said(chromium,
     reason="the README's picture is there; TFTOOL_PICTURES=1 makes it anew",
 )
 def test_the_readmes_picture_is_made_from_the_page_as_it_is(chromium):
-    chromium.set_window_size(1280, 960)
+    chromium.set_window_size(1280, 984)
     with Stage(scenario="robot", lived=20.0) as stage:
         page = Page(
             chromium,

@@ -12,11 +12,11 @@ import {
   Matrix4,
   MeshLambertMaterial,
   MOUSE,
+  OctahedronGeometry,
   OrthographicCamera,
   PerspectiveCamera,
   Quaternion,
   Scene,
-  SphereGeometry,
   TOUCH,
   Vector3,
   WebGLRenderer,
@@ -92,6 +92,7 @@ export class Stage {
     this.controls.top.mouseButtons = { LEFT: MOUSE.PAN, MIDDLE: MOUSE.DOLLY, RIGHT: MOUSE.PAN };
     this.controls.top.touches = { ONE: TOUCH.PAN, TWO: TOUCH.DOLLY_PAN };
     this.capacity = 0;
+    this.signs = new Map(); // names as they were painted
     this.changed = () => {}; // the camera has moved
     this.taken = () => {}; // somebody took the camera
     this.view = "top";
@@ -110,6 +111,7 @@ export class Stage {
 
   setTheme(name) {
     this.theme = THEMES[name];
+    this.signs.clear();
     this.gridSize = 0;
     this.changed();
   }
@@ -195,7 +197,7 @@ export class Stage {
       mesh.material.dispose();
       mesh.dispose();
     }
-    const rod = () => new CylinderGeometry(1, 1, 1, 10).translate(0, 0.5, 0);
+    const rod = () => new CylinderGeometry(1, 1, 1, 8).translate(0, 0.5, 0);
     const make = (geometry, color) => {
       const material = new MeshLambertMaterial({ transparent: true });
       const mesh = fading(new InstancedMesh(geometry, material, this.capacity));
@@ -211,9 +213,9 @@ export class Stage {
       make(rod().rotateZ(-Math.PI / 2), AXES[0]),
       make(rod(), AXES[1]),
       make(rod().rotateX(Math.PI / 2), AXES[2]),
-      make(new SphereGeometry(1, 12, 8), "#e9edf3"),
-      make(rod(), SHAFT),
-      make(new ConeGeometry(1, 1, 12).translate(0, 0.5, 0), HEAD),
+      make(new OctahedronGeometry(1, 1), "#e9edf3"),
+      make(new CylinderGeometry(1, 1, 1, 6, 1, true).translate(0, 0.5, 0), SHAFT),
+      make(new ConeGeometry(1, 1, 10).translate(0, 0.5, 0), HEAD),
     ];
   }
 
@@ -307,12 +309,14 @@ export class Stage {
     return [((point.x + 1) / 2) * this.width, ((1 - point.y) / 2) * this.height];
   }
 
-  /** The background and the trails: [{points, color}, …]. */
+  /** The trails: [{points, color}, …]. */
   drawUnder(trails) {
+    // A layer less to put together while there is nothing on it.
+    this.under.hidden = !trails.length;
+    if (!trails.length) return;
     const pen = this.under.getContext("2d");
     pen.setTransform(this.ratio, 0, 0, this.ratio, 0, 0);
-    pen.fillStyle = this.theme.background;
-    pen.fillRect(0, 0, this.width, this.height);
+    pen.clearRect(0, 0, this.width, this.height);
     pen.lineCap = pen.lineJoin = "round";
     pen.lineWidth = 2.2;
     for (const { points, color } of trails) {
@@ -368,18 +372,14 @@ export class Stage {
         pen.stroke();
       }
     }
-    pen.font = "600 12px system-ui, -apple-system, 'Segoe UI', Roboto, 'DejaVu Sans', sans-serif";
-    pen.textAlign = "center";
-    pen.textBaseline = "top";
-    pen.lineJoin = "round";
     const taken = new Set();
     for (const { name, pose, alpha, grey, first } of labels) {
       const spot = this.project(pose[0], pose[1], pose[2]);
       if (!spot || spot[0] < -200 || spot[0] > this.width + 200 || spot[1] < -40 || spot[1] > this.height + 40) continue;
-      const text = name.length > 48 ? `${name.slice(0, 30)}…${name.slice(-16)}` : name;
+      const sign = this.sign(name, first ? this.theme.accent : this.theme.text);
       const y = spot[1] + 10;
       // One name per patch of the picture: a heap of names says nothing.
-      const half = pen.measureText(text).width / 2;
+      const half = sign.width / this.ratio / 2;
       const cells = [];
       for (let x = Math.floor((spot[0] - half) / 16); x <= Math.floor((spot[0] + half) / 16); x++) {
         for (let row = Math.floor(y / 7); row <= Math.floor((y + 12) / 7); row++) cells.push(`${x},${row}`);
@@ -387,13 +387,35 @@ export class Stage {
       if (!first && cells.some((cell) => taken.has(cell))) continue;
       cells.forEach((cell) => taken.add(cell));
       pen.globalAlpha = alpha * (1 - 0.4 * grey);
-      pen.strokeStyle = this.theme.halo;
-      pen.lineWidth = 4;
-      pen.strokeText(text, spot[0], y);
-      pen.fillStyle = first ? this.theme.accent : this.theme.text;
-      pen.fillText(text, spot[0], y);
+      pen.drawImage(sign, Math.round(spot[0] - half), Math.round(y - 3), 2 * half, sign.height / this.ratio);
     }
     pen.globalAlpha = 1;
+  }
+
+  /** A name painted once, to be put down in every picture: outlines of letters are costly. */
+  sign(name, color) {
+    const key = `${this.ratio} ${color} ${name}`;
+    const known = this.signs.get(key);
+    if (known) return known;
+    const text = name.length > 48 ? `${name.slice(0, 30)}…${name.slice(-16)}` : name;
+    const font = "600 12px system-ui, -apple-system, 'Segoe UI', Roboto, 'DejaVu Sans', sans-serif";
+    const sheet = document.createElement("canvas");
+    const pen = sheet.getContext("2d");
+    pen.font = font;
+    sheet.width = Math.ceil((pen.measureText(text).width + 8) * this.ratio);
+    sheet.height = Math.ceil(22 * this.ratio);
+    pen.scale(this.ratio, this.ratio);
+    pen.font = font; // a new size forgets it
+    pen.textBaseline = "top";
+    pen.lineJoin = "round";
+    pen.lineWidth = 4;
+    pen.strokeStyle = this.theme.halo;
+    pen.strokeText(text, 4, 3);
+    pen.fillStyle = color;
+    pen.fillText(text, 4, 3);
+    if (this.signs.size > 5000) this.signs.clear();
+    this.signs.set(key, sheet);
+    return sheet;
   }
 
   /** Everything visible, as one canvas. Call in the same task as `draw`. */
@@ -402,7 +424,11 @@ export class Stage {
     sheet.width = this.under.width;
     sheet.height = this.under.height;
     const pen = sheet.getContext("2d");
-    for (const layer of [this.under, this.main, this.over]) pen.drawImage(layer, 0, 0, sheet.width, sheet.height);
+    pen.fillStyle = this.theme.background;
+    pen.fillRect(0, 0, sheet.width, sheet.height);
+    for (const layer of [this.under, this.main, this.over]) {
+      if (!layer.hidden) pen.drawImage(layer, 0, 0, sheet.width, sheet.height);
+    }
     return sheet;
   }
 }
