@@ -1,7 +1,7 @@
 import math
 
 import pytest
-from hypothesis import given, settings
+from hypothesis import example, given, settings
 from hypothesis import strategies as st
 
 from tftool.messages import Color
@@ -89,6 +89,7 @@ def test_exactly_the_pixels_on_the_stroke_are_painted(ends, width):
                 assert (column, row) not in found
 
 
+@example(0.0, -4.9279690377879096e16, 0.0, 0.0, 231)
 @given(far, far, far, far, st.integers(1, 255))
 def test_strokes_that_leave_the_field_are_cut_off_quietly(x0, y0, x1, y1, width):
     trail = Trail()

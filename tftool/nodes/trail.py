@@ -112,8 +112,9 @@ class _Pixels:
                 self._fill(_nearest(y), _nearest(x), _nearest(x), number)
 
     def _fill(self, row: int, left: float, right: float, number: int) -> None:
-        first = math.ceil(max(left, 0.0))
-        last = math.floor(min(right, WINDOW - 1.0))
+        # Held to the layer on both sides first: an empty range is (inf, -inf).
+        first = math.ceil(min(max(left, 0.0), float(WINDOW)))
+        last = math.floor(max(min(right, WINDOW - 1.0), -1.0))
         if first > last or not 0 <= row < WINDOW:
             return
         pixels = self._rows[row]
