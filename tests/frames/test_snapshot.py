@@ -136,3 +136,21 @@ def test_a_sender_without_a_name_is_written_as_none(buffer):
 
     assert "broadcaster: 'no recorded authority'" in anonymous.all_frames_as_yaml()
     assert "Broadcaster: no recorded authority" in anonymous.all_frames_as_dot()
+
+
+def test_a_child_that_moved_to_another_tree_too_lately_has_no_place_in_it_yet():
+    buffer = Buffer()
+
+    def put(parent, child, at):
+        sample = TransformStamped(seconds(at), parent, child, Transform((1.0, 0.0, 0.0)))
+        buffer.set_transform(sample, "node")
+
+    put("b", "b2", 1)
+    put("a", "c", 1)
+    put("b2", "c", 2)
+
+    # The new chain has data until 1 s only, and then it hung from a.
+    moved = buffer.snapshot(now=0).frame("c")
+    assert (moved.parent, moved.root) == ("b2", "b")
+    assert moved.root_from_frame is None
+    assert not buffer.can_transform("b", "c")

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Literal
 from tftool.errors import TransformException
 from tftool.frames import export, names, refusals, sweep, velocity
 from tftool.frames.forest import Forest
-from tftool.frames.history import RESHAPED, TOO_OLD, Sample
+from tftool.frames.history import RESHAPED, STORED, TOO_OLD, Sample
 from tftool.frames.lookups import Lookups
 from tftool.frames.plans import Plan
 from tftool.frames.requests import NEVER, Callback, Requests
@@ -65,10 +65,12 @@ class Buffer:
         self.max_frames = max_frames
         self._log = log or refusals.log_to_logging
         self._forest = Forest(cache_time)
+        self._moving = self._forest.moving
         self._lookups = Lookups(self._forest, cache_time)
-        # The same dictionary, one step nearer: most lookups need nothing else.
+
         self._plans = self._lookups.plans
         self._requests = Requests(self._lookups.examine)
+        self._pending = self._requests.pending
         self._listeners: tuple[Listener, ...] = ()
 
     # Setting
@@ -87,41 +89,37 @@ class Buffer:
         Raises:
             TypeError: If the stamp is not a whole number.
         """
-        stamp, parent, child, pose = transform
-        x, y, z, qx, qy, qz, qw = pose[0] + pose[1]
-        frame = self._forest.children.get(child)
-        off = qx * qx + qy * qy + qz * qz + qw * qw - 1.0
-        total = x + y + z
+        # By index: to unpack a named tuple takes twice the time.
+        stamp, parent, child, pose = transform[0], transform[1], transform[2], transform[3]
+        x, y, z, qx, qy, qz, qw = sample = pose[0] + pose[1]
+        frame = self._moving.get(child)
+        # How far the quaternion is from length one; NaN if a number is not finite.
+        off = qx * qx + qy * qy + qz * qz + qw * qw - 1.0 + 0.0 * (x + y + z)
         if (
             frame is None
             or frame.parent_name != parent
             or not -_EXACT < off < _EXACT
-            # NaN and, as its sum may be NaN too, infinity.
-            or total - total != 0.0
             or stamp.__class__ is not int
         ):
             return self._set_slowly(transform, authority, False)
-        link = frame.link
-        if link is None or link.is_static:
-            return self._set_slowly(transform, authority, False)
-        if qw * qw <= 0.25:
-            qx, qy, qz, qw = quaternions.canonical((qx, qy, qz, qw))
-        elif qw < 0.0:
-            qx, qy, qz, qw = -qx, -qy, -qz, -qw
-        sample = (x, y, z, qx, qy, qz, qw)
+        if qw < -0.5:
+            sample = (x, y, z, -qx, -qy, -qz, -qw)
+        elif qw <= 0.5:
+            sample = (x, y, z, *quaternions.canonical((qx, qy, qz, qw)))
         try:
-            outcome = link.insert(stamp, frame.parent_number, sample)
+            outcome = frame.history.insert(stamp, frame.parent_number, sample)
         except OverflowError:
             return self._set_slowly(transform, authority, False)
-        if outcome == TOO_OLD:
-            self._log("WARN", refusals.old_data(child, stamp, authority))
-            return False
+        if outcome != STORED:
+            if outcome == TOO_OLD:
+                self._log("WARN", refusals.old_data(child, stamp, authority))
+                return False
+            if outcome == RESHAPED:
+                self._lookups.drop_plans()
         frame.authority = authority
-        if outcome == RESHAPED:
-            self._lookups.drop_plans()
         if self._listeners:
             self._tell(sample, stamp, parent, child, authority, False)
-        if self._requests.pending:
+        if self._pending:
             self._requests.changed(child)
         return True
 
@@ -153,7 +151,7 @@ class Buffer:
 
         known = len(forest.frames)
         fresh = forest.hang(child, parent, static)
-        frame = forest.children[child]
+        frame = forest.frames[forest.numbers[child]]
         assert frame.link is not None
         sample = pose.translation + rotation
         outcome = frame.link.insert(stamp, frame.parent_number, sample)

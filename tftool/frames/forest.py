@@ -13,6 +13,9 @@ REFUSED = 2
 LOOP = 3
 
 
+_NONE = Constant()
+
+
 class Frame:
     """One named frame.
 
@@ -20,17 +23,19 @@ class Frame:
         name: Its name.
         number: Its place in the order of first registration.
         link: What it hangs by; None if nobody ever sent it.
+        history: The same, while that moves.
         authority: Who sent its newest sample; None if nobody ever did.
         parent_name: The name of the parent it was last sent with.
         parent_number: That parent's number.
     """
 
-    __slots__ = ("authority", "link", "name", "number", "parent_name", "parent_number")
+    __slots__ = ("authority", "history", "link", "name", "number", "parent_name", "parent_number")
 
     def __init__(self, name: str, number: int) -> None:
         self.name = name
         self.number = number
         self.link: Link | None = None
+        self.history: Link = _NONE
         self.authority: str | None = None
         self.parent_name: str = ""
         self.parent_number: int = NO_PARENT
@@ -78,16 +83,16 @@ class Forest:
     Attributes:
         frames: In the order in which they were first registered.
         numbers: Each frame's place in that order.
-        children: The frames that were ever sent, by name.
+        moving: The frames whose link moves, by name, for those who send them again.
     """
 
-    __slots__ = ("_limit", "children", "frames", "numbers")
+    __slots__ = ("_limit", "frames", "moving", "numbers")
 
     def __init__(self, limit: Duration) -> None:
         self._limit = limit
         self.frames: list[Frame] = []
         self.numbers: dict[str, int] = {}
-        self.children: dict[str, Frame] = {}
+        self.moving: dict[str, Frame] = {}
 
     # Growing
 
@@ -117,9 +122,12 @@ class Forest:
         frame = self.register(child)
         link = frame.link
         fresh = link is None or link.is_static != static
-        if fresh:
-            frame.link = Constant() if static else History(self._limit)
-            self.children[child] = frame
+        if fresh and static:
+            frame.link = Constant()
+            self.moving.pop(child, None)
+        elif fresh:
+            frame.link = frame.history = History(self._limit)
+            self.moving[child] = frame
         above = self.register(parent)
         frame.parent_name = above.name
         frame.parent_number = above.number

@@ -12,10 +12,13 @@ from bisect import bisect_left, bisect_right
 from math import acos, sin
 from typing import TypeAlias
 
+from tftool.geometry import quaternions
 from tftool.stamps import Duration, Stamp
 
 Sample: TypeAlias = tuple[float, float, float, float, float, float, float]
 """A pose: x, y, z in metres and a unit quaternion x, y, z, w of tf2's sign."""
+
+IDENTITY: Sample = (0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 1.0)
 
 Refusal: TypeAlias = tuple[int, Stamp]
 """Why a link has no pose at a moment: NO_DATA, FORWARD or BACKWARD, and the stamp it does have."""
@@ -56,19 +59,41 @@ class Link:
         newest_stamp: Stamp of the newest sample; 0 for a constant, and when there is none.
         oldest_stamp: Stamp of the oldest sample; 0 likewise.
         newest: The newest sample itself; None when there is none.
+        previous_stamp: Of a history with two samples or more, stamp of the last but one.
+        previous: That sample itself.
         parent: Number of the newest sample's parent; NO_PARENT when there is none.
         mixed: Whether samples with different parents are remembered.
+        stamps: Of a history, oldest first; some at the beginning may be forgotten ones.
+        samples: Of a history, seven numbers for each stamp.
+        pace: Samples a nanosecond, as last measured; where to look is guessed from it.
     """
 
-    __slots__ = ("is_static", "mixed", "newest", "newest_stamp", "oldest_stamp", "parent")
+    __slots__ = (
+        "is_static",
+        "mixed",
+        "newest",
+        "newest_stamp",
+        "oldest_stamp",
+        "pace",
+        "parent",
+        "previous",
+        "previous_stamp",
+        "samples",
+        "stamps",
+    )
 
     def __init__(self, is_static: bool) -> None:
         self.is_static: bool = is_static
         self.newest_stamp: Stamp = 0
         self.oldest_stamp: Stamp = 0
         self.newest: Sample | None = None
+        self.previous: Sample | None = None
+        self.previous_stamp: Stamp = 0
         self.parent: int = NO_PARENT
         self.mixed: bool = False
+        self.stamps: array[int] = array("q")
+        self.samples: array[float] = array("d")
+        self.pace: float = 0.0
 
     def __len__(self) -> int:
         raise NotImplementedError
@@ -95,6 +120,18 @@ class Link:
 
     def items(self) -> list[tuple[Stamp, int, Sample]]:
         """Every sample remembered, newest first: stamp, parent's number, pose."""
+        raise NotImplementedError
+
+    def exactly(self, time: Stamp) -> Sample | None:
+        """The pose at a moment that no two samples enclose."""
+        raise NotImplementedError
+
+    def index(self, time: Stamp) -> int:
+        """Where the last sample at or before a moment lies that two samples enclose."""
+        raise NotImplementedError
+
+    def parts(self, time: Stamp) -> bool:
+        """Whether the two samples that enclose a moment have different parents."""
         raise NotImplementedError
 
 
@@ -136,6 +173,10 @@ class Constant(Link):
         """The one sample, at stamp 0."""
         return [] if self.newest is None else [(0, self.parent, self.newest)]
 
+    def exactly(self, time: Stamp) -> Sample | None:
+        """The one pose."""
+        return self.newest
+
 
 class History(Link):
     """A link that moves: its samples of the last `limit` nanoseconds, as tf2 keeps them.
@@ -144,23 +185,21 @@ class History(Link):
     the last one inserted is the newest.
     """
 
-    __slots__ = ("_limit", "_pace", "_parents", "_run", "_samples", "_stamps", "_start")
+    __slots__ = ("_full", "_limit", "_parents", "_run", "_start")
 
     def __init__(self, limit: Duration) -> None:
         super().__init__(False)
         self._limit = limit
-        self._stamps: array[int] = array("q")
-        self._samples: array[float] = array("d")
         # One parent serves all, until samples disagree: then one number for each sample.
         self._parents: array[int] | None = None
         self._start = 0
-        # Samples a nanosecond, as last measured; where to look is guessed from it.
-        self._pace = 0.0
+        # So many forgotten samples are too many to leave where they are.
+        self._full = _LEAST_SLACK
         # Where the newest samples that share a parent begin; of use while mixed.
         self._run = 0
 
     def __len__(self) -> int:
-        return len(self._stamps) - self._start
+        return len(self.stamps) - self._start
 
     # Remembering
 
@@ -178,10 +217,21 @@ class History(Link):
         newest = self.newest_stamp
         if stamp <= newest or self.newest is None:
             return self._insert_late(stamp, parent, sample)
-        if self.oldest_stamp + self._limit < newest:
-            self._forget(newest - self._limit)
-        self._stamps.append(stamp)
-        self._samples.frombytes(_pack(*sample))
+        stamps = self.stamps
+        oldest_kept = newest - self._limit
+        if self.oldest_stamp < oldest_kept:
+            # As a rule every sample that comes lets one go.
+            start = self._start + 1
+            oldest = stamps[start]
+            if oldest < oldest_kept or self.mixed or start >= self._full:
+                self._forget(oldest_kept)
+            else:
+                self._start = start
+                self.oldest_stamp = oldest
+        stamps.append(stamp)
+        self.samples.frombytes(_pack(*sample))
+        self.previous_stamp = newest
+        self.previous = self.newest
         self.newest_stamp = stamp
         self.newest = sample
         if parent != self.parent or self.mixed:
@@ -190,18 +240,19 @@ class History(Link):
 
     def clear(self) -> None:
         """Forget everything; afterwards any stamp is taken again."""
-        self._stamps = array("q")
-        self._samples = array("d")
+        self.stamps = array("q")
+        self.samples = array("d")
         self._parents = None
         self._start = self._run = 0
-        self.newest_stamp = self.oldest_stamp = 0
-        self.newest = None
+        self._full = _LEAST_SLACK
+        self.newest_stamp = self.oldest_stamp = self.previous_stamp = 0
+        self.newest = self.previous = None
         self.parent = NO_PARENT
         self.mixed = False
 
     def _forget(self, oldest_kept: Stamp) -> None:
         """Let go of samples before that stamp."""
-        stamps = self._stamps
+        stamps = self.stamps
         start = self._start + 1
         if stamps[start] < oldest_kept:
             start = bisect_left(stamps, oldest_kept, start)
@@ -209,9 +260,10 @@ class History(Link):
         if self.mixed and start >= self._run:
             self._parents = None
             self.mixed = False
-        if start > _LEAST_SLACK and start > len(stamps) >> _SLACK:
+        if start >= self._full:
+            self._full = max(_LEAST_SLACK, (len(stamps) - start) >> _SLACK)
             del stamps[:start]
-            del self._samples[: 7 * start]
+            del self.samples[: 7 * start]
             if self._parents is not None:
                 del self._parents[:start]
             self._run -= start
@@ -220,7 +272,7 @@ class History(Link):
 
     def _append_parent(self, parent: int) -> int:
         """Note the parent of the sample just appended."""
-        count = len(self._stamps)
+        count = len(self.stamps)
         parents = self._parents
         if parents is None:
             parents = self._mix(count - 1)
@@ -240,11 +292,11 @@ class History(Link):
 
     def _insert_late(self, stamp: Stamp, parent: int, sample: Sample) -> int:
         """Insert the first sample, or one that is not newer than all others."""
-        stamps = self._stamps
+        stamps = self.stamps
         newest = self.newest_stamp
         if self.newest is None:
             stamps.append(stamp)
-            self._samples.frombytes(_pack(*sample))
+            self.samples.frombytes(_pack(*sample))
             self.oldest_stamp = self.newest_stamp = stamp
             self.newest = sample
             self.parent = parent
@@ -266,18 +318,21 @@ class History(Link):
         if place == self._start:
             place = self._make_room_in_front()
             stamps[place] = stamp
-            self._samples[7 * place : 7 * place + 7] = array("d", sample)
+            self.samples[7 * place : 7 * place + 7] = array("d", sample)
             if self._parents is not None:
                 self._parents[place] = parent
             self._start = place
         else:
             stamps.insert(place, stamp)
-            self._samples[7 * place : 7 * place] = array("d", sample)
+            self.samples[7 * place : 7 * place] = array("d", sample)
             if self._parents is not None:
                 self._parents.insert(place, parent)
             if place < self._run:
                 self._run += 1
         self.oldest_stamp = stamps[self._start]
+        if place >= len(stamps) - 2:
+            self.previous_stamp = stamps[-2]
+            self.previous = sample if place == len(stamps) - 2 else self._sample(len(stamps) - 2)
         if place == len(stamps) - 1:
             # Equal to the newest stamp: the one that came last is in front.
             self.newest = sample
@@ -292,9 +347,9 @@ class History(Link):
     def _make_room_in_front(self) -> int:
         """The free place before the oldest sample; samples that arrive backwards go there."""
         if self._start == 0:
-            room = max(_LEAST_SLACK, len(self._stamps) >> _SLACK)
-            self._stamps[0:0] = array("q", bytes(8 * room))
-            self._samples[0:0] = array("d", bytes(_WIDTH * room))
+            room = max(_LEAST_SLACK, len(self.stamps) >> _SLACK)
+            self.stamps[0:0] = array("q", bytes(8 * room))
+            self.samples[0:0] = array("d", bytes(_WIDTH * room))
             if self._parents is not None:
                 self._parents[0:0] = array("i", [self.parent]) * room
             self._start = room
@@ -308,53 +363,7 @@ class History(Link):
 
         Between two samples with different parents it is the older one, as it is.
         """
-        newest = self.newest_stamp
-        if time == newest or time == 0:
-            return self.newest
-        oldest = self.oldest_stamp
-        if time <= oldest:
-            if time < oldest or self.newest is None:
-                return None
-            return _unpack_one(self._samples, _WIDTH * self._start)
-        if time > newest:
-            return None
-        stamps = self._stamps
-        # Between the last two is where most questions fall.
-        index = len(stamps) - 2
-        before = stamps[index]
-        if time < before:
-            index = self._index(time)
-            before = stamps[index]
-        if before == time or (self.mixed and self._parent(index) != self._parent(index + 1)):
-            return _unpack_one(self._samples, _WIDTH * index)
-        ratio = (time - before) / (stamps[index + 1] - before)
-        x, y, z, ax, ay, az, aw, x2, y2, z2, bx, by, bz, bw = _unpack_two(
-            self._samples, _WIDTH * index
-        )
-        # quaternions.slerp, written out: calling it would cost a third of the whole.
-        cosine = ax * bx + ay * by + az * bz + aw * bw
-        take = 1.0
-        if cosine < 0.0:
-            cosine = -cosine
-            take = -1.0
-        if cosine < 1.0:
-            angle = acos(cosine)
-            sine = sin(angle)
-            keep = sin((1.0 - ratio) * angle) / sine
-            take *= sin(ratio * angle) / sine
-        else:
-            # Too near for acos to tell; on an arc this short the chord is the arc.
-            keep = 1.0 - ratio
-            take *= ratio
-        return (
-            x + ratio * (x2 - x),
-            y + ratio * (y2 - y),
-            z + ratio * (z2 - z),
-            keep * ax + take * bx,
-            keep * ay + take * by,
-            keep * az + take * bz,
-            keep * aw + take * bw,
-        )
+        return chained((self,), time)
 
     def parent_at(self, time: Stamp) -> int:
         """Number of the parent at that moment: the older neighbour's."""
@@ -366,7 +375,7 @@ class History(Link):
             return self.parent
         if time == self.oldest_stamp:
             return self._parents[self._start]
-        return self._parents[self._index(time)]
+        return self._parents[self.index(time)]
 
     def refusal(self, time: Stamp) -> Refusal:
         """Which kind of nothing it has for that moment, and the stamp nearest to it."""
@@ -380,13 +389,13 @@ class History(Link):
         """Stamp of the sample that answers for that moment, the older of the two."""
         if time == self.newest_stamp or time == 0:
             return self.newest_stamp
-        return self._stamps[self._index(time)] if time > self.oldest_stamp else self.oldest_stamp
+        return self.stamps[self.index(time)] if time > self.oldest_stamp else self.oldest_stamp
 
     def items(self) -> list[tuple[Stamp, int, Sample]]:
         """Every sample remembered, newest first: stamp, parent's number, pose."""
         return [
-            (self._stamps[index], self._parent(index), self._sample(index))
-            for index in range(len(self._stamps) - 1, self._start - 1, -1)
+            (self.stamps[index], self._parent(index), self._sample(index))
+            for index in range(len(self.stamps) - 1, self._start - 1, -1)
         ]
 
     def columns(self) -> "Columns":
@@ -397,7 +406,7 @@ class History(Link):
         """
         while True:
             start, newest, parents = self._start, self.newest_stamp, self._parents
-            stamps, samples = self._stamps[start:], self._samples[7 * start :]
+            stamps, samples = self.stamps[start:], self.samples[7 * start :]
             if parents is not None:
                 parents = parents[start:]
             if (
@@ -408,26 +417,28 @@ class History(Link):
             ):
                 return stamps, samples, parents
 
+    def parts(self, time: Stamp) -> bool:
+        """Whether the two samples that enclose a moment have different parents."""
+        index = self.index(time)
+        parents = self._parents
+        return parents is not None and parents[index] != parents[index + 1]
+
     def _sample(self, index: int) -> Sample:
-        sample: Sample = _unpack_one(self._samples, _WIDTH * index)
+        sample: Sample = _unpack_one(self.samples, _WIDTH * index)
         return sample
 
     def _parent(self, index: int) -> int:
         return self.parent if self._parents is None else self._parents[index]
 
-    def _index(self, time: Stamp) -> int:
+    def index(self, time: Stamp) -> int:
         """Where the last sample at or before `time` lies; oldest < time < newest.
 
-        Samples come almost periodically: guess by the mean rate, correct the guess once,
-        and search only when that fails.
+        Guess by the mean rate, correct the guess once, and search only when that fails.
         """
-        stamps = self._stamps
-        last = len(stamps) - 1
-        guess = last - 1 - int((self.newest_stamp - time) * self._pace)
+        stamps = self.stamps
         start = self._start
-        if guess >= start and stamps[guess] <= time < stamps[guess + 1]:
-            return guess
-        pace = self._pace = (last - start) / (self.newest_stamp - self.oldest_stamp)
+        last = len(stamps) - 1
+        pace = self.pace = (last - start) / (self.newest_stamp - self.oldest_stamp)
         guess = start + int((time - self.oldest_stamp) * pace)
         there = stamps[guess]
         if there <= time:
@@ -441,3 +452,127 @@ class History(Link):
         if stamps[guess] <= time < stamps[guess + 1]:
             return guess
         return bisect_right(stamps, time, low, high) - 1
+
+    def exactly(self, time: Stamp) -> Sample | None:
+        """The pose at one of the two ends of the history; outside it, none."""
+        if time == self.newest_stamp:
+            return self.newest
+        if time != self.oldest_stamp or self.newest is None:
+            return None
+        return self._sample(self._start)
+
+
+def chained(links: tuple[Link, ...], time: Stamp) -> Sample | None:
+    """The poses of several links one after the other, lowest first; None if one has none.
+
+    This is where a lookup spends its time, so everything is written out: a call for each
+    link, each search and each product would double the cost.
+
+    Args:
+        links: Each one's parent is the next one's child.
+        time: The moment; 0 for each link's newest.
+
+    Returns:
+        The pose of the first link's child in the last link's parent.
+    """
+    if time == 0:
+        return _newest(links)
+    x = y = z = qx = qy = qz = 0.0
+    qw = 1.0
+    first = True
+    for link in links:
+        newest = link.newest_stamp
+        if link.oldest_stamp < time < newest:
+            before = link.previous_stamp
+            if time >= before:
+                # Most questions fall between the last two, and those are at hand.
+                one, two, after = link.previous, link.newest, newest
+                if one is None or two is None:
+                    return None
+                tx, ty, tz, ax, ay, az, aw = one
+                ux, uy, uz, bx, by, bz, bw = two
+            else:
+                stamps = link.stamps
+                # Samples come almost periodically: guess first, search if that is wrong.
+                index = len(stamps) - 2 - int((newest - time) * link.pace)
+                if index < 0:
+                    index = 0
+                before = stamps[index]
+                after = stamps[index + 1]
+                if not before <= time < after:
+                    index = link.index(time)
+                    before = stamps[index]
+                    after = stamps[index + 1]
+                tx, ty, tz, ax, ay, az, aw, ux, uy, uz, bx, by, bz, bw = _unpack_two(
+                    link.samples, _WIDTH * index
+                )
+            if before != time and not (link.mixed and link.parts(time)):
+                ratio = (time - before) / (after - before)
+                tx += ratio * (ux - tx)
+                ty += ratio * (uy - ty)
+                tz += ratio * (uz - tz)
+                # As quaternions.slerp.
+                cosine = ax * bx + ay * by + az * bz + aw * bw
+                take = 1.0
+                if cosine < 0.0:
+                    cosine = -cosine
+                    take = -1.0
+                if cosine < 1.0:
+                    angle = acos(cosine)
+                    sine = sin(angle)
+                    keep = sin((1.0 - ratio) * angle) / sine
+                    take *= sin(ratio * angle) / sine
+                else:
+                    # Too near for acos to tell; on an arc this short the chord is the arc.
+                    keep = 1.0 - ratio
+                    take *= ratio
+                ax = keep * ax + take * bx
+                ay = keep * ay + take * by
+                az = keep * az + take * bz
+                aw = keep * aw + take * bw
+        elif newest == time or link.is_static:
+            one = link.newest
+            if one is None:
+                return None
+            tx, ty, tz, ax, ay, az, aw = one
+        else:
+            one = link.exactly(time)
+            if one is None:
+                return None
+            tx, ty, tz, ax, ay, az, aw = one
+        if first:
+            first = False
+            x, y, z, qx, qy, qz, qw = tx, ty, tz, ax, ay, az, aw
+        else:
+            cx = 2.0 * (ay * z - az * y)
+            cy = 2.0 * (az * x - ax * z)
+            cz = 2.0 * (ax * y - ay * x)
+            x += aw * cx + ay * cz - az * cy + tx
+            y += aw * cy + az * cx - ax * cz + ty
+            z += aw * cz + ax * cy - ay * cx + tz
+            qx, qy, qz, qw = (
+                aw * qx + ax * qw + ay * qz - az * qy,
+                aw * qy + ay * qw + az * qx - ax * qz,
+                aw * qz + az * qw + ax * qy - ay * qx,
+                aw * qw - ax * qx - ay * qy - az * qz,
+            )
+    return x, y, z, qx, qy, qz, qw
+
+
+def joined(outer: Sample, inner: Sample) -> Sample:
+    """One pose after another: `a_from_c` from `a_from_b` and `b_from_c`."""
+    ox, oy, oz, ax, ay, az, aw = outer
+    ix, iy, iz, bx, by, bz, bw = inner
+    turn = (ax, ay, az, aw)
+    x, y, z = quaternions.rotate(turn, (ix, iy, iz))
+    qx, qy, qz, qw = quaternions.multiply(turn, (bx, by, bz, bw))
+    return x + ox, y + oy, z + oz, qx, qy, qz, qw
+
+
+def _newest(links: tuple[Link, ...]) -> Sample | None:
+    whole = IDENTITY
+    for link in links:
+        if link.newest is None:
+            return None
+        whole = joined(link.newest, whole)
+    return whole

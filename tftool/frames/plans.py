@@ -8,11 +8,9 @@ plan cannot know.
 from collections.abc import Iterable
 
 from tftool.frames.forest import Forest, Walk
-from tftool.frames.history import Constant, Link, Sample
+from tftool.frames.history import Constant, Link, Sample, chained
 from tftool.geometry import quaternions
 from tftool.stamps import Stamp
-
-IDENTITY: Sample = (0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 1.0)
 
 # So many pairs of frames are remembered; a program that asks for more than this in turn
 # pays for each plan anew rather than with memory.
@@ -57,57 +55,15 @@ class Plan:
 
     def solve(self, time: Stamp) -> Sample | None:
         """The pose of source in target at that moment, or None if a link has none for it."""
-        # Both sides are written out: a call for each would cost as much as its arithmetic.
-        x = y = z = qx = qy = qz = 0.0
-        qw = 1.0
-        first = True
-        for link in self.up:
-            sample = link.newest if link.newest_stamp == time else link.at(time)
-            if sample is None:
+        found = chained(self.up, time)
+        if found is None:
+            return None
+        x, y, z, qx, qy, qz, qw = found
+        if self.down:
+            found = chained(self.down, time)
+            if found is None:
                 return None
-            if first:
-                x, y, z, qx, qy, qz, qw = sample
-                first = False
-                continue
-            tx, ty, tz, ax, ay, az, aw = sample
-            cx = 2.0 * (ay * z - az * y)
-            cy = 2.0 * (az * x - ax * z)
-            cz = 2.0 * (ax * y - ay * x)
-            x += aw * cx + ay * cz - az * cy + tx
-            y += aw * cy + az * cx - ax * cz + ty
-            z += aw * cz + ax * cy - ay * cx + tz
-            qx, qy, qz, qw = (
-                aw * qx + ax * qw + ay * qz - az * qy,
-                aw * qy + ay * qw + az * qx - ax * qz,
-                aw * qz + az * qw + ax * qy - ay * qx,
-                aw * qw - ax * qx - ay * qy - az * qz,
-            )
-
-        first = True
-        ux = uy = uz = vx = vy = vz = 0.0
-        vw = 1.0
-        for link in self.down:
-            sample = link.newest if link.newest_stamp == time else link.at(time)
-            if sample is None:
-                return None
-            if first:
-                ux, uy, uz, vx, vy, vz, vw = sample
-                first = False
-                continue
-            tx, ty, tz, ax, ay, az, aw = sample
-            cx = 2.0 * (ay * uz - az * uy)
-            cy = 2.0 * (az * ux - ax * uz)
-            cz = 2.0 * (ax * uy - ay * ux)
-            ux += aw * cx + ay * cz - az * cy + tx
-            uy += aw * cy + az * cx - ax * cz + ty
-            uz += aw * cz + ax * cy - ay * cx + tz
-            vx, vy, vz, vw = (
-                aw * vx + ax * vw + ay * vz - az * vy,
-                aw * vy + ay * vw + az * vx - ax * vz,
-                aw * vz + az * vw + ax * vy - ay * vx,
-                aw * vw - ax * vx - ay * vy - az * vz,
-            )
-        if not first:
+            ux, uy, uz, vx, vy, vz, vw = found
             # The inverse of the target's side. The difference is turned, not the two ends:
             # where they are equal, the answer is zero to the last bit.
             x -= ux
@@ -135,16 +91,6 @@ class Plan:
         return x, y, z, qx, qy, qz, qw
 
 
-def chained(outer: Sample, inner: Sample) -> Sample:
-    """One pose after another: `a_from_c` from `a_from_b` and `b_from_c`."""
-    ox, oy, oz, ax, ay, az, aw = outer
-    ix, iy, iz, bx, by, bz, bw = inner
-    turn = (ax, ay, az, aw)
-    x, y, z = quaternions.rotate(turn, (ix, iy, iz))
-    qx, qy, qz, qw = quaternions.multiply(turn, (bx, by, bz, bw))
-    return x + ox, y + oy, z + oz, qx, qy, qz, qw
-
-
 def folded(links: Iterable[Link]) -> tuple[Link, ...]:
     """The same links with each run of constants made one."""
     result: list[Link] = []
@@ -163,12 +109,8 @@ def folded(links: Iterable[Link]) -> tuple[Link, ...]:
 def _one(run: list[Link]) -> list[Link]:
     if len(run) < 2:
         return run
-    whole = run[0].newest
-    for link in run[1:]:
-        if whole is not None and link.newest is not None:
-            whole = chained(link.newest, whole)
     constant = Constant()
-    constant.newest = whole
+    constant.newest = chained(tuple(run), 0)
     return [constant]
 
 

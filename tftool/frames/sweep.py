@@ -1,8 +1,7 @@
 """All frames at one moment, in one sweep."""
 
 from tftool.frames.forest import Forest, Frame
-from tftool.frames.history import Link, Sample
-from tftool.frames.plans import IDENTITY, chained
+from tftool.frames.history import IDENTITY, Link, Sample, joined
 from tftool.frames.sample import FrameInfo, Snapshot
 from tftool.geometry import rigid
 from tftool.geometry.rigid import Transform
@@ -31,12 +30,16 @@ class _Sweep:
         self.frames = forest.frames
         self.at = at
         self.poses: dict[tuple[int, Stamp], tuple[int, Sample | None]] = {}
-        self.latest: dict[int, Stamp] = {}
+        self.latest: dict[int, tuple[Stamp, int]] = {}
 
     def info(self, frame: Frame, now: Stamp) -> FrameInfo:
         link = frame.link
         parent = self.parent(frame.number, self.at)
-        root, pose = self.pose(frame.number, self.at or self.latest_of(frame.number))
+        latest, newest_root = self.latest_of(frame.number)
+        root, pose = self.pose(frame.number, self.at or latest)
+        if self.at == 0 and root != newest_root:
+            # At the latest moment of the whole chain it still hung from another tree.
+            root, pose = newest_root, None
         root_name = None if root < 0 else self.frames[root].name
         root_from_frame = None if pose is None else _transform(pose)
         if link is None or link.newest is None:
@@ -80,25 +83,32 @@ class _Sweep:
         parent = link.parent_at(time)
         return link.parent if parent < 0 else parent
 
-    def latest_of(self, number: int) -> Stamp:
-        """The newest moment for which the whole chain up to the root has data."""
+    def latest_of(self, number: int) -> tuple[Stamp, int]:
+        """The newest moment the whole chain has data for, and its root, by newest parents."""
         chain: list[int] = []
         seen: set[int] = set()
-        latest = 0
-        while number >= 0 and number not in seen:
-            if number in self.latest:
-                latest = self.latest[number]
+        while True:
+            known = self.latest.get(number)
+            if known is not None:
+                break
+            if number in seen:
+                known = (0, -1)
                 break
             seen.add(number)
+            parent = self.parent(number, 0)
+            if parent < 0:
+                known = self.latest[number] = (0, number)
+                break
             chain.append(number)
-            number = self.parent(number, 0)
+            number = parent
+        latest, root = known
         for number in reversed(chain):
             link = self.frames[number].link
             stamp = 0 if link is None else link.newest_stamp
             if stamp != 0 and (latest == 0 or stamp < latest):
                 latest = stamp
-            self.latest[number] = latest
-        return latest
+            self.latest[number] = (latest, root)
+        return latest, root
 
     def pose(self, number: int, time: Stamp) -> tuple[int, Sample | None]:
         """The root at that moment (below 0: a loop), and the pose in it if it is known."""
@@ -122,7 +132,7 @@ class _Sweep:
         for number in reversed(chain):
             link = self.frames[number].link
             own = None if link is None else link.at(time)
-            pose = None if own is None or pose is None else chained(pose, own)
+            pose = None if own is None or pose is None else joined(pose, own)
             self.poses[number, time] = (root, pose)
         return root, pose
 
