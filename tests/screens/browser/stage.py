@@ -56,14 +56,11 @@ class Stage:
 
         self.do(broadcast)
 
-    def mount(self, child, *, parent="world", x=0.0):
-        """Broadcast one static transform."""
+    def mount(self, *links, x=0.0):
+        """Broadcast static transforms, given as (parent, child)."""
         pose = Transform((x, 0.0, 0.0))
-        self.do(
-            lambda world: world.broadcast(
-                [TransformStamped(0, parent, child, pose)], "mount", static=True
-            )
-        )
+        transforms = [TransformStamped(0, parent, child, pose) for parent, child in links]
+        self.do(lambda world: world.broadcast(transforms, "mount", static=True))
 
     def end(self):
         """End the session; its page is told."""

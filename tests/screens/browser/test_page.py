@@ -299,7 +299,7 @@ def test_a_loop_is_listed_and_said_and_everything_else_goes_on(chromium, stage):
 
 def test_the_chosen_frame_is_told_absolute_and_relative(chromium, stage):
     stage.put(1.0, 2.0, rotation=(0, 0, math.sqrt(0.5), math.sqrt(0.5)))
-    stage.mount("camera", parent="turtle", x=0.5)
+    stage.mount(("turtle", "camera"), x=0.5)
     page = Page(chromium, stage)
     page.until(lambda: "camera" in page.drawn())
 
@@ -338,7 +338,7 @@ def test_markup_in_a_name_is_text(chromium, stage):
 
 def test_a_stale_frame_fades_away_and_comes_back_and_statics_never_fade(chromium, stage):
     stage.put(1.0)
-    stage.mount("camera")
+    stage.mount(("world", "camera"))
     page = Page(chromium, stage, "timeout=1")
 
     page.until(lambda: "camera" in page.drawn() and "turtle" not in page.drawn())
@@ -364,6 +364,18 @@ def test_fading_has_rvizs_three_stages(chromium, stage):
             assert 1 - 0.3 * grey == pytest.approx(red, abs=1e-6)
             assert 0.7 * grey == pytest.approx(green, abs=1e-6) == pytest.approx(blue, abs=1e-6)
             assert told["alpha"] == pytest.approx(alpha, abs=1e-3)
+
+
+def test_the_update_interval_slows_the_picture_but_not_the_person(chromium, stage):
+    stage.put(1.0)
+    page = Page(chromium, stage, "interval=60&chosen=turtle")
+    page.until(lambda: page.x_of("turtle") == 1.0)
+
+    stage.put(2.0, at=2.0)
+    page.until(lambda: chromium.execute_script("return tftool.reach().newest") == 2.0)
+    assert page.x_of("turtle") == 1.0
+    page.find("#grid").click()
+    page.until(lambda: page.x_of("turtle") == 2.0)
 
 
 def test_another_sites_page_gets_no_frames(chromium, stage):
@@ -448,8 +460,7 @@ def test_the_address_carries_the_view(chromium, stage):
 
 
 def test_thousands_of_frames_are_answered_and_what_is_left_out_is_said(chromium, stage):
-    for index in range(1, 5000):
-        stage.mount(f"f{index}", parent=f"f{(index - 1) // 3}", x=0.5)
+    stage.mount(*((f"f{(index - 1) // 3}", f"f{index}") for index in range(1, 5000)), x=0.5)
     page = Page(chromium, stage)
 
     page.until(lambda: "2000 of 5000 frames shown" in page.text("#left-out"))

@@ -20,6 +20,7 @@ const state = {
   grid: true,
   trails: false,
   view: "top",
+  interval: 0,
   timeout: 15,
   length: 10,
   only: "",
@@ -61,6 +62,8 @@ let ours = !state.camera; // the camera is still ours to move, nobody took it
 let seen = null; // the box of everything that was drawn so far
 let listsAt = 0;
 let dirty = true;
+let touched = true; // by a person, not by the server
+let drawnAt = -Infinity;
 let filters = { only: null, not: null };
 let drawn = []; // what is on screen: { index, name, pose, … }
 let frames = []; // per frame: what the list says of it
@@ -159,7 +162,7 @@ function playOn(passed) {
 // ---- drawing
 
 function changed() {
-  dirty = true;
+  dirty = touched = true;
   remember();
 }
 
@@ -250,8 +253,14 @@ function render(now) {
   requestAnimationFrame(render);
   playOn(Math.min(0.25, (now - lastDraw) / 1000));
   lastDraw = now;
-  if (!dirty) return;
-  dirty = false;
+  // Frames keep to the update interval; what a person does shows at once.
+  if (!dirty || (!touched && now - drawnAt < state.interval * 1000)) {
+    acknowledge();
+    return;
+  }
+  dirty = touched = false;
+  // What was drawn before there was anything to draw does not count.
+  drawnAt = model.poses?.revision === model.revision ? now : -Infinity;
   solve();
   stage.resize();
   if (drawn.length) extent = Math.max(...drawn.map(({ pose }) => Math.max(Math.abs(pose[0]), Math.abs(pose[1]))), 1);
@@ -269,6 +278,11 @@ function render(now) {
       dirty = true;
     }, LISTS_EVERY);
   }
+  acknowledge();
+}
+
+/** Tell the server that what it sent is dealt with, so that it sends what is newest then. */
+function acknowledge() {
   if (unsaid) wire.got(unsaid);
   unsaid = 0;
 }
@@ -548,11 +562,11 @@ $("scale").oninput = () => {
   setScale(state.scale);
   changed();
 };
-for (const [id, least, most] of [["timeout", 1, 1e6], ["length", 1, 60]]) {
+for (const [id, least, most] of [["interval", 0, 60], ["timeout", 1, 1e6], ["length", 1, 60]]) {
   $(id).value = String(state[id]);
   $(id).onchange = () => {
     const value = Number.parseFloat($(id).value);
-    state[id] = Number.isFinite(value) ? Math.min(most, Math.max(least, value)) : state[id];
+    if (Number.isFinite(value)) state[id] = Math.min(most, Math.max(least, value));
     $(id).value = String(state[id]);
     changed();
   };
