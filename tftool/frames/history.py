@@ -475,10 +475,8 @@ def chained(links: tuple[Link, ...], time: Stamp) -> Sample | None:
     Returns:
         The pose of the first link's child in the last link's parent.
     """
-    if time == 0:
+    if time == 0 or not links:
         return _newest(links)
-    x = y = z = qx = qy = qz = 0.0
-    qw = 1.0
     first = True
     for link in links:
         newest = link.newest_stamp
@@ -541,8 +539,15 @@ def chained(links: tuple[Link, ...], time: Stamp) -> Sample | None:
                 return None
             tx, ty, tz, ax, ay, az, aw = one
         if first:
+            # One by one, which is quicker than as tuples.
             first = False
-            x, y, z, qx, qy, qz, qw = tx, ty, tz, ax, ay, az, aw
+            x = tx
+            y = ty
+            z = tz
+            qx = ax
+            qy = ay
+            qz = az
+            qw = aw
         else:
             cx = 2.0 * (ay * z - az * y)
             cy = 2.0 * (az * x - ax * z)
