@@ -9,6 +9,8 @@ from tftool.geometry import conversions, quaternions
 
 pitches = st.floats(-1.5, 1.5)
 
+NEAR_A_POLE = 1e-5
+
 
 @given(angles, pitches, angles)
 def test_roll_pitch_yaw_come_back(roll, pitch, yaw):
@@ -27,7 +29,8 @@ def test_either_set_of_angles_means_the_same_rotation(turn):
         conversions.second_rpy_from_quaternion,
     ):
         again = conversions.quaternion_from_rpy(*angles_of(turn))
-        assert quaternions.angle_between(again, turn) < 1e-6
+        # So much is lost next to the poles, where two of the three angles become one.
+        assert quaternions.angle_between(again, turn) < NEAR_A_POLE
 
 
 @given(angles, st.sampled_from([-math.pi / 2, math.pi / 2]), angles)
@@ -37,8 +40,8 @@ def test_at_the_poles_the_angles_still_mean_the_same_rotation(roll, pitch, yaw):
     found = conversions.rpy_from_quaternion(turned)
 
     again = conversions.quaternion_from_rpy(*found)
-    assert quaternions.angle_between(again, turned) < 2e-6
-    assert abs(found[1]) == pytest.approx(math.pi / 2, abs=2e-6)
+    assert quaternions.angle_between(again, turned) < NEAR_A_POLE
+    assert abs(found[1]) == pytest.approx(math.pi / 2, abs=NEAR_A_POLE)
     assert conversions.second_rpy_from_quaternion((0.5, 0.5, -0.5, 0.5)) == pytest.approx(
         conversions.rpy_from_quaternion((0.5, 0.5, -0.5, 0.5))
     )
