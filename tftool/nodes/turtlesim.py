@@ -122,7 +122,9 @@ class Turtlesim(Node):
 
     async def run(self) -> None:
         """Simulate until the end."""
-        self.info(f"Starting turtlesim with node name /{self._prefix}{self.name}")
+        # Two simulators in one world carry their namespace in their names as well.
+        name = self.name.removeprefix(self._prefix)
+        self.info(f"Starting turtlesim with node name /{self._prefix}{name}")
         for service, handler in (
             ("spawn", self._on_spawn),
             ("kill", self._on_kill),
