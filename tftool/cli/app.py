@@ -26,7 +26,17 @@ COMMANDS = (
     "view",
     "session",
     "check",
+    "run",
+    "launch",
 )
+
+# What differs from click's reading of a command line.
+SETTINGS = {
+    # A frame may lie at a negative place: -1 is a number there, not an option.
+    "static": {"ignore_unknown_options": True},
+    # What follows a node's file is the node's own.
+    "run": {"allow_interspersed_args": False},
+}
 
 DONE = 0
 FAILED = 1
@@ -83,10 +93,8 @@ def build(only: str | None = None) -> "typer.Typer":
         # The module that decides who joins and who hosts has the name already.
         module = "members" if name == "session" else name
         command = getattr(import_module(f"tftool.cli.{module}"), name)
-        # A frame may lie at a negative place: -1 is a number there, not an option.
-        takes_numbers = {"ignore_unknown_options": True} if name == "static" else None
         offered = command if name == "check" else shares(command)
-        app.command(help=_laid_out(command), context_settings=takes_numbers)(offered)
+        app.command(help=_laid_out(command), context_settings=SETTINGS.get(name))(offered)
     return app
 
 

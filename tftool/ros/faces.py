@@ -92,6 +92,52 @@ tf_transformations: tf.euler: quaternion_conjugate quaternion_slerp identity_mat
 tf_transformations: tf.euler: translation_matrix translation_from_matrix inverse_matrix
 tf_transformations: tf.euler: concatenate_matrices compose_matrix vector_norm unit_vector
 tf_transformations: tf.euler: TRANSLATION_IDENTITY ROTATION_IDENTITY
+launch: launching.description: LaunchDescription LaunchDescriptionSource
+launch: launching.context: LaunchContext
+launch: launching.actions: Action
+launch: launching.conditions: Condition
+launch: launching.events: Event EventHandler
+launch: launching.substitutions: Substitution SomeSubstitutionsType
+launch: launching.description: LaunchDescriptionEntity
+launch.actions: launching.actions: DeclareLaunchArgument SetLaunchConfiguration LogInfo
+launch.actions: launching.actions: UnsetLaunchConfiguration SetEnvironmentVariable
+launch.actions: launching.actions: UnsetEnvironmentVariable OpaqueFunction GroupAction
+launch.actions: launching.actions: IncludeLaunchDescription RegisterEventHandler
+launch.actions: launching.actions: UnregisterEventHandler EmitEvent Shutdown TimerAction
+launch.actions: launching.actions: ExecuteProcess ExecuteLocal PushLaunchConfigurations
+launch.actions: launching.actions: PopLaunchConfigurations
+launch.conditions: launching.conditions: IfCondition UnlessCondition
+launch.conditions: launching.conditions: LaunchConfigurationEquals LaunchConfigurationNotEquals
+launch.event_handlers: launching.events: OnProcessExit OnProcessStart OnShutdown
+launch.event_handlers: launching.events: OnExecutionComplete
+launch.events: launching.events: Shutdown
+launch.events.process: launching.events: ProcessExited ProcessStarted
+launch.launch_context: launching.context: LaunchContext
+launch.launch_description: launching.description: LaunchDescription
+launch.launch_description_source: launching.description: LaunchDescriptionSource
+launch.launch_description_sources: launching.description: PythonLaunchDescriptionSource
+launch.launch_description_sources: launching.description: AnyLaunchDescriptionSource
+launch.launch_description_sources: launching.description: FrontendLaunchDescriptionSource
+launch.substitutions: launching.substitutions: TextSubstitution LaunchConfiguration
+launch.substitutions: launching.substitutions: EnvironmentVariable PathJoinSubstitution
+launch.substitutions: launching.substitutions: StringJoinSubstitution PythonExpression
+launch.substitutions: launching.substitutions: ThisLaunchFile ThisLaunchFileDir AnonName
+launch.substitutions: launching.substitutions: FindExecutable Command EqualsSubstitution
+launch.substitutions: launching.substitutions: NotEqualsSubstitution AndSubstitution
+launch.substitutions: launching.substitutions: OrSubstitution NotSubstitution IfElseSubstitution
+launch.utilities: launching.substitutions: perform_substitutions=perform
+launch_xml.launch_description_sources: launching.description: XMLLaunchDescriptionSource
+launch_yaml.launch_description_sources: launching.description: YAMLLaunchDescriptionSource
+launch_ros.actions: launching.actions: Node PushRosNamespace SetRemap SetParameter
+launch_ros.substitutions: launching.substitutions: FindPackageShare FindPackagePrefix FindPackage
+launch_ros.parameter_descriptions: launching.actions: ParameterValue ParameterFile
+launch_ros.descriptions: launching.actions: ParameterValue ParameterFile
+ament_index_python: launching.packages: get_package_share_directory get_package_prefix
+ament_index_python: launching.packages: get_package_share_path PackageNotFoundError
+ament_index_python: launching.packages: get_packages_with_prefixes
+ament_index_python.packages: launching.packages: get_package_share_directory
+ament_index_python.packages: launching.packages: get_package_prefix get_package_share_path
+ament_index_python.packages: launching.packages: PackageNotFoundError get_packages_with_prefixes
 """
 
 

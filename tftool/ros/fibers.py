@@ -122,8 +122,8 @@ class Fiber:
         *,
         strict: bool,
         on_busy: Callable[[Place | None], object] = lambda place: None,
-        patience: float = PATIENCE,
-        give_up: float = GIVE_UP,
+        patience: float | None = None,
+        give_up: float | None = None,
     ) -> None:
         """Prepare a thread for `body`; `drive` starts it.
 
@@ -132,9 +132,10 @@ class Fiber:
             body: What to run.
             strict: Whether the loop stands still while the thread runs.
             on_busy: Told once, on the loop's thread, when the code has not come to rest for
-                `patience` real seconds.
+                `patience` real seconds (`PATIENCE` unless told).
             patience: See `on_busy`.
-            give_up: In strict mode, after how many real seconds the code is stopped.
+            give_up: In strict mode, after how many real seconds the code is stopped (`GIVE_UP`
+                unless told).
         """
         self.name = name
         self.interrupted = False
@@ -143,8 +144,8 @@ class Fiber:
         self.owner: Any = None
         self._strict = strict
         self._on_busy = on_busy
-        self._patience = patience
-        self._give_up = give_up
+        self._patience = PATIENCE if patience is None else patience
+        self._give_up = GIVE_UP if give_up is None else give_up
         self._go = threading.Semaphore(0)
         self._rest = threading.Semaphore(0)
         self._request: Callable[[], Any] | None = None

@@ -184,7 +184,7 @@ class _Arguments(UserList[str]):
         """Nothing: programs' arguments are theirs."""
 
 
-_lock = threading.RLock()
+_importing = threading.Lock()
 _finder: _Finder | None = None
 
 
@@ -205,30 +205,29 @@ def ros_free(*, insist: bool = False) -> Iterator["_Finder"]:
             f"a real ROS 2 is sourced ({found}): run the file with it, or say --ros-free to "
             "run it without ROS"
         )
-    with _lock:
-        if _finder is not None:
-            yield _finder
-            return
-        from tftool.ros.users import builtins_for_users
+    if _finder is not None:
+        yield _finder
+        return
+    from tftool.ros.users import builtins_for_users
 
-        _finder = _Finder(builtins_for_users)
-        before = {name: module for name, module in sys.modules.items() if _is_theirs(name)}
-        for name in before:
-            del sys.modules[name]
-        sys.meta_path.insert(0, _finder)
-        argv = sys.argv
-        sys.argv = _Arguments(argv)  # type: ignore[assignment]
-        loaded = set(sys.modules)
-        try:
-            yield _finder
-        finally:
-            sys.argv = argv
-            sys.meta_path.remove(_finder)
-            for name in set(sys.modules) - loaded:
-                if _is_theirs(name) or _is_below(sys.modules[name], _finder.roots):
-                    del sys.modules[name]
-            sys.modules.update(before)
-            _finder = None
+    _finder = _Finder(builtins_for_users)
+    before = {name: module for name, module in sys.modules.items() if _is_theirs(name)}
+    for name in before:
+        del sys.modules[name]
+    sys.meta_path.insert(0, _finder)
+    argv = sys.argv
+    sys.argv = _Arguments(argv)  # type: ignore[assignment]
+    loaded = set(sys.modules)
+    try:
+        yield _finder
+    finally:
+        sys.argv = argv
+        sys.meta_path.remove(_finder)
+        for name in set(sys.modules) - loaded:
+            if _is_theirs(name) or _is_below(sys.modules[name], _finder.roots):
+                del sys.modules[name]
+        sys.modules.update(before)
+        _finder = None
 
 
 def _is_theirs(name: str) -> bool:
@@ -241,8 +240,23 @@ def _is_below(module: ModuleType, roots: Sequence[Path]) -> bool:
     return bool(origin) and any(Path(str(origin)).is_relative_to(root) for root in roots)
 
 
-def forget_users_modules() -> None:
-    """Have the next import of a user's module run it anew, as another process would."""
-    if _finder is not None:
-        for name in [n for n, m in list(sys.modules.items()) if _is_below(m, _finder.roots)]:
+def look_in(root: Path) -> None:
+    """Look for users' modules in a folder too, before everything else."""
+    if _finder is not None and root not in _finder.roots:
+        _finder.roots.insert(0, root)
+
+
+def import_anew(module: str, root: Path) -> ModuleType:
+    """Import a user's module from a folder, run anew as in a process of its own.
+
+    Two programs of one file then share no globals.
+
+    Raises:
+        ImportError: If there is no such module, or it imports one that is missing.
+    """
+    with _importing:
+        look_in(root)
+        for name in [n for n, m in list(sys.modules.items()) if _is_below(m, [root])]:
             del sys.modules[name]
+        importlib.invalidate_caches()
+        return importlib.import_module(module)

@@ -6,9 +6,7 @@ world's, and `import threading` one whose threads take turns too. Everybody else
 """
 
 import builtins
-import importlib
 import linecache
-import sys
 import threading
 import time
 from collections.abc import Callable
@@ -18,7 +16,7 @@ from types import ModuleType
 from typing import Any
 
 from tftool.errors import InputError, UsageError
-from tftool.ros import fibers, program
+from tftool.ros import fibers, importing, program
 from tftool.ros.fibers import Fiber, place_of_error
 from tftool.stamps import NANOSECONDS, seconds
 
@@ -121,9 +119,7 @@ def file_body(path: Path) -> Callable[[], None]:
     code = compile_file(path)
 
     def body() -> None:
-        folder = str(path.resolve().parent)
-        if folder not in sys.path:
-            sys.path.insert(0, folder)
+        importing.look_in(path.resolve().parent)
         module = ModuleType("__main__")
         module.__file__ = str(path)
         module.__dict__["__builtins__"] = builtins_for_users()
@@ -165,11 +161,11 @@ def syntax_sentence(error: SyntaxError) -> str:
     return f"{sentence}\n    {line}\n    {' ' * column}^"
 
 
-def entry_point_body(module: str, function: str) -> Callable[[], None]:
-    """What runs a console script as its installed wrapper would."""
+def entry_point_body(module: str, function: str, *, root: Path) -> Callable[[], None]:
+    """What runs a console script as its installed wrapper would, from its sources in `root`."""
 
     def body() -> None:
-        target: Any = importlib.import_module(module)
+        target: Any = importing.import_anew(module, root)
         for part in function.split("."):
             if not hasattr(target, part):
                 raise UsageError(

@@ -1,0 +1,216 @@
+"""`tftool run` and `tftool launch`, as people type them, in the tutorial's workspace."""
+
+import re
+import shlex
+from pathlib import Path
+
+import pytest
+
+from tftool.cli.app import main
+
+TUTORIAL = Path(__file__).parent.parent / "tutorial"
+SIMULATED = ["--simulated", "--for", "5"]
+
+
+@pytest.fixture(autouse=True)
+def workspace(monkeypatch):
+    monkeypatch.chdir(TUTORIAL)
+    monkeypatch.delenv("ROS_DISTRO", raising=False)
+    monkeypatch.delenv("AMENT_PREFIX_PATH", raising=False)
+
+
+def test_a_file_is_run_beside_a_simulator(capsys):
+    status = main(
+        ["run", *SIMULATED, "pkg_tf/pkg_tf/turtle_following.py", "--ros-args", "-r", "__node:=f"]
+    )
+    told = capsys.readouterr().err
+
+    assert status == 0
+    assert "[INFO] [1002.000000000] [f]: Successfully spawned turtle2" in told
+    assert 'Could not transform turtle2 to turtle1: "turtle2" passed to lookupTransform' in told
+
+
+@pytest.mark.parametrize("where", [".", "pkg_tf", "pkg_tf/launch"])
+def test_a_packages_console_script_is_found_from_anywhere_in_the_workspace(
+    monkeypatch, capsys, where
+):
+    monkeypatch.chdir(TUTORIAL / where)
+    status = main(["run", *SIMULATED, "pkg_tf", "rotate", "0.7854"])
+
+    assert status == 0
+    assert "[rotate]: Result: -0.7680 after 49 feedbacks" in capsys.readouterr().err
+
+
+def test_our_own_executables_run_too(capsys):
+    status = main(
+        ["run", *SIMULATED, "turtlesim", "turtlesim_node", "--ros-args", "-r", "__node:=sim"]
+    )
+
+    assert status == 0
+    assert "Starting turtlesim with node name /sim" in capsys.readouterr().err
+
+
+def test_a_nodes_own_exit_status_is_the_commands(capsys):
+    assert main(["run", *SIMULATED, "pkg_tf", "static_turtle", "a"]) == 1
+    assert "[logger]: Usage: static_turtle" in capsys.readouterr().err
+    assert main(["run", *SIMULATED, "pkg_tf", "static_turtle", "world", *"123456"]) == 2
+
+
+def test_a_launch_file_is_launched_by_its_package_or_its_path(capsys):
+    assert main(["launch", "pkg_tf", "turtle_following.launch.py", *SIMULATED]) == 0
+    first = capsys.readouterr().err
+    file = "pkg_tf/launch/turtle_following.launch.py"
+    assert main(["launch", file, "source_frame:=turtle1", *SIMULATED]) == 0
+
+    assert capsys.readouterr().err == first
+    assert "[INFO] [turtle_following-4]: process started" in first
+    assert "[turtle_following-4] [INFO] [1002.000000000] [listener]: Successfully" in first
+    assert "[turtlesim_node-1] [INFO] [1000.000000000] [turtlesim]: Starting" in first
+
+
+def test_show_args_prints_what_a_file_takes(capsys):
+    assert main(["launch", "pkg_tf", "turtle_following.launch.py", "--show-args"]) == 0
+
+    told = capsys.readouterr().out
+    assert told.startswith("Arguments (pass arguments as '<name>:=<value>'):")
+    assert "(default: 'turtle1')" in told
+
+
+@pytest.mark.parametrize(
+    ("argv", "status", "told"),
+    [
+        (["run", "gone.py"], 3, "cannot read 'gone.py': No such file"),
+        (["run", "--simulated", "x.py"], 2, "needs an end: --for SECONDS"),
+        (["run", "pkg_tf"], 2, "which executable of package 'pkg_tf'? (dynamic_carrot"),
+        (["run", "pkg_tff", "x"], 2, "did you mean 'pkg_tf'?"),
+        (["run", "pkg_tf", "turtle_folowing"], 2, "did you mean 'turtle_following'?"),
+        (["run", "turtlesim", "turtle_teleop_key"], 2, "is 'tftool teleop' here"),
+        (["run", "pkg_tf", "rotate", "--ros-args", "-q"], 2, "'-q' is no option after --ros-args"),
+        (["run", "pkg_tf", "rotate", "--ros-args", "-p"], 2, "'-p' after --ros-args wants a value"),
+        (["run", "pkg_tf", "rotate", "--ros-args", "-p", "x"], 2, "write name:=value"),
+        (["run", "pkg_tf", "rotate", "--ros-args", "-r", "x"], 2, "write old:=new"),
+        (["run", "pkg_tf", "rotate", "--ros-args", "--params-file", "no"], 3, "cannot read the"),
+        (["launch", "pkg_tf"], 2, "which launch file of package 'pkg_tf'? It has carrot.launch"),
+        (["launch", "pkg_tf", "x.launch.py"], 2, "has no launch file 'x.launch.py'"),
+        (["launch", "gone.launch.py"], 3, "cannot read 'gone.launch.py'"),
+        (["launch", "nothing", "x"], 2, "there is no package 'nothing' below"),
+        (["launch", "pkg_tf", "carrot.launch.xml", "x"], 2, "'x' is no launch argument"),
+        (["launch", "pkg_tf", "carrot.launch.xml", "sorce_frame:=x"], 2, "mean 'source_frame"),
+        (["launch", "pkg_tf", "carrot.launch.xml", "--simulated"], 2, "needs an end"),
+    ],
+)
+def test_what_cannot_be_run_is_said_in_one_sentence(capsys, argv, status, told):
+    assert main(argv) == status
+
+    said = capsys.readouterr()
+    assert told in said.err
+    assert "Traceback" not in said.err
+
+
+NODE = "import rclpy\nrclpy.init()\nnode = rclpy.create_node('mine')\n"
+
+
+@pytest.mark.parametrize(
+    ("code", "status", "told"),
+    [
+        ("x = (\n", 3, "bad.py:1:5: SyntaxError: '(' was never closed\n    x = (\n        ^"),
+        ("1 / 0\n", 1, "ZeroDivisionError: division by zero\n    {file}:1, in <module>: 1 / 0"),
+        (
+            NODE + "def tick():\n    node.nope\nnode.create_timer(1.0, tick)\nrclpy.spin(node)\n",
+            1,
+            "AttributeError: 'Node' object has no attribute 'nope'\n    {file}:5, in tick: node",
+        ),
+        (
+            NODE + "from geometry_msgs.msg import Point\nPoint(x=1)\n",
+            1,
+            "AssertionError: The 'x' field must be of type 'float', not 'int': write 1.0",
+        ),
+        ("import rclpy.lifecycle\n", 1, "rclpy.lifecycle is not covered: of rclpy there is"),
+        (
+            "from rclpy.node import LifecycleNode\n",
+            1,
+            "'LifecycleNode' of rclpy.node is not covered: rclpy.node has Node, Parameter here",
+        ),
+        ("from geometry_msgs.msg import Pose3\n", 1, "'Pose3' of geometry_msgs.msg is not covered"),
+        ("import rclpy\nrclpy.nope\n", 1, "'nope' of rclpy is not covered"),
+        ("import cv_bridge\n", 1, "No module named 'cv_bridge'"),
+        ("import sys\nsys.exit(7)\n", 7, ""),
+        ("raise SystemExit('that is all')\n", 1, "that is all"),
+        (
+            NODE + "node.declare_parameter('speed', 1.0)\nnode.get_parameter('sped')\n",
+            1,
+            "Invalid access to undeclared parameter(s): ['sped']; did you mean 'speed'?",
+        ),
+        (
+            NODE + "node.declare_parameter('speed', 1.0)\nnode.declare_parameter('given', 1.0)\n",
+            1,
+            "Trying to set parameter 'given' to '2' of type 'INTEGER', expecting type 'DOUBLE'"
+            ": write 2.0",
+        ),
+    ],
+)
+def test_what_goes_wrong_in_a_node_is_told_with_its_own_line(tmp_path, capsys, code, status, told):
+    file = tmp_path / "bad.py"
+    file.write_text(code)
+
+    found = main(["run", *SIMULATED, str(file), "--ros-args", "-p", "given:=2"])
+
+    said = capsys.readouterr().err
+    assert found == status
+    assert told.replace("{file}", str(file)) in said
+    assert "Traceback" not in said
+
+
+def test_an_endless_loop_is_named_by_node_and_line(tmp_path, capsys, monkeypatch):
+    from tftool.ros import fibers
+
+    monkeypatch.setattr(fibers, "PATIENCE", 0.05)
+    monkeypatch.setattr(fibers, "GIVE_UP", 0.1)
+    file = tmp_path / "endless.py"
+    file.write_text(
+        NODE + "def tick():\n    while True:\n        pass\n"
+        "node.create_timer(1.0, tick)\nrclpy.spin(node)\n"
+    )
+
+    assert main(["run", *SIMULATED, str(file)]) == 1
+
+    said = capsys.readouterr().err
+    assert "'mine' has been busy for 0.05 s and simulated time waits for it" in said
+    assert "endless.py:5, in tick: while True:" in said or "endless.py:6, in tick: pass" in said
+    assert "'endless' did not come to rest for 0.1 s" in said
+
+
+def test_where_a_real_ros_is_sourced_we_stand_back_unless_told(tmp_path, capsys, monkeypatch):
+    (tmp_path / "rclpy").mkdir()
+    (tmp_path / "rclpy" / "__init__.py").write_text("")
+    monkeypatch.setenv("ROS_DISTRO", "jazzy")
+    monkeypatch.syspath_prepend(tmp_path)
+
+    assert main(["launch", "pkg_tf", "turtle_following.launch.py", *SIMULATED]) == 2
+    assert "a real ROS 2 is sourced" in capsys.readouterr().err
+    assert main(["launch", "pkg_tf", "turtle_following.launch.py", *SIMULATED, "--ros-free"]) == 0
+
+
+README = (TUTORIAL.parent.parent / "README.md").read_text(encoding="utf-8")
+SECTION = README.partition("## The tutorial, line by line\n")[2].partition("\n## ")[0]
+LINES = [
+    command
+    for row in re.findall(r"^\| `.*\| (.*) \|$", SECTION, re.MULTILINE)
+    for command in re.findall(r"`(tftool [^`]*)`", row)
+]
+
+
+@pytest.mark.parametrize("line", LINES)
+def test_every_line_of_the_readmes_table_works(line, tftool, simulated):
+    command, *words = shlex.split(line)[1:]
+    if command in ("run", "launch") and "--show-args" not in words:
+        words = [*SIMULATED, *words]
+    elif command in ("teleop", "view"):
+        # These two stay until a person ends them.
+        words = [*words, "--help"]
+
+    assert tftool(command, *words).status == 0
+
+
+def test_the_table_has_its_lines():
+    assert len(LINES) > 15

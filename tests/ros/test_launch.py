@@ -1,0 +1,405 @@
+"""Launch files, on simulated time."""
+
+import pytest
+
+from tests.ros.tutorial import TUTORIAL, Launched, launch
+from tftool.errors import InputError, NodeFailed, UsageError
+from tftool.ros.hosting import show_arguments
+from tftool.ros.importing import ros_free
+from tftool.ros.workspace import Workspace
+
+HEAD = """
+import launch, launch.actions, launch.conditions, launch.event_handlers, launch.events
+import launch.substitutions, launch_ros.actions, launch_ros.parameter_descriptions
+for module in (launch, launch.actions, launch.conditions, launch.event_handlers,
+               launch.substitutions, launch_ros.actions, launch_ros.parameter_descriptions):
+    globals().update({k: v for k, v in vars(module).items() if not k.startswith('_')})
+"""
+
+
+def described(tmp_path, *actions, seconds=2.0, arguments=None, expect_failure=False) -> Launched:
+    """Launch a Python file made of these actions."""
+    file = tmp_path / "some.launch.py"
+    body = ",\n        ".join(actions)
+    file.write_text(
+        f"{HEAD}\ndef generate_launch_description():\n    return LaunchDescription([\n"
+        f"        {body}\n    ])\n"
+    )
+    return launch(file, seconds=seconds, arguments=arguments)
+
+
+@pytest.mark.parametrize(
+    "name", ["turtle_following.launch.py", "carrot.launch.xml", "carrot.launch.yaml"]
+)
+def test_the_tutorials_launch_files_run_the_same_every_time(name):
+    first, second = (launch(TUTORIAL / "launch" / name, seconds=6) for _ in range(2))
+
+    assert "Successfully spawned turtle2" in first.texts("listener")
+    assert first.failed == []
+    assert first.lines == second.lines
+    assert first.places == second.places
+
+
+def test_a_carrot_is_followed_when_the_argument_says_so():
+    plain = launch(TUTORIAL / "launch" / "turtle_following.launch.py", seconds=15)
+    carrot = launch(TUTORIAL / "launch" / "carrot.launch.xml", seconds=15)
+
+    assert plain.places["turtle2"][1] == pytest.approx(5.54, abs=0.01)
+    assert carrot.places["turtle2"][1] == pytest.approx(7.54, abs=0.02)
+
+
+def test_arguments_events_groups_includes_and_timers_work_together():
+    done = launch(
+        TUTORIAL / "launch" / "events.launch.py", seconds=60, arguments={"heading": "-1.5708"}
+    )
+
+    assert done.said("launch") == [
+        "turning",
+        "pkg_tf",
+        "good bye",
+        "shutting down: all is done",
+    ]
+    assert "Result: 1.5520 after 98 feedbacks" in done.texts("turner")
+    assert "turned -1.5708" in done.said("echo-7")
+    assert any("/other/sim" in text for text in done.texts("other/sim"))
+    assert done.elapsed < 5
+
+
+def test_show_args_tells_names_descriptions_defaults_and_choices():
+    with ros_free():
+        workspace = Workspace(TUTORIAL)
+        shown = show_arguments(TUTORIAL / "launch" / "turtle_following.launch.py", workspace)
+        more = show_arguments(TUTORIAL / "launch" / "events.launch.py", workspace)
+        none = show_arguments(workspace.share("turtlesim") / "launch/multisim.launch.py", workspace)
+
+    assert shown == (
+        "Arguments (pass arguments as '<name>:=<value>'):\n\n"
+        "    'source_frame':\n        Target frame name.\n        (default: 'turtle1')"
+    )
+    assert "Valid choices are: ['true', 'false']" in more
+    assert "'target_frame':" in more
+    assert "No arguments." in none
+
+
+@pytest.mark.parametrize(
+    ("name", "started"),
+    [
+        ("turtle_tf2_demo", "turtle_tf2_listener-4"),
+        ("turtle_tf2_fixed_frame_demo", "fixed_frame_tf2_broadcaster-5"),
+        ("turtle_tf2_dynamic_frame_demo", "dynamic_frame_tf2_broadcaster-5"),
+        ("turtle_tf2_sensor_message", "turtle_tf2_message_broadcaster-4"),
+    ],
+)
+def test_the_demos_own_launch_files_start_our_nodes(name, started):
+    folder = Workspace(TUTORIAL).share("turtle_tf2_py") / "launch"
+    done = launch(folder / f"{name}.launch.py", seconds=3)
+
+    assert done.said(started) == ["process started"]
+    assert len(done.places) == 2
+
+
+def test_two_simulators_live_in_namespaces():
+    folder = Workspace(TUTORIAL).share("turtlesim") / "launch"
+    done = launch(folder / "multisim.launch.py", seconds=1)
+
+    assert {"turtlesim1/turtle1/pose", "turtlesim2/turtle1/pose"} <= set(done.topics)
+
+
+# What actions do
+
+
+def test_parameters_of_the_scope_the_file_and_the_node_are_set(tmp_path):
+    (tmp_path / "p.yaml").write_text("/**:\n  ros__parameters:\n    background_g: 5\n")
+    done = described(
+        tmp_path,
+        "SetParameter('background_r', 3)",
+        "Node(package='turtlesim', executable='turtlesim_node', name='sim', parameters=["
+        f"ParameterFile(r'{tmp_path}/p.yaml'), r'{tmp_path}/p.yaml', "
+        "{'background_b': LaunchConfiguration('blue', default='7'), "
+        "'holonomic': ParameterValue(['tr', 'ue'], value_type=bool)}])",
+    )
+
+    assert done.nodes["sim"].parameters.values() == {
+        "background_r": 3,
+        "background_g": 5,
+        "background_b": 7,
+        "holonomic": True,
+    }
+
+
+def test_a_misspelt_parameter_of_our_nodes_is_named(tmp_path):
+    done = described(
+        tmp_path,
+        "Node(package='turtle_tf2_py', executable='turtle_tf2_broadcaster', name='b', "
+        "parameters=[{'turtlname': 'turtle1'}])",
+    )
+
+    assert any("did you mean 'turtlename'?" in text for text in done.texts("b"))
+
+
+def test_topics_are_renamed_by_the_node_and_by_the_scope(tmp_path):
+    done = described(
+        tmp_path,
+        "SetRemap('/turtle1/cmd_vel', '/elsewhere')",
+        "Node(package='pkg_tf', executable='tunable', name='t', "
+        "remappings=[('nothing', 'something')])",
+    )
+
+    assert done.topics["elsewhere"].count == 4
+    assert "turtle1/cmd_vel" not in done.topics
+
+
+def test_scopes_end_and_conditions_choose(tmp_path):
+    done = described(
+        tmp_path,
+        "SetLaunchConfiguration('x', '1')",
+        "GroupAction([SetLaunchConfiguration('x', '2'), LogInfo(msg=LaunchConfiguration('x')), "
+        "TimerAction(period=1.0, actions=[LogInfo(msg=['later ', LaunchConfiguration('x')])])], "
+        "launch_configurations={'y': '5'})",
+        "LogInfo(msg=LaunchConfiguration('x'))",
+        "GroupAction([SetLaunchConfiguration('x', '3')], scoped=False)",
+        "LogInfo(msg='three', condition=LaunchConfigurationEquals('x', '3'))",
+        "LogInfo(msg='not three', condition=LaunchConfigurationNotEquals('x', '3'))",
+        "UnsetLaunchConfiguration('x')",
+        "LogInfo(msg='unset', condition=LaunchConfigurationEquals('x', None))",
+    )
+
+    assert done.said("launch") == ["2", "1", "three", "unset", "later 2"]
+
+
+def test_substitutions_give_texts(tmp_path, monkeypatch):
+    monkeypatch.setenv("COLOUR", "red")
+    asked = {
+        "EnvironmentVariable('COLOUR')": "red",
+        "EnvironmentVariable('NO_SUCH', default_value='none')": "none",
+        "PathJoinSubstitution(['a', TextSubstitution(text='b')])": "a/b",
+        "TextSubstitution(text='a') / 'b'": "a/b",
+        "StringJoinSubstitution(['a', 'b'], delimiter='-')": "a-b",
+        "PythonExpression(['2 * ', '21'])": "42",
+        "ThisLaunchFileDir()": str(tmp_path),
+        "ThisLaunchFile()": str(tmp_path / "some.launch.py"),
+        "Command(['echo -n ', 'hello'])": "hello",
+        "FindExecutable(name='sh')": "/",
+        "EqualsSubstitution('1', '1.0')": "true",
+        "EqualsSubstitution('True', 'true')": "true",
+        "NotEqualsSubstitution('a', 'b')": "true",
+        "AndSubstitution('true', '0')": "false",
+        "OrSubstitution('false', '1')": "true",
+        "NotSubstitution('true')": "false",
+        "IfElseSubstitution('true', 'yes', 'no')": "yes",
+        "AnonName('node')": "node_1",
+    }
+    done = described(tmp_path, *(f"LogInfo(msg={text})" for text in asked))
+
+    for said, wanted in zip(done.said("launch"), asked.values(), strict=True):
+        assert said == wanted or (wanted == "/" and said.endswith("sh"))
+
+
+def test_environment_and_folder_reach_a_process(tmp_path):
+    done = described(
+        tmp_path,
+        "SetEnvironmentVariable('COLOUR', 'green')",
+        "SetEnvironmentVariable('SHAPE', 'round')",
+        "UnsetEnvironmentVariable('SHAPE')",
+        f"ExecuteProcess(cmd=['echo $COLOUR $SHAPE $SIZE; pwd'], cwd=r'{tmp_path}', shell=True, "
+        "additional_env={'SIZE': 'big'}, on_exit=LogInfo(msg='over'))",
+    )
+
+    assert done.said("echo-1")[1:3] == ["green big", str(tmp_path)]
+    assert done.said("launch") == ["over"]
+
+
+def test_handlers_hear_of_starts_and_can_be_taken_away(tmp_path):
+    done = described(
+        tmp_path,
+        "(h := RegisterEventHandler(OnProcessStart(on_start=lambda event, context: "
+        "LogInfo(msg=event.process_name))))",
+        "ExecuteProcess(cmd=['true'])",
+        "UnregisterEventHandler(h.event_handler)",
+        "ExecuteProcess(cmd=['true'], name='second')",
+        "RegisterEventHandler(OnExecutionComplete(target_action=(last := LogInfo(msg='last')), "
+        "on_completion=[Shutdown(reason='enough')]))",
+        "last",
+    )
+
+    assert done.said("launch") == ["true-1", "last", "shutting down: enough"]
+
+
+def test_a_process_that_fails_is_named_with_its_status(tmp_path):
+    done = described(tmp_path, "ExecuteProcess(cmd=['sh', '-c', 'exit 3'])")
+
+    assert done.failed == ["sh-1"]
+    assert done.said("sh-1")[-1] == "process has died, exit status 3"
+
+
+def test_a_node_that_fails_does_not_stop_the_others(tmp_path):
+    bad = tmp_path / "pkg" / "scripts"
+    bad.mkdir(parents=True)
+    (tmp_path / "pkg" / "package.xml").write_text("<package><name>pkg</name></package>")
+    (bad / "bad.py").write_text(
+        "import rclpy\nrclpy.init()\nnode = rclpy.create_node('bad')\n"
+        "def on_timer():\n    undefined\nnode.create_timer(1.0, on_timer)\nrclpy.spin(node)\n"
+    )
+    file = tmp_path / "a.launch.yaml"
+    file.write_text(
+        "launch:\n- node: {pkg: pkg, exec: bad.py}\n"
+        "- node: {pkg: turtlesim, exec: turtlesim_node}\n"
+    )
+    done = launch(file, seconds=3, start=tmp_path)
+
+    assert done.failed == ["bad.py-1"]
+    told = done.said("bad.py-1")[-1]
+    assert told.startswith("process has died, exit status 1: NameError: name 'undefined'")
+    assert "bad.py:5, in on_timer: undefined" in told
+    assert done.elapsed == 3
+
+
+# What is wrong
+
+
+@pytest.mark.parametrize(
+    ("action", "told"),
+    [
+        ("Node(package='turtlesm', executable='x')", "no package 'turtlesm'.*mean 'turtlesim'"),
+        ("Node(package='turtlesim', executable='turtlesim')", "did you mean 'turtlesim_node'"),
+        ("Node(package='pkg_tf', executable='follow')", "package 'pkg_tf' has no executable"),
+        ("Node(package='rviz2', executable='rviz2')", "is 'tftool view' here"),
+        ("Node(executable='x')", "a Node needs a package"),
+        ("Node(package='turtlesim', executable='turtlesim_node', name='a b')", "'a b' cannot be"),
+        ("LogInfo(msg=LaunchConfiguration('x'))", "launch configuration 'x' does not exist"),
+        ("DeclareLaunchArgument('x')", "launch argument 'x' .* has no default: pass x:="),
+        ("DeclareLaunchArgument('x', default_value='c', choices=['a'])", "one of a, not 'c'"),
+        ("LogInfo(msg='', condition=IfCondition('maybe'))", "'true', 'false', '1' or '0', not"),
+        ("LogInfo(msg=PythonExpression('1 +'))", r"cannot evaluate the expression '1 \+'"),
+        ("LogInfo(msg=EnvironmentVariable('NO_SUCH'))", "'NO_SUCH' does not exist"),
+        ("LogInfo(msg=FindExecutable(name='no-such'))", "no command 'no-such'"),
+        ("LogInfo(msg=Command('false'))", r"the command \['false'\] failed"),
+        ("TimerAction(period='soon', actions=[])", "period is seconds, not 'soon'"),
+        ("ExecuteProcess(cmd=['no-such-command'])", "cannot run 'no-such-command'"),
+        (
+            "Node(package='turtlesim', executable='turtlesim_node', parameters=["
+            "{'a': ParameterValue(TextSubstitution(text='x'), value_type=int)}])",
+            "is to be int, not 'x'",
+        ),
+    ],
+)
+def test_what_cannot_be_launched_is_said_in_one_sentence(tmp_path, action, told):
+    with pytest.raises((NodeFailed, UsageError), match=told) as refused:
+        described(tmp_path, action)
+
+    cause = refused.value.__cause__ or refused.value
+    assert isinstance(cause, UsageError)
+
+
+@pytest.mark.parametrize(
+    ("name", "text", "told"),
+    [
+        ("a.py", "x = (", r"a\.py:1:5: SyntaxError: '\(' was never closed\n    x = \(\n        \^"),
+        ("a.py", "x = 1", "no function generate_launch_description"),
+        ("a.py", "def generate_launch_description(): pass", "must return a LaunchDescription"),
+        ("a.py", "import nonesuch", "No module named 'nonesuch'"),
+        ("a.py", "from launch.actions import Nod", "'Nod' of launch.actions is not covered"),
+        ("a.py", "import launch_testing", "No module named 'launch_testing'"),
+        (
+            "a.py",
+            "from launch.actions import LogInfo\ndef generate_launch_description():\n"
+            "    return LogInfo(message='x')",
+            r"TypeError: .*'msg'\n.*a\.py:3",
+        ),
+        ("a.launch.xml", "<launch>\n<nod/></launch>", r"xml:2: there is no 'nod'.*mean 'node'"),
+        ("a.launch.xml", "<launch>\n<node/></launch>", r"xml:2: 'node' needs 'pkg'"),
+        (
+            "a.launch.xml",
+            '<launch><arg name="a" defualt="1"/></launch>',
+            r"xml:1: 'arg' has no attribute 'defualt'; did you mean 'default'",
+        ),
+        ("a.launch.xml", "<launch>\n<node>", r"xml:2:7: no element found"),
+        ("a.launch.xml", "<group/>", "root is 'launch', not 'group'"),
+        ("a.launch.xml", '<!DOCTYPE a [<!ENTITY b "c">]><launch/>', "entities are not read"),
+        ("a.launch.xml", '<launch><log message="$(vra x)"/></launch>', r"mean '\$\(var …\)'"),
+        ("a.launch.xml", '<launch><log message="$(var"/></launch>', r"not closed by '\)'"),
+        ("a.launch.xml", '<launch><log message="$()"/></launch>', "names nothing"),
+        ("a.launch.xml", '<launch><log message="$(not)"/></launch>', "wrong number of words"),
+        ("a.launch.xml", '<launch><log message="$(eval \'1)"/></launch>', "quote .* not closed"),
+        ("a.launch.yaml", "launch: [", r"yaml:1:10: "),
+        ("a.launch.yaml", "node: {}", "one key at its top, 'launch'"),
+        ("a.launch.yaml", "launch: {}", "'launch' is a list of actions"),
+        ("a.launch.yaml", "launch:\n- a\n", r"yaml:2: an action is one key"),
+        ("a.launch.yaml", "launch:\n- log: 5\n", r"yaml:2: 'log' needs its attributes"),
+    ],
+)
+def test_a_wrong_launch_file_is_refused_with_its_line(tmp_path, name, text, told):
+    file = tmp_path / name
+    file.write_text(text)
+
+    with pytest.raises(InputError, match=told):
+        launch(file, seconds=1)
+
+
+@pytest.mark.parametrize("name", ["gone.launch.py", "gone.launch.xml", "gone.launch.yaml"])
+def test_a_launch_file_that_is_not_there_is_said_so(tmp_path, name):
+    with pytest.raises(InputError, match=r"cannot read '.*gone.*': No such file"):
+        launch(tmp_path / name, seconds=1)
+
+
+def test_arguments_nobody_declared_are_refused():
+    file = TUTORIAL / "launch" / "turtle_following.launch.py"
+
+    with pytest.raises(UsageError, match="'sourceframe'; did you mean 'source_frame:=…'"):
+        launch(file, seconds=1, arguments={"sourceframe": "a"})
+    with pytest.raises(UsageError, match=r"no argument 'xyz' \(it declares source_frame\)"):
+        launch(file, seconds=1, arguments={"xyz": "a"})
+
+
+def test_what_goes_wrong_later_ends_the_launch(tmp_path):
+    done = described(
+        tmp_path,
+        "Node(package='turtlesim', executable='turtlesim_node')",
+        "TimerAction(period='1.0', actions=[LogInfo(msg=LaunchConfiguration('gone'))])",
+        seconds=10,
+    )
+
+    assert done.failed == ["launch"]
+    assert done.elapsed == 1
+    assert "launch configuration 'gone' does not exist" in done.said("launch")[-1]
+
+
+def test_every_element_of_xml_has_its_meaning(tmp_path):
+    (tmp_path / "params.yaml").write_text("sim:\n  ros__parameters:\n    background_r: 9\n")
+    file = tmp_path / "all.launch.xml"
+    file.write_text(
+        """<launch>
+  <arg name="who" default="x"><choice value="x"/><choice value="y"/></arg>
+  <let name="word" value="$(eval '1 + 1')"/>
+  <set_env name="COLOUR" value="blue"/>
+  <unset_env name="NO_SUCH"/>
+  <log message="$(var word) $(env COLOUR) $(anon n) $(not true) $(or false true)"/>
+  <log message="$(var other fallback) $(filename)" unless="$(equals a b)"/>
+  <group scoped="true">
+    <push-ros-namespace namespace="space"/>
+    <set_parameter name="background_b" value="4"/>
+    <set_remap from="a" to="b"/>
+    <node pkg="turtlesim" exec="turtlesim_node" name="sim" output="screen">
+      <param from="$(dirname)/params.yaml"/>
+      <param name="background_g" value="7" type="int"/>
+    </node>
+  </group>
+  <node pkg="pkg_tf" exec="rotate" name="turner" args="0.5 --x $(var word)" if="false"/>
+  <executable cmd="echo one $(var word)" name="told"/>
+  <timer period="0.5"><log message="later"/></timer>
+  <timer period="1.0"><shutdown reason="end"/></timer>
+</launch>
+"""
+    )
+    done = launch(file, seconds=5, start=tmp_path)
+
+    assert done.said("launch") == [
+        "2 blue n_1 false true",
+        f"fallback {file}",
+        "later",
+        "shutting down: end",
+    ]
+    assert done.said("told-2")[1] == "one 2"
+    values = done.nodes["space/sim"].parameters.values()
+    assert (values["background_g"], values["background_b"]) == (7, 4)
+    assert done.elapsed == 1

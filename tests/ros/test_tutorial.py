@@ -1,0 +1,284 @@
+"""The tutorial's own nodes, held against the reference numbers, on simulated time."""
+
+import math
+from pathlib import Path
+
+import pytest
+import yaml
+
+from tests.ros.tutorial import TUTORIAL, start
+from tftool.messages import Twist2D
+from tftool.nodes.squares import DrawSquare
+from tftool.nodes.turtlesim import Turtlesim
+from tftool.ros.testing import RosRuntime
+
+VECTORS = yaml.safe_load(
+    (Path(__file__).parent.parent / "reference" / "turtlesim_vectors.yaml").read_text()
+)
+
+
+def case(group, name):
+    return next(one for one in VECTORS[group] if one["id"] == name)
+
+
+def the_tutorial(runtime, *extra):
+    """The simulator, two broadcasters, and more of the package's executables."""
+
+    def begin():
+        world = runtime.world
+        Turtlesim(world)
+        for number in (1, 2):
+            start(
+                world,
+                "turtle_tf_broadcaster",
+                *("--ros-args", "-r", f"__node:=broadcaster{number}"),
+                *("-p", f"turtlename:=turtle{number}"),
+            )
+        for words in extra:
+            start(world, *words)
+
+    runtime.ask(begin)
+
+
+def commands(runtime, turtle="turtle2"):
+    """What a turtle was told, and where it was then: (t, x, y, theta, linear, angular)."""
+    rows = []
+    world = runtime.world
+
+    def told(twist):
+        place = world.node("turtlesim").turtles[turtle].place
+        rows.append((runtime.elapsed(), *place, twist.linear_x, twist.angular_z))
+
+    runtime.ask(lambda: world.topic(f"{turtle}/cmd_vel", Twist2D).subscribe(told))
+    return rows
+
+
+def test_the_follower_drives_as_the_launch_timeline_says(ros_runtime):
+    reference = case("launch_timeline", "launch_p1.0")
+    rows = commands(ros_runtime)
+    the_tutorial(ros_runtime, ("turtle_following", "--ros-args", "-r", "__node:=listener"))
+    ros_runtime.sleep(15)
+
+    assert len(rows) == len(reference["rows"])
+    for row, (t, x, y, theta, distance, linear, angular) in zip(
+        rows, reference["rows"], strict=True
+    ):
+        assert row[:3] == pytest.approx((t, x, y), abs=2e-6)
+        assert row[3] == pytest.approx(theta, abs=2e-5)
+        assert row[4] == pytest.approx(linear, abs=2e-6)
+        if distance > 0.01:
+            assert row[5] == pytest.approx(angular, abs=1e-4)
+    assert ros_runtime.log("listener") == ["Successfully spawned turtle2"]
+    assert reference["events"][1]["log_sim"] in ros_runtime.log("turtlesim")
+
+
+def test_two_runs_are_equal_to_the_last_bit():
+    def once():
+        with RosRuntime() as runtime:
+            rows = commands(runtime)
+            the_tutorial(runtime, ("turtle_following",), ("fixed_carrot",), ("point_sender",))
+            runtime.sleep(20)
+            return rows, runtime.world.buffer.all_frames_as_yaml(runtime.clock.now())
+
+    assert once() == once()
+
+
+def test_the_fixed_carrot_is_followed(ros_runtime):
+    the_tutorial(
+        ros_runtime,
+        ("turtle_following", "--ros-args", "-p", "source_frame:=carrot1"),
+        ("fixed_carrot",),
+    )
+    ros_runtime.sleep(20)
+
+    x, y, _ = ros_runtime.world.node("turtlesim").turtles["turtle2"].place
+    assert (x, y) == pytest.approx((5.5444, 7.5444), abs=0.01)
+
+
+def test_the_dynamic_carrot_jumps_from_side_to_side_each_second(ros_runtime):
+    the_tutorial(ros_runtime, ("dynamic_carrot",))
+    sides = []
+    for _ in range(4):
+        ros_runtime.sleep(1)
+        found = ros_runtime.world.buffer.lookup_transform("turtle1", "carrot1")
+        sides.append(round(found.transform.translation.y, 6))
+
+    assert sides == [-10.0, 10.0, -10.0, 10.0]
+
+
+def test_time_travel_goes_where_the_leader_was_five_seconds_ago(ros_runtime):
+    reference = case("time_travel", "delayed_full_p1.0")
+    rows = commands(ros_runtime)
+
+    def spawn():
+        from tftool.messages import Spawn
+
+        Turtlesim(ros_runtime.world, turtles=[Spawn(4.0, 2.0, 0.0, "turtle2")])
+        DrawSquare(ros_runtime.world, reset=False)
+        for number in (1, 2):
+            start(
+                ros_runtime.world,
+                "turtle_tf_broadcaster",
+                *("--ros-args", "-p", f"turtlename:=turtle{number}"),
+                *("-r", f"__node:=broadcaster{number}"),
+            )
+        start(ros_runtime.world, "time_travel")
+
+    ros_runtime.ask(spawn)
+    ros_runtime.sleep(20)
+
+    wanted = {row[0]: row for row in reference["rows"]}
+    columns = reference["columns"]
+    compared = 0
+    for row in rows:
+        if row[0] in wanted:
+            told = dict(zip(columns, wanted[row[0]], strict=True))
+            assert row[1:3] == pytest.approx((told["t2_x"], told["t2_y"]), abs=2e-6)
+            compared += 1
+    assert compared >= 10
+    assert rows[0][0] == 5.0
+    assert any("extrapolation" in text for text in ros_runtime.log("time_travel"))
+
+
+def test_the_static_turtle_takes_its_place_from_its_arguments(ros_runtime):
+    program = ros_runtime.ask(
+        lambda: start(
+            ros_runtime.world, "static_turtle", "mystaticturtle", "0", "0", "1", "0", "0", "1.5708"
+        )
+    )
+    ros_runtime.sleep(1)
+    found = ros_runtime.world.buffer.lookup_transform("world", "mystaticturtle").transform
+
+    assert found.translation == (0.0, 0.0, 1.0)
+    assert found.rotation.z == pytest.approx(math.sqrt(0.5), abs=1e-5)
+    assert program.status is None
+
+
+@pytest.mark.parametrize(
+    ("words", "status", "told"),
+    [
+        (("a",), 1, "Usage: static_turtle child_frame_name x y z roll pitch yaw"),
+        (
+            ("world", "0", "0", "0", "0", "0", "0"),
+            2,
+            'Your static turtle name cannot be "world"',
+        ),
+    ],
+)
+def test_a_node_that_exits_has_its_own_exit_status(ros_runtime, words, status, told):
+    ended = []
+    ros_runtime.ask(lambda: start(ros_runtime.world, "static_turtle", *words, on_exit=ended.append))
+    ros_runtime.sleep(1)
+
+    assert ended[0].status == status
+    assert ros_runtime.log("logger") == [told]
+
+
+def test_a_message_filter_hands_points_on_once_their_frame_is_known(ros_runtime):
+    the_tutorial(
+        ros_runtime,
+        ("point_sender",),
+        ("point_listener", "--ros-args", "-p", "target_frame:=turtle1"),
+    )
+    ros_runtime.sleep(2.5)
+
+    assert ros_runtime.log("point_listener") == ["Point in turtle1: x:0.000 y:0.000 z:0.000"] * 3
+
+
+@pytest.mark.parametrize("name", ["key_g", "key_t", "key_r", "key_d", "key_b"])
+def test_an_action_client_turns_the_turtle_and_hears_of_its_progress(ros_runtime, name):
+    goal = case("rotate_absolute", name)
+    ended = []
+    the_tutorial(ros_runtime)
+    ros_runtime.ask(
+        lambda: start(ros_runtime.world, "rotate", str(goal["goal_theta"]), on_exit=ended.append)
+    )
+    ros_runtime.sleep(5)
+
+    assert ros_runtime.log("rotate") == [
+        "Goal accepted",
+        f"Result: {goal['result_delta']:.4f} after {goal['feedback_count']} feedbacks",
+    ]
+    assert ended[0].status == 0
+
+
+def test_a_parameter_callback_judges_what_is_set(ros_runtime):
+    import rclpy
+    from rcl_interfaces.srv import SetParameters
+    from rclpy.parameter import Parameter
+
+    the_tutorial(ros_runtime, ("tunable",))
+    rclpy.init()
+    node = rclpy.create_node("setter")
+    client = node.create_client(SetParameters, "/tunable/set_parameters")
+    client.wait_for_service()
+
+    def ask(value):
+        request = SetParameters.Request(
+            parameters=[Parameter("speed", value=value).to_parameter_msg()]
+        )
+        result = client.call(request).results[0]
+        return result.successful, result.reason
+
+    assert ask(0.5) == (True, "")
+    assert ask(5.0) == (False, "too fast")
+    successful, reason = ask(1)
+    assert not successful
+    assert "is of type {DOUBLE}, setting it to {INTEGER} is not allowed: write 1.0" in reason
+    ros_runtime.sleep(1)
+    assert ros_runtime.world.topic("turtle1/cmd_vel", Twist2D).latest == Twist2D(0.5)
+
+
+def test_ctrl_c_reaches_every_node_and_destroys_it(tmp_path):
+    file = tmp_path / "ends.py"
+    file.write_text(
+        """
+import rclpy
+from rclpy.node import Node
+
+class Ends(Node):
+    def destroy_node(self):
+        self.get_logger().info('destroyed')
+        super().destroy_node()
+
+rclpy.init()
+node = Ends('ends')
+rclpy.spin(node)
+"""
+    )
+    with RosRuntime() as runtime:
+        program = runtime.start(file)
+        runtime.sleep(1)
+
+    assert program.status == 130
+    assert runtime.log("ends") == ["destroyed"]
+
+
+def test_blocking_code_in_one_node_hangs_no_other(ros_runtime, tmp_path):
+    file = tmp_path / "sleeper.py"
+    file.write_text(
+        """
+import time
+import rclpy
+rclpy.init()
+node = rclpy.create_node('sleeper')
+node.create_timer(1.0, lambda: time.sleep(5.0))
+rclpy.spin(node)
+"""
+    )
+    rows = commands(ros_runtime)
+    the_tutorial(ros_runtime, ("turtle_following",))
+    ros_runtime.start(file)
+    ros_runtime.sleep(10)
+
+    assert [row[0] for row in rows] == [3.0, 4.0, 5.0, 6.0, 7.0, 8.0, 9.0, 10.0]
+
+
+def test_the_package_is_found_with_all_its_scripts():
+    from tftool.ros.workspace import Workspace
+
+    package = Workspace(TUTORIAL / "pkg_tf").package("pkg_tf")
+
+    assert package.path == TUTORIAL
+    assert package.scripts["turtle_following"] == "pkg_tf.turtle_following:main"
+    assert len(package.scripts) == 10

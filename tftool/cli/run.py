@@ -1,0 +1,83 @@
+"""`tftool run`: a node of the user's own, without ROS."""
+
+from typing import TYPE_CHECKING, Annotated
+
+import typer
+
+from tftool.cli.options import positive
+from tftool.stamps import seconds
+
+if TYPE_CHECKING:
+    from tftool.runtime.log import LogRecord
+
+
+def run(
+    target: Annotated[
+        str, typer.Argument(metavar="FILE|PACKAGE", help="A node's file, or a package.")
+    ],
+    rest: Annotated[
+        list[str] | None,
+        typer.Argument(
+            metavar="[EXECUTABLE] [ARGUMENTS] [--ros-args …]",
+            help="A package's executable; the node's own arguments; ROS 2's after --ros-args.",
+        ),
+    ] = None,
+    insist: Annotated[
+        bool, typer.Option("--ros-free", help="Also where a real ROS 2 is sourced.")
+    ] = False,
+    run_for: Annotated[
+        float | None,
+        typer.Option("--for", metavar="SECONDS", callback=positive, help="Stop after so long."),
+    ] = None,
+    simulated: Annotated[
+        bool, typer.Option("--simulated", help="On simulated time: at once, the same every time.")
+    ] = False,
+) -> int:
+    """Run a node written for ROS 2, unmodified, without ROS (ros2 run).
+
+    The file's own imports of rclpy, tf2_ros, geometry_msgs and so on are answered by tftool.
+    A package is looked for below this folder, or in the src it belongs to; nothing is built.
+    Options of this command go before FILE.
+
+    tftool run turtle_tf_broadcaster.py --ros-args -p turtlename:=turtle1
+    tftool run pkg_tf turtle_following --ros-args -p source_frame:=carrot1
+    """
+    from pathlib import Path
+
+    from tftool.cli.session import notice, open_empty_session, open_session
+    from tftool.errors import UsageError
+    from tftool.ros import hosting
+    from tftool.runtime.clock import SimClock
+    from tftool.views.escaping import visible_lines
+
+    if simulated and run_for is None:
+        raise UsageError("on simulated time a run needs an end: --for SECONDS")
+    words = list(rest or [])
+    workspace = hosting.Workspace(Path.cwd())
+    clock = SimClock() if simulated else None
+    simulator = (target, *words[:1]) == ("turtlesim", "turtlesim_node")
+    with hosting.ros_free(insist=insist):
+        hosting.packages.use(workspace)
+        if simulator:
+            session = open_empty_session(clock)
+        else:
+            session = open_session(
+                clock=clock, head_start=0, without=lambda node: node.kind != "turtlesim"
+            )
+        world = session.world
+
+        def tell(record: "LogRecord") -> None:
+            if record.level != "DEBUG":
+                notice(visible_lines(hosting.log_line(record)))
+
+        world.log.listen(tell)
+        ending: list[hosting.Ending] = []
+
+        async def work() -> None:
+            ending.append(hosting.Ending(world))
+            hosting.start_program(world, workspace, target, words, on_exit=ending[0])
+            limit = None if run_for is None else seconds(run_for)
+            await hosting.until(world, ending[0].over, limit)
+
+        session.run(work())
+        return ending[0].judge()

@@ -1,0 +1,309 @@
+"""What a package's executable is: a user's console script or file, or a node of ours."""
+
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass
+from difflib import get_close_matches
+from typing import Any
+
+from tftool.errors import UsageError
+from tftool.frames.sample import TransformStamped
+from tftool.geometry.conversions import quaternion_from_rpy
+from tftool.geometry.rigid import Transform
+from tftool.messages import Color
+from tftool.nodes.broadcasters import Broadcaster, DynamicCarrot, FixedCarrot, StaticBroadcaster
+from tftool.nodes.follower import Follower
+from tftool.nodes.points import MessageBroadcaster, PointDrawer
+from tftool.nodes.squares import DrawSquare, Mimic
+from tftool.nodes.turtlesim import BACKGROUND, Turtlesim
+from tftool.ros import users
+from tftool.ros.names import RosOptions, join
+from tftool.ros.program import Program
+from tftool.ros.workspace import Workspace, missing_package
+from tftool.runtime.node import Node
+from tftool.runtime.world import World
+
+
+@dataclass(frozen=True, slots=True)
+class Asked:
+    """How an executable of ours is to be started.
+
+    Attributes:
+        world: Where it lives.
+        name: Its node's full name.
+        namespace: The namespace it is in.
+        arguments: Its own arguments.
+        parameters: Values given for its node.
+        options: Everything `--ros-args` said.
+    """
+
+    world: World
+    name: str
+    namespace: str
+    arguments: Sequence[str]
+    parameters: dict[str, Any]
+    options: RosOptions
+
+    def text(self, name: str, default: str) -> str:
+        """A text parameter; asked for, so it counts as known."""
+        return str(self.parameters.pop(name, default))
+
+
+def _turtlesim(asked: Asked) -> Node:
+    given = asked.parameters
+    defaults = (BACKGROUND.r, BACKGROUND.g, BACKGROUND.b)
+    r, g, b = (
+        int(given.pop(f"background_{channel}", default))
+        for channel, default in zip("rgb", defaults, strict=True)
+    )
+    holonomic = bool(given.pop("holonomic", False))
+    return Turtlesim(
+        asked.world,
+        asked.name,
+        holonomic=holonomic,
+        background=Color(r, g, b),
+        namespace=asked.namespace,
+    )
+
+
+def _broadcaster(asked: Asked) -> Node:
+    turtle = asked.text("turtlename", "turtle")
+    return Broadcaster(asked.world, asked.name, turtle=turtle)
+
+
+def _follower(parameter: str) -> Callable[[Asked], Node]:
+    def make(asked: Asked) -> Node:
+        return Follower(asked.world, asked.name, leader=asked.text(parameter, "turtle1"))
+
+    return make
+
+
+def _static_turtle(asked: Asked) -> Node:
+    words = asked.arguments
+    if len(words) != 7:
+        raise UsageError(
+            "static_turtle_tf2_broadcaster takes seven arguments, not "
+            f"{len(words)}: child_frame_name x y z roll pitch yaw"
+        )
+    child, *rest = words
+    x, y, z, roll, pitch, yaw = _numbers(rest)
+    if child == "world":
+        raise UsageError('Your static turtle name cannot be "world"')
+    return _static(asked, "world", child, (x, y, z), quaternion_from_rpy(roll, pitch, yaw))
+
+
+def _static_publisher(asked: Asked) -> Node:
+    words = list(asked.arguments)
+    if words and words[0].startswith("--"):
+        return _new_style(asked, words)
+    if len(words) == 9:
+        *numbers, parent, child = words
+        x, y, z, *rotation = _numbers(numbers)
+    elif len(words) == 8:
+        *numbers, parent, child = words
+        # The old form's order is yaw, pitch, roll.
+        x, y, z, yaw, pitch, roll = _numbers(numbers)
+        rotation = list(quaternion_from_rpy(roll, pitch, yaw))
+    else:
+        raise UsageError(
+            "static_transform_publisher takes x y z yaw pitch roll parent child, the same with a "
+            "quaternion, or --x … --frame-id … --child-frame-id …"
+        )
+    return _static(asked, parent, child, (x, y, z), rotation)
+
+
+def _new_style(asked: Asked, words: list[str]) -> Node:
+    known = ("x", "y", "z", "qx", "qy", "qz", "qw", "roll", "pitch", "yaw", "frame-id",
+             "child-frame-id")  # fmt: skip
+    given: dict[str, str] = {}
+    for option, value in zip(words[::2], [*words[1::2], ""], strict=False):
+        name = option.removeprefix("--")
+        if name not in known or not value:
+            near = get_close_matches(name, known, n=1)
+            hint = f"; did you mean '--{near[0]}'?" if near and name not in known else ""
+            raise UsageError(f"static_transform_publisher cannot use '{option} {value}'{hint}")
+        given[name] = value
+    if "frame-id" not in given or "child-frame-id" not in given:
+        raise UsageError("static_transform_publisher needs --frame-id and --child-frame-id")
+    turned = [given.get(name, "0") for name in ("roll", "pitch", "yaw")]
+    roll, pitch, yaw = _numbers(turned)
+    rotation = list(quaternion_from_rpy(roll, pitch, yaw))
+    if any(name in given for name in ("qx", "qy", "qz", "qw")):
+        if any(name in given for name in ("roll", "pitch", "yaw")):
+            raise UsageError("give a quaternion or roll, pitch, yaw, not both")
+        parts = zip(("qx", "qy", "qz", "qw"), "0001", strict=True)
+        rotation = _numbers([given.get(name, default) for name, default in parts])
+    x, y, z = _numbers([given.get(name, "0") for name in "xyz"])
+    return _static(asked, given["frame-id"], given["child-frame-id"], (x, y, z), rotation)
+
+
+def _static(asked: Asked, parent: str, child: str, place: Any, rotation: Any) -> Node:
+    sample = TransformStamped(0, parent, child, Transform(place, rotation))
+    return StaticBroadcaster(asked.world, asked.name, transforms=[sample])
+
+
+def _numbers(words: Sequence[str]) -> list[float]:
+    try:
+        return [float(word) for word in words]
+    except ValueError as error:
+        raise UsageError(f"a number is wanted: {error}") from None
+
+
+def _mimic(asked: Asked) -> Node:
+    topics = {"input/pose": "turtle1/pose", "output/cmd_vel": "turtle2/cmd_vel"}
+    ends = [
+        asked.options.remapped(join(asked.namespace, name), asked.name, asked.namespace)
+        for name in topics
+    ]
+    leader, copy = (
+        end.removesuffix(tail) if end.endswith(tail) else default.removesuffix(tail)
+        for end, tail, default in zip(ends, ("/pose", "/cmd_vel"), topics.values(), strict=True)
+    )
+    return Mimic(asked.world, asked.name, leader=leader, copy=copy)
+
+
+_TF_PACKAGES = ("turtle_tf2_py", "turtle_tf2_cpp")
+
+# package, executable: the node's name unless told, and what makes it.
+_OURS: dict[tuple[str, str], tuple[str, Callable[[Asked], Node]]] = {
+    ("turtlesim", "turtlesim_node"): ("turtlesim", _turtlesim),
+    ("turtlesim", "draw_square"): ("draw_square", lambda a: DrawSquare(a.world, a.name)),
+    ("turtlesim", "mimic"): ("turtle_mimic", _mimic),
+    ("tf2_ros", "static_transform_publisher"): ("static_transform_publisher", _static_publisher),
+}
+for _package in _TF_PACKAGES:
+    _OURS |= {
+        (_package, "turtle_tf2_broadcaster"): ("turtle_tf2_frame_publisher", _broadcaster),
+        (_package, "turtle_tf2_listener"): (
+            "turtle_tf2_frame_listener",
+            _follower("target_frame"),
+        ),
+        (_package, "fixed_frame_tf2_broadcaster"): (
+            "fixed_frame_tf2_broadcaster",
+            lambda a: FixedCarrot(a.world, a.name),
+        ),
+        (_package, "dynamic_frame_tf2_broadcaster"): (
+            "dynamic_frame_tf2_broadcaster",
+            lambda a: DynamicCarrot(a.world, a.name),
+        ),
+        (_package, "static_turtle_tf2_broadcaster"): (
+            "static_turtle_tf2_broadcaster",
+            _static_turtle,
+        ),
+        (_package, "turtle_tf2_message_broadcaster"): (
+            "turtle_tf2_message_broadcaster",
+            lambda a: MessageBroadcaster(a.world, a.name),
+        ),
+        (_package, "turtle_tf2_message_filter"): (
+            "turtle_tf2_pose_drawer",
+            lambda a: PointDrawer(a.world, a.name, target_frame=a.text("target_frame", "turtle1")),
+        ),
+    }
+
+# What has a command of its own here.
+_ELSEWHERE = {
+    ("turtlesim", "turtle_teleop_key"): "tftool teleop",
+    ("tf2_ros", "tf2_echo"): "tftool echo",
+    ("tf2_ros", "tf2_monitor"): "tftool monitor",
+    ("tf2_tools", "view_frames"): "tftool tree --format pdf",
+    ("rqt_tf_tree", "rqt_tf_tree"): "tftool tree --watch",
+    ("rviz2", "rviz2"): "tftool view",
+}
+
+OUR_PACKAGES = tuple(sorted({package for package, _ in _OURS}))
+
+
+def start(
+    world: World,
+    workspace: Workspace,
+    package: str,
+    executable: str,
+    *,
+    label: str,
+    argv: Sequence[str],
+    arguments: Sequence[str],
+    options: RosOptions,
+    on_exit: Callable[[Program], object] | None = None,
+) -> Node:
+    """Start an executable in a world.
+
+    Args:
+        world: Where it is to live.
+        workspace: Where users' packages are looked for, first.
+        package: Its package.
+        executable: Its name there.
+        label: What the program is called among others: "listener-4".
+        argv: Its whole `sys.argv`.
+        arguments: Its own arguments.
+        options: What `--ros-args` says.
+        on_exit: Called once a program of a user's has ended.
+
+    Raises:
+        UsageError: If there is no such package or executable; the nearest is told.
+        InputError: If its file cannot be read or is no Python.
+    """
+    found = workspace.packages.get(package)
+    if found is not None and executable in found.scripts:
+        module, _, function = found.scripts[executable].partition(":")
+        body = users.entry_point_body(module, function or "main", root=found.path)
+        return _program(world, label, body, argv, options, on_exit)
+    if found is not None and (file := found.script_file(executable)) is not None:
+        return _program(world, label, users.file_body(file), argv, options, on_exit)
+    ours = _OURS.get((package, executable))
+    if ours is not None:
+        return _start_ours(world, ours, arguments, options)
+    elsewhere = _ELSEWHERE.get((package, executable))
+    if elsewhere is not None:
+        raise UsageError(
+            f"'{package} {executable}' is '{elsewhere}' here, in a terminal of its own"
+        )
+    known = [name for one, name in _OURS if one == package]
+    known += found.scripts if found is not None else []
+    if not known and found is None:
+        raise UsageError(missing_package(package, workspace, OUR_PACKAGES))
+    near = get_close_matches(executable, known, n=1)
+    hint = f"; did you mean '{near[0]}'?" if near else ""
+    raise UsageError(
+        f"package '{package}' has no executable '{executable}'{hint} "
+        f"(it has {', '.join(sorted(known)) or 'none'})"
+    )
+
+
+def _program(
+    world: World,
+    label: str,
+    body: Callable[[], None],
+    argv: Sequence[str],
+    options: RosOptions,
+    on_exit: Callable[[Program], object] | None,
+) -> Program:
+    return Program(world, label, users.whole(body), argv=argv, options=options, on_exit=on_exit)
+
+
+def _start_ours(
+    world: World,
+    ours: tuple[str, Callable[[Asked], Node]],
+    arguments: Sequence[str],
+    options: RosOptions,
+) -> Node:
+    default, make = ours
+    name = options.name or default
+    namespace = (options.namespace or "").strip("/")
+    full = join(namespace, name)
+    taken, number = {node.name for node in world.nodes}, 1
+    while full in taken:
+        number += 1
+        full = f"{join(namespace, name)}_{number}"
+    parameters = options.parameters_for(name, namespace)
+    declared = dict(parameters)
+    node = make(Asked(world, full, namespace, arguments, parameters, options))
+    parameters.pop("use_sim_time", None)
+    _warn_of_unused(node, parameters, declared)
+    return node
+
+
+def _warn_of_unused(node: Node, unused: Mapping[str, Any], given: Mapping[str, Any]) -> None:
+    known = [*node.parameters.values(), *(set(given) - set(unused)), "turtlename", "target_frame"]
+    for name in unused:
+        near = get_close_matches(name, known, n=1)
+        hint = f"; did you mean '{near[0]}'?" if near else ""
+        node.warn(f"parameter '{name}' was given, but the node declares none of that name{hint}")

@@ -1,0 +1,185 @@
+"""Running users' programs in a world, for the commands `run` and `launch`."""
+
+import asyncio
+from collections.abc import Callable, Sequence
+from pathlib import Path
+
+from tftool.errors import NodeFailed, UsageError
+from tftool.ros import executables, importing, names, users
+from tftool.ros.importing import ros_free
+from tftool.ros.launching import packages
+from tftool.ros.launching.context import LaunchContext
+from tftool.ros.launching.description import load_file
+from tftool.ros.launching.engine import Launch, declared, shown_arguments
+from tftool.ros.program import Program
+from tftool.ros.workspace import Workspace
+from tftool.runtime.clock import Phase
+from tftool.runtime.log import LogRecord
+from tftool.runtime.world import World
+from tftool.stamps import NANOSECONDS, Duration
+
+FILES = (".py", ".xml", ".yaml", ".yml")
+
+
+def log_line(record: LogRecord) -> str:
+    """A line of the log as ROS 2 writes it."""
+    second, rest = divmod(record.stamp, NANOSECONDS)
+    return f"[{record.level}] [{second}.{rest:09d}] [{record.node}]: {record.text}"
+
+
+def is_file(word: str) -> bool:
+    """Whether a word of the command line means a file, rather than a package."""
+    return Path(word).suffix in FILES or "/" in word or Path(word).is_file()
+
+
+def start_program(
+    world: World,
+    workspace: Workspace,
+    target: str,
+    rest: Sequence[str],
+    *,
+    on_exit: Callable[[Program], object],
+) -> str:
+    """Start a node's file, or a package's executable, in a world.
+
+    Args:
+        world: Where it is to live.
+        workspace: Where packages are looked for.
+        target: The file, or the package.
+        rest: What follows; for a package, the executable first.
+        on_exit: Called once a program of a user's has ended.
+
+    Returns:
+        What it is called.
+
+    Raises:
+        UsageError: If there is no such executable, or what follows is malformed.
+        InputError: If the file cannot be read or is no Python.
+    """
+    if is_file(target):
+        path = Path(target)
+        options, _ = names.parse(rest)
+        body = users.whole(users.file_body(path))
+        argv = [target, *rest]
+        Program(world, path.stem, body, argv=argv, options=options, on_exit=on_exit)
+        return path.stem
+    if not rest or rest[0].startswith("-"):
+        found = workspace.packages.get(target)
+        known = ", ".join(sorted(found.scripts)) if found is not None else ""
+        hint = f" ({known})" if known else ""
+        raise UsageError(f"which executable of package '{target}'?{hint} For a file, give its path")
+    executable, *words = rest
+    options, arguments = names.parse(words)
+    executables.start(
+        world,
+        workspace,
+        target,
+        executable,
+        label=executable,
+        argv=[executable, *words],
+        arguments=arguments,
+        options=options,
+        on_exit=on_exit,
+    )
+    return executable
+
+
+def find_launch_file(workspace: Workspace, words: Sequence[str]) -> tuple[Path, list[str]]:
+    """The launch file that the first word, or the first two, mean; and the words after it.
+
+    Raises:
+        UsageError: If there is none; the ones of the package are told.
+    """
+    first, *rest = words
+    if is_file(first):
+        return Path(first), rest
+    folder = workspace.share(first)
+    if not rest or ":=" in rest[0]:
+        raise UsageError(f"which launch file of package '{first}'? {_listed(folder)}")
+    for below in ("launch", "."):
+        path = folder / below / rest[0]
+        if path.is_file():
+            return path, rest[1:]
+    raise UsageError(f"package '{first}' has no launch file '{rest[0]}'. {_listed(folder)}")
+
+
+def _listed(folder: Path) -> str:
+    found = sorted(one.name for one in (folder / "launch").glob("*") if one.suffix in FILES)
+    return f"It has {', '.join(found)}." if found else "It has none in its folder 'launch'."
+
+
+def arguments_of(words: Sequence[str]) -> dict[str, str]:
+    """The `name:=value` words.
+
+    Raises:
+        UsageError: If one is something else.
+    """
+    given = {}
+    for word in words:
+        name, found, value = word.partition(":=")
+        if not found or not name:
+            raise UsageError(f"'{word}' is no launch argument: write name:=value")
+        given[name] = value
+    return given
+
+
+def show_arguments(path: Path, workspace: Workspace) -> str:
+    """What a launch file takes.
+
+    Raises:
+        InputError: If it cannot be read.
+    """
+    context = LaunchContext(workspace)
+    context.locals = {
+        "current_launch_file_path": str(path),
+        "current_launch_file_directory": str(path.parent),
+    }
+    return shown_arguments(declared(load_file(path), context))
+
+
+async def until(world: World, over: asyncio.Event, limit: Duration | None) -> None:
+    """Wait until something is over, at most so long."""
+    if limit is not None:
+        stop = world.clock.timer(world.clock.now() + limit, Phase.WATCH)
+        stop.add_done_callback(lambda _: over.set())
+    await over.wait()
+
+
+class Ending:
+    """How a run of a user's programs ended."""
+
+    def __init__(self, world: World) -> None:
+        self.world = world
+        self.program: Program | None = None
+        self.over: asyncio.Event = asyncio.Event()
+
+    def __call__(self, program: Program) -> None:
+        """Note that a program has ended; the run is over."""
+        self.program = program
+        self.over.set()
+
+    def judge(self) -> int:
+        """The exit status of the run.
+
+        Raises:
+            NodeFailed: If a node raised.
+        """
+        program = self.program
+        # One that was ended by us has done what it was asked to.
+        if program is None or not program.status or program.interrupted:
+            return 0
+        failure = program.failure
+        if failure is None or isinstance(failure, SystemExit):
+            return program.status
+        raise ProgramFailed(program.name, failure)
+
+
+class ProgramFailed(NodeFailed):
+    """A program raised; said with the user's own line."""
+
+    def __init__(self, name: str, error: BaseException) -> None:
+        super().__init__(name, error)
+        self.args = (f"'{name}' failed: {users.sentence_of(error)}",)
+
+
+__all__ = ["Launch", "Workspace", "importing", "packages", "ros_free"]

@@ -1,0 +1,79 @@
+"""What is known while a launch runs."""
+
+import os
+from collections.abc import Iterator
+from contextlib import contextmanager
+from typing import Any
+
+from tftool.ros.workspace import Workspace
+
+
+class LaunchContext:
+    """Arguments, environment, the scope one is in, and the launch itself.
+
+    Attributes:
+        launch_configurations: Arguments and their values.
+        environment: Environment variables, a copy.
+        locals: What holds in the file that is being launched.
+        namespace: Where nodes are put.
+        remaps: Rules for all nodes of the scope.
+        parameters: Values for all nodes of the scope.
+        workspace: Where packages are looked for.
+        launch: What runs it.
+    """
+
+    def __init__(self, workspace: Workspace, launch: Any = None) -> None:
+        self.launch_configurations: dict[str, str] = {}
+        self.environment: dict[str, str] = dict(os.environ)
+        self.locals: dict[str, str] = {}
+        self.namespace = ""
+        self.remaps: list[tuple[str, str]] = []
+        self.parameters: dict[str, Any] = {}
+        self.workspace = workspace
+        self.launch = launch
+        self.event: Any = None
+        self._numbers: dict[str, int] = {}
+        self._kept: list[tuple[Any, ...]] = []
+
+    def number_of(self, name: str) -> int:
+        """A number for a name, the same one each time."""
+        return self._numbers.setdefault(name, len(self._numbers) + 1)
+
+    def kept(self) -> tuple[Any, ...]:
+        """The scope one is in, to come back to."""
+        return (
+            dict(self.launch_configurations),
+            dict(self.environment),
+            dict(self.locals),
+            self.namespace,
+            list(self.remaps),
+            dict(self.parameters),
+        )
+
+    def push(self) -> None:
+        """Begin a scope."""
+        self._kept.append(self.kept())
+
+    def pop(self) -> None:
+        """End it: everything is as before."""
+        self._restore(self._kept.pop())
+
+    @contextmanager
+    def back_to(self, kept: tuple[Any, ...]) -> Iterator[None]:
+        """Be in another scope for a while."""
+        now = self.kept()
+        self._restore(kept)
+        try:
+            yield
+        finally:
+            self._restore(now)
+
+    def _restore(self, kept: tuple[Any, ...]) -> None:
+        (
+            self.launch_configurations,
+            self.environment,
+            self.locals,
+            self.namespace,
+            self.remaps,
+            self.parameters,
+        ) = kept

@@ -1,0 +1,131 @@
+"""launch's events and who handles them."""
+
+from collections.abc import Callable
+from typing import Any
+
+
+class Event:
+    """Something that happened."""
+
+    name = "Event"
+
+
+class Shutdown(Event):
+    """The launch ends."""
+
+    name = "Shutdown"
+
+    def __init__(self, *, reason: str = "reason not given", due_to_sigint: bool = False) -> None:
+        self.reason = reason
+        self.due_to_sigint = due_to_sigint
+
+
+class ProcessStarted(Event):
+    """A process began."""
+
+    name = "ProcessStarted"
+
+    def __init__(self, *, action: Any, process_name: str) -> None:
+        self.action = action
+        self.process_name = process_name
+
+
+class ProcessExited(Event):
+    """A process ended.
+
+    Attributes:
+        returncode: Its exit status.
+    """
+
+    name = "ProcessExited"
+
+    def __init__(self, *, action: Any, process_name: str, returncode: int) -> None:
+        self.action = action
+        self.process_name = process_name
+        self.returncode = returncode
+
+
+class ExecutionComplete(Event):
+    """An action is done."""
+
+    name = "ExecutionComplete"
+
+    def __init__(self, *, action: Any) -> None:
+        self.action = action
+
+
+def _entities(given: Any, event: Event, context: Any) -> Any:
+    return given(event, context) if callable(given) else given
+
+
+class EventHandler:
+    """Does something when an event fits."""
+
+    def __init__(
+        self,
+        *,
+        matcher: Callable[[Event], bool],
+        entities: Any = None,
+        handle_once: bool = False,
+    ) -> None:
+        self._matcher = matcher
+        self._given = entities
+        self.handle_once = handle_once
+
+    def matches(self, event: Event) -> bool:
+        """Whether it is meant."""
+        return self._matcher(event)
+
+    def handle(self, event: Event, context: Any) -> Any:
+        """What is to be done."""
+        return _entities(self._given, event, context)
+
+
+def _targets(action: Any, target: Any) -> bool:
+    if target is None:
+        return True
+    if callable(target) and not hasattr(target, "execute"):
+        return bool(target(action))
+    return action is target
+
+
+class OnProcessExit(EventHandler):
+    """When a process has ended."""
+
+    def __init__(self, *, target_action: Any = None, on_exit: Any, **kwargs: Any) -> None:
+        super().__init__(
+            matcher=lambda e: isinstance(e, ProcessExited) and _targets(e.action, target_action),
+            entities=on_exit,
+            **kwargs,
+        )
+
+
+class OnProcessStart(EventHandler):
+    """When a process has begun."""
+
+    def __init__(self, *, target_action: Any = None, on_start: Any, **kwargs: Any) -> None:
+        super().__init__(
+            matcher=lambda e: isinstance(e, ProcessStarted) and _targets(e.action, target_action),
+            entities=on_start,
+            **kwargs,
+        )
+
+
+class OnExecutionComplete(EventHandler):
+    """When an action is done."""
+
+    def __init__(self, *, target_action: Any = None, on_completion: Any, **kwargs: Any) -> None:
+        super().__init__(
+            matcher=lambda e: (
+                isinstance(e, ExecutionComplete) and _targets(e.action, target_action)
+            ),
+            entities=on_completion,
+            **kwargs,
+        )
+
+
+class OnShutdown(EventHandler):
+    """When the launch ends."""
+
+    def __init__(self, *, on_shutdown: Any, **kwargs: Any) -> None:
+        super().__init__(matcher=lambda e: isinstance(e, Shutdown), entities=on_shutdown, **kwargs)

@@ -1,0 +1,339 @@
+"""launch's substitutions: texts that are known when the launch runs."""
+
+import math
+import os
+import shutil
+from collections.abc import Iterable, Sequence
+from difflib import get_close_matches
+from pathlib import Path
+from typing import Any
+
+from tftool.errors import UsageError
+from tftool.ros.launching.context import LaunchContext
+
+
+class SubstitutionFailure(UsageError):
+    """A text that cannot be made."""
+
+
+class Substitution:
+    """A text to come."""
+
+    def perform(self, context: LaunchContext) -> str:
+        """The text."""
+        raise NotImplementedError
+
+    def describe(self) -> str:
+        """How it shows itself."""
+        return f"{type(self).__name__}()"
+
+    def __truediv__(self, other: Any) -> "PathJoinSubstitution":
+        return PathJoinSubstitution([self, other])
+
+
+SomeSubstitutionsType = Any
+"""What may stand where a text is wanted, for annotations."""
+
+
+def perform(context: LaunchContext, value: Any) -> str:
+    """The text of anything that may be text: a substitution, or a list that is joined."""
+    if value is None:
+        return ""
+    if isinstance(value, Substitution):
+        return value.perform(context)
+    if isinstance(value, str):
+        return value
+    if isinstance(value, Path):
+        return str(value)
+    if isinstance(value, Iterable):
+        return "".join(perform(context, one) for one in value)
+    return str(value)
+
+
+def describe(value: Any) -> str:
+    """How anything that may be text shows itself before it is known."""
+    if isinstance(value, Substitution):
+        return value.describe()
+    if isinstance(value, Sequence) and not isinstance(value, str):
+        return " + ".join(describe(one) for one in value)
+    return repr(str(value))
+
+
+def is_true(text: str) -> bool:
+    """What launch takes for true.
+
+    Raises:
+        UsageError: If it is neither true nor false.
+    """
+    word = text.strip().lower()
+    if word in ("true", "1"):
+        return True
+    if word in ("false", "0"):
+        return False
+    raise UsageError(f"a condition is 'true', 'false', '1' or '0', not '{text}'")
+
+
+class TextSubstitution(Substitution):
+    """A plain text."""
+
+    def __init__(self, *, text: str) -> None:
+        if not isinstance(text, str):
+            raise TypeError(
+                f"TextSubstitution expected a str object in the 'text' argument, got {text!r}"
+            )
+        self.text = text
+
+    def perform(self, context: LaunchContext) -> str:
+        """The text."""
+        return self.text
+
+    def describe(self) -> str:
+        """The text, quoted."""
+        return f"'{self.text}'"
+
+
+class LaunchConfiguration(Substitution):
+    """The value of a launch argument."""
+
+    def __init__(self, variable_name: Any, *, default: Any = None) -> None:
+        self.variable_name = variable_name
+        self.default = default
+
+    def perform(self, context: LaunchContext) -> str:
+        """The value now."""
+        name = perform(context, self.variable_name)
+        if name in context.launch_configurations:
+            return context.launch_configurations[name]
+        if self.default is not None:
+            return perform(context, self.default)
+        near = get_close_matches(name, context.launch_configurations, n=1)
+        hint = f"; did you mean '{near[0]}'?" if near else ""
+        raise SubstitutionFailure(
+            f"launch configuration '{name}' does not exist: declare it with "
+            f"DeclareLaunchArgument, or pass {name}:=…{hint}"
+        )
+
+    def describe(self) -> str:
+        """LaunchConfiguration('name')."""
+        return f"LaunchConfiguration({describe(self.variable_name)})"
+
+
+class EnvironmentVariable(Substitution):
+    """The value of an environment variable."""
+
+    def __init__(self, name: Any, *, default_value: Any = None) -> None:
+        self.name = name
+        self.default_value = default_value
+
+    def perform(self, context: LaunchContext) -> str:
+        """The value now."""
+        name = perform(context, self.name)
+        if name in context.environment:
+            return context.environment[name]
+        if self.default_value is not None:
+            return perform(context, self.default_value)
+        raise SubstitutionFailure(f"environment variable '{name}' does not exist")
+
+    def describe(self) -> str:
+        """EnvVar('NAME')."""
+        return f"EnvVar({describe(self.name)})"
+
+
+class PathJoinSubstitution(Substitution):
+    """Path parts, joined."""
+
+    def __init__(self, substitutions: Iterable[Any]) -> None:
+        self.substitutions = list(substitutions)
+
+    def perform(self, context: LaunchContext) -> str:
+        """The path."""
+        return os.path.join(*(perform(context, one) for one in self.substitutions))
+
+    def describe(self) -> str:
+        """PathJoin(parts)."""
+        return f"PathJoin({', '.join(describe(one) for one in self.substitutions)})"
+
+
+class StringJoinSubstitution(Substitution):
+    """Texts, joined by a delimiter."""
+
+    def __init__(self, substitutions: Iterable[Any], delimiter: Any = "") -> None:
+        self.substitutions = list(substitutions)
+        self.delimiter = delimiter
+
+    def perform(self, context: LaunchContext) -> str:
+        """The joined text."""
+        return perform(context, self.delimiter).join(
+            perform(context, one) for one in self.substitutions
+        )
+
+
+class PythonExpression(Substitution):
+    """What an expression of Python gives; it is the launch file's own code."""
+
+    def __init__(self, expression: Any, python_modules: Any = ()) -> None:
+        self.expression = expression
+
+    def perform(self, context: LaunchContext) -> str:
+        """The expression's value as text."""
+        text = perform(context, self.expression)
+        names: dict[str, Any] = {**vars(math), "math": math, "os": os}
+        try:
+            return str(eval(text, names))
+        except Exception as error:
+            raise SubstitutionFailure(
+                f"cannot evaluate the expression '{text}': {type(error).__name__}: {error}"
+            ) from None
+
+    def describe(self) -> str:
+        """PythonExpr(expression)."""
+        return f"PythonExpr({describe(self.expression)})"
+
+
+class ThisLaunchFile(Substitution):
+    """The path of the launch file."""
+
+    def perform(self, context: LaunchContext) -> str:
+        """The path."""
+        return context.locals.get("current_launch_file_path", "")
+
+
+class ThisLaunchFileDir(Substitution):
+    """The folder of the launch file."""
+
+    def perform(self, context: LaunchContext) -> str:
+        """The folder."""
+        return context.locals.get("current_launch_file_directory", "")
+
+
+class AnonName(Substitution):
+    """A name that no other node has."""
+
+    def __init__(self, name: Any) -> None:
+        self.name = name
+
+    def perform(self, context: LaunchContext) -> str:
+        """The name with a number, the same one each time in this launch."""
+        name = perform(context, self.name)
+        return f"{name}_{context.number_of(name)}"
+
+
+class FindPackageShare(Substitution):
+    """A package's share directory."""
+
+    def __init__(self, package: Any) -> None:
+        self.package = package
+
+    def perform(self, context: LaunchContext) -> str:
+        """Its path: in a workspace, the package's sources."""
+        return str(context.workspace.share(perform(context, self.package)))
+
+    def describe(self) -> str:
+        """FindPackageShare(pkg='name')."""
+        return f"FindPackageShare(pkg={describe(self.package)})"
+
+
+FindPackage = FindPackagePrefix = FindPackageShare
+
+
+class FindExecutable(Substitution):
+    """The path of a command."""
+
+    def __init__(self, *, name: Any) -> None:
+        self.name = name
+
+    def perform(self, context: LaunchContext) -> str:
+        """Its path."""
+        name = perform(context, self.name)
+        found = shutil.which(name)
+        if found is None:
+            raise SubstitutionFailure(f"there is no command '{name}' on the PATH")
+        return found
+
+
+class Command(Substitution):
+    """What a command writes."""
+
+    def __init__(self, command: Any, *, on_stderr: Any = "fail") -> None:
+        self.command = command
+
+    def perform(self, context: LaunchContext) -> str:
+        """Its output."""
+        import shlex
+        import subprocess
+
+        words = shlex.split(perform(context, self.command))
+        try:
+            done = subprocess.run(words, capture_output=True, text=True, check=True)
+        except (OSError, subprocess.CalledProcessError) as error:
+            raise SubstitutionFailure(f"the command {words} failed: {error}") from None
+        return done.stdout
+
+
+class _Logic(Substitution):
+    def __init__(self, left: Any, right: Any) -> None:
+        self.left, self.right = left, right
+
+
+class EqualsSubstitution(_Logic):
+    """Whether two texts are equal; numbers compare as numbers, truths as truths."""
+
+    def perform(self, context: LaunchContext) -> str:
+        """'true' or 'false'."""
+        left, right = perform(context, self.left), perform(context, self.right)
+        try:
+            equal = math.isclose(float(left), float(right))
+        except ValueError:
+            truths = {"true", "false"}
+            low = (left.lower(), right.lower())
+            equal = low[0] == low[1] if set(low) <= truths else left == right
+        return str(equal).lower()
+
+
+class NotEqualsSubstitution(EqualsSubstitution):
+    """Whether two texts differ."""
+
+    def perform(self, context: LaunchContext) -> str:
+        """'true' or 'false'."""
+        return str(super().perform(context) == "false").lower()
+
+
+class AndSubstitution(_Logic):
+    """Whether both are true."""
+
+    def perform(self, context: LaunchContext) -> str:
+        """'true' or 'false'."""
+        both = is_true(perform(context, self.left)) and is_true(perform(context, self.right))
+        return str(both).lower()
+
+
+class OrSubstitution(_Logic):
+    """Whether one is true."""
+
+    def perform(self, context: LaunchContext) -> str:
+        """'true' or 'false'."""
+        one = is_true(perform(context, self.left)) or is_true(perform(context, self.right))
+        return str(one).lower()
+
+
+class NotSubstitution(Substitution):
+    """Whether something is false."""
+
+    def __init__(self, value: Any) -> None:
+        self.value = value
+
+    def perform(self, context: LaunchContext) -> str:
+        """'true' or 'false'."""
+        return str(not is_true(perform(context, self.value))).lower()
+
+
+class IfElseSubstitution(Substitution):
+    """One text or another."""
+
+    def __init__(self, condition: Any, if_value: Any = "", else_value: Any = "") -> None:
+        self.condition, self.if_value, self.else_value = condition, if_value, else_value
+
+    def perform(self, context: LaunchContext) -> str:
+        """The text chosen."""
+        chosen = is_true(perform(context, self.condition))
+        return perform(context, self.if_value if chosen else self.else_value)

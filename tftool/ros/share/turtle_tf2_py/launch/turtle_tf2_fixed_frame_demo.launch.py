@@ -1,0 +1,25 @@
+"""The demo, its follower after a carrot."""
+
+from launch import LaunchDescription
+from launch.actions import IncludeLaunchDescription
+from launch.launch_description_sources import PythonLaunchDescriptionSource
+from launch.substitutions import PathJoinSubstitution, ThisLaunchFileDir
+from launch_ros.actions import Node
+
+
+def generate_launch_description() -> LaunchDescription:
+    """Two turtles and a carrot."""
+    demo = PathJoinSubstitution([ThisLaunchFileDir(), "turtle_tf2_demo.launch.py"])
+    return LaunchDescription(
+        [
+            IncludeLaunchDescription(
+                PythonLaunchDescriptionSource(demo),
+                launch_arguments={"target_frame": "carrot1"}.items(),
+            ),
+            Node(
+                package="turtle_tf2_py",
+                executable="fixed_frame_tf2_broadcaster",
+                name="fixed_broadcaster",
+            ),
+        ]
+    )
