@@ -1,7 +1,7 @@
 """One question for many moments, in numpy: `Buffer.lookup_transforms`."""
 
 import os
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 from concurrent.futures import ThreadPoolExecutor
 
 import numpy as np
@@ -12,7 +12,7 @@ from tftool.frames import kernel, routes
 from tftool.frames.arrays import TransformArray
 from tftool.frames.columns import Column, Columns, Stamps, stamps_of
 from tftool.frames.forest import Forest
-from tftool.frames.history import Sample
+from tftool.frames.history import Link, Sample
 from tftool.frames.lookups import Lookups
 from tftool.frames.plans import Plan
 from tftool.geometry import batch
@@ -106,6 +106,8 @@ class _Batch:
             assert isinstance(column, Column)
             self.first = max(self.first, column.oldest)
             self.last = min(self.last, column.newest)
+        self.ready: dict[int, kernel.Edge] = {}
+        self.spare: list[kernel.Workspace] = []
         self.latest: tuple[Stamp, Sample] | TransformException | None = None
         n = len(times)
         self.stamps = np.empty(n, dtype=np.int64)
@@ -161,9 +163,30 @@ class _Batch:
         self, plan: Plan, times: Stamps, translations: batch.Floats, rotations: batch.Floats
     ) -> None:
         """Answer moments that a plan has data for."""
-        up = [self.columns.of(link) for link in plan.up]
-        down = [self.columns.of(link) for link in plan.down]
-        kernel.solve(up, down, times, translations, rotations)
+        try:
+            workspace = self.spare.pop()
+        except IndexError:
+            workspace = kernel.Workspace()
+        up, down = self.edges(plan.up), self.edges(plan.down)
+        workspace.solve(up, down, times, translations, rotations)
+        self.spare.append(workspace)
+
+    def edges(self, links: Iterable[Link]) -> list[kernel.Edge]:
+        """Links made ready for the arithmetic, each once."""
+        ready: list[kernel.Edge] = []
+        for link in links:
+            edge = self.ready.get(id(link))
+            if edge is None:
+                held = self.columns.of(link)
+                assert held is not None
+                edge = (
+                    kernel.Moving(held, len(self.times))
+                    if isinstance(held, Column)
+                    else kernel.Fixed(held)
+                )
+                self.ready[id(link)] = edge
+            ready.append(edge)
+        return ready
 
     def scatter(self, plan: Plan, start: int, rows: routes.Rows) -> None:
         """Answer some rows of a chunk."""
