@@ -19,6 +19,7 @@ if TYPE_CHECKING:
     import numpy.typing as npt
 
     from tftool.frames.arrays import TransformArray
+    from tftool.frames.bulk_insert import Insertion
 
 __all__ = ["NEVER", "Buffer"]
 
@@ -176,6 +177,54 @@ class Buffer:
         told = _stamped(parent, child, stamp, sample)
         for listener in self._listeners:
             listener(told, static, authority)
+
+    def set_transforms(
+        self,
+        parent: str,
+        child: str,
+        stamps: "npt.ArrayLike",
+        translations: "npt.ArrayLike",
+        rotations: "npt.ArrayLike",
+        authority: str = "",
+    ) -> "Insertion":
+        """Remember many samples of one link that moves, as if set one by one in their order.
+
+        Whoever listens is told each of them, and whoever waits is asked again, once all
+        are in.
+
+        Args:
+            parent: The frame the poses are given in.
+            child: The frame whose poses they are.
+            stamps: Whole nanoseconds, shape (n,), in any order.
+            translations: Metres, shape (n, 3).
+            rotations: Quaternions in xyzw order, shape (n, 4); any finite one but zero.
+            authority: Who sent them.
+
+        Returns:
+            Which rows were taken, and why the others were not; true if all were. The log
+            is told of the first ten.
+
+        Raises:
+            TypeError: If the stamps are no whole numbers.
+            ValueError: If a shape does not fit.
+        """
+        from tftool.frames import bulk_insert
+
+        known = len(self._forest.frames)
+        link = (parent, child, authority)
+        report, rows = bulk_insert.insert(
+            self._forest, self._log, self.max_frames, link, stamps, translations, rotations
+        )
+        self._lookups.drop_plans()
+        if report.accepted.any():
+            parent, child = names.stripped(parent), names.stripped(child)
+            if self._listeners:
+                for stamp, sample in rows.taken(report.accepted):
+                    self._tell(sample, stamp, parent, child, authority, False)
+            if self._requests.pending:
+                grown = len(self._forest.frames) > known
+                self._requests.changed(*((child, parent) if grown else (child,)))
+        return report
 
     def clear(self) -> None:
         """Forget all that moves; names, statics and pending requests stay."""

@@ -250,6 +250,42 @@ class History(Link):
         self.parent = NO_PARENT
         self.mixed = False
 
+    @property
+    def limit(self) -> Duration:
+        """How far it remembers back from its newest sample."""
+        return self._limit
+
+    def extend(self, stamps: "array[int]", samples: "array[float]", oldest_kept: Stamp) -> None:
+        """Append samples, each newer than the one before, and forget those before a stamp.
+
+        They have the parent that all samples have; one there is already, and they reach
+        beyond what is forgotten.
+        """
+        if self.newest_stamp < oldest_kept:
+            self.replace(stamps, samples, array("i", [self.parent]) * len(stamps))
+            return
+        self._stamps.extend(stamps)
+        self._samples.extend(samples)
+        self.newest = _unpack_one(self._samples, _WIDTH * (len(self._stamps) - 1))
+        self.newest_stamp = self._stamps[-1]
+        if self.oldest_stamp < oldest_kept:
+            self._forget(oldest_kept)
+
+    def replace(self, stamps: "array[int]", samples: "array[float]", parents: "array[int]") -> None:
+        """Remember these instead: not none, oldest first, of equal stamps the newest last."""
+        self._stamps, self._samples, self._start = stamps, samples, 0
+        self.oldest_stamp, self.newest_stamp = stamps[0], stamps[-1]
+        self.newest = _unpack_one(samples, _WIDTH * (len(stamps) - 1))
+        self.parent = parents[-1]
+        self.mixed = parents.count(self.parent) != len(parents)
+        self._parents = parents if self.mixed else None
+        self._run = 0
+        if self.mixed:
+            run = len(parents) - 1
+            while parents[run - 1] == self.parent:
+                run -= 1
+            self._run = run
+
     def _forget(self, oldest_kept: Stamp) -> None:
         """Let go of samples before that stamp."""
         stamps = self.stamps

@@ -222,6 +222,14 @@ def old_data(child: str, stamp: Stamp, authority: str) -> str:
     )
 
 
+def and_more(child: str, count: int, authority: str) -> str:
+    """For what else was refused of many samples that were set together."""
+    return (
+        f"and {count} more samples for frame {child} according to authority {authority} were "
+        "refused; what set_transforms gave back says which"
+    )
+
+
 def bad_stamp(child: str, stamp: Stamp, authority: str) -> str:
     """A stamp beyond 64 bits."""
     return (

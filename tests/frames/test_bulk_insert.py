@@ -1,0 +1,254 @@
+"""Many samples set together leave what the same ones leave that are set one by one."""
+
+import math
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from tests.strategies import transforms
+from tftool.frames.buffer import Buffer
+from tftool.frames.sample import TransformStamped
+from tftool.geometry.rigid import Transform
+from tftool.stamps import seconds
+
+odd = st.sampled_from(
+    [
+        Transform((math.nan, 0.0, 0.0)),
+        Transform((math.inf, 0.0, 0.0)),
+        Transform(rotation=(0.0, 0.0, 0.0, 0.0)),
+        Transform(rotation=(0.0, 0.0, math.nan, 1.0)),
+        Transform(rotation=(0.0, 0.0, 3e200, 4e200)),
+        Transform(rotation=(0.0, 0.0, 0.6, -0.8)),
+        Transform((1.0, 2.0, 3.0), (0.0, 2.0, 0.0, 0.0)),
+    ]
+)
+groups = st.lists(
+    st.tuples(
+        st.sampled_from(["world", "/world", "map", "turtle1", ""]),
+        st.lists(st.tuples(st.integers(0, 30), st.one_of(odd, transforms)), max_size=12),
+        st.sampled_from(["as they are", "sorted", "twice", "after"]),
+    ),
+    max_size=4,
+)
+
+
+def arranged(rows, how, newest):
+    if how == "twice":
+        return rows + rows
+    if how == "after":
+        return [(newest + 1 + k, pose) for k, (_, pose) in enumerate(rows)]
+    return rows if how == "as they are" else sorted(rows, key=lambda row: row[0])
+
+
+def together(buffer, parent, child, rows, authority="me"):
+    return buffer.set_transforms(
+        parent,
+        child,
+        np.array([stamp for stamp, _ in rows], dtype=np.int64),
+        np.array([pose.translation for _, pose in rows]).reshape(-1, 3),
+        np.array([pose.rotation for _, pose in rows]).reshape(-1, 4),
+        authority,
+    )
+
+
+def remembered(buffer, child):
+    frame = buffer._forest.children.get(child)
+    if frame is None or frame.link is None:
+        return None
+    link = frame.link
+    return link.items(), link.parent, link.oldest_stamp, link.newest_stamp, frame.authority
+
+
+@given(groups, st.integers(0, 12))
+@settings(max_examples=400)
+def test_setting_together_is_setting_one_by_one(groups, limit):
+    told, told_at_once = [], []
+    single = Buffer(limit, log=lambda *line: told.append(line))
+    bulk = Buffer(limit, log=lambda *line: told_at_once.append(line))
+    heard, heard_at_once = [], []
+    single.listen(lambda *sample: heard.append(sample))
+    bulk.listen(lambda *sample: heard_at_once.append(sample))
+    for parent, given_rows, how in groups:
+        rows = arranged(
+            given_rows,
+            how,
+            single.get_latest_common_time("turtle1", "turtle1")
+            if (single.frame_exists("turtle1"))
+            else 0,
+        )
+        told.clear()
+        told_at_once.clear()
+
+        taken = [
+            single.set_transform(TransformStamped(stamp, parent, "turtle1", pose), "me")
+            for stamp, pose in rows
+        ]
+        report = together(bulk, parent, "turtle1", rows)
+
+        assert report.accepted.tolist() == taken
+        assert bool(report) is all(taken)
+        assert remembered(bulk, "turtle1") == remembered(single, "turtle1")
+        assert bulk.frames() == single.frames()
+        if taken.count(False) <= 10:
+            assert told_at_once == told
+    assert heard_at_once == heard or any(math.nan in sample[0] for sample in heard)
+    for time in range(32):
+        assert bulk.parent("turtle1", time) == single.parent("turtle1", time)
+        assert bulk.why_not("world", "turtle1", time) == single.why_not("world", "turtle1", time)
+
+
+@given(groups, st.lists(st.tuples(st.integers(0, 40), transforms), max_size=8))
+@settings(max_examples=200)
+def test_single_samples_go_on_where_many_ended(groups, more):
+    single, bulk = (Buffer(12, log=lambda *_: None) for _ in range(2))
+    for parent, rows, _ in groups:
+        for stamp, pose in rows:
+            single.set_transform(TransformStamped(stamp, parent, "turtle1", pose))
+        together(bulk, parent, "turtle1", rows, "")
+    for stamp, pose in more:
+        for buffer in (single, bulk):
+            buffer.set_transform(TransformStamped(stamp, "world", "turtle1", pose))
+
+    assert remembered(bulk, "turtle1") == remembered(single, "turtle1")
+
+
+def line(count, start=1):
+    stamps = np.arange(start, start + count, dtype=np.int64) * seconds(1)
+    translations = np.zeros((count, 3))
+    translations[:, 0] = np.arange(count)
+    rotations = np.zeros((count, 4))
+    rotations[:, 3] = 1.0
+    return stamps, translations, rotations
+
+
+def test_many_samples_can_be_looked_up():
+    buffer = Buffer(seconds(100))
+
+    report = buffer.set_transforms("world", "turtle1", *line(11), "me")
+
+    assert report
+    assert len(report) == 11
+    assert buffer.lookup_transform("world", "turtle1", seconds(3.5)).transform.translation.x == 2.5
+
+
+def test_a_plan_made_before_sees_what_came_after():
+    buffer = Buffer(seconds(100))
+    buffer.set_transforms("world", "turtle1", *line(3))
+    buffer.lookup_transform("world", "turtle1")
+
+    buffer.set_transforms("map", "turtle1", *line(3, 4))
+
+    assert buffer.can_transform("map", "turtle1")
+    assert not buffer.can_transform("world", "turtle1")
+
+
+def test_who_waits_is_told():
+    buffer = Buffer(seconds(100))
+    told = []
+    buffer.request(lambda handle, there: told.append(there), "world", "turtle1", seconds(3))
+
+    buffer.set_transforms("world", "turtle1", *line(11))
+
+    assert told == [True]
+
+
+def test_a_static_link_gives_way():
+    buffer = Buffer(seconds(100))
+    buffer.set_transform_static(TransformStamped(0, "world", "turtle1", Transform()))
+
+    buffer.set_transforms("world", "turtle1", *line(3))
+
+    assert not buffer.snapshot(0).frame("turtle1").is_static
+
+
+def test_rows_are_refused_each_for_its_reason():
+    lines = []
+    buffer = Buffer(seconds(5), log=lambda level, text: lines.append((level, text.split()[0])))
+    stamps, translations, rotations = line(20)
+    stamps[12] = seconds(1)
+    translations[2, 1] = np.nan
+    rotations[4] = 0.0
+
+    report = buffer.set_transforms("world", "turtle1", stamps, translations, rotations)
+
+    assert report.refused.tolist() == [2, 4, 12]
+    assert {code: rows.tolist() for code, rows in report.reasons.items()} == {
+        "TF_NAN_INPUT": [2, 4],
+        "TF_DENORMALIZED_QUATERNION": [4],
+        "TF_OLD_DATA": [12],
+    }
+    assert lines == [
+        ("ERROR", "TF_NAN_INPUT:"),
+        ("ERROR", "TF_NAN_INPUT:"),
+        ("ERROR", "TF_DENORMALIZED_QUATERNION:"),
+        ("WARN", "TF_OLD_DATA"),
+    ]
+
+
+def test_of_many_refused_rows_the_log_gets_ten_and_the_number():
+    lines = []
+    buffer = Buffer(log=lambda level, text: lines.append(text))
+    stamps, translations, rotations = line(1000)
+    translations[:] = np.nan
+
+    report = buffer.set_transforms("world", "turtle1", stamps, translations, rotations, "me")
+
+    assert len(report.refused) == 1000
+    assert len(lines) == 11
+    assert lines[-1].startswith("and 990 more samples for frame turtle1")
+    assert buffer.frames() == []
+
+
+def test_names_beyond_the_limit_are_refused_together():
+    lines = []
+    buffer = Buffer(log=lambda level, text: lines.append(text), max_frames=1)
+
+    report = buffer.set_transforms("world", "turtle1", *line(50))
+
+    assert report.reasons["TF_TOO_MANY_FRAMES"].tolist() == list(range(50))
+    assert len(lines) == 1
+
+
+def test_no_samples_change_nothing():
+    buffer = Buffer()
+
+    assert buffer.set_transforms("world", "turtle1", [], [], [])
+    assert buffer.frames() == []
+
+
+@pytest.mark.parametrize(
+    ("change", "kind", "told"),
+    [
+        ({"stamps": [0.5, 1.5]}, TypeError, r"np.rint\(stamps \* 1e9\)"),
+        ({"stamps": [[1, 2]]}, ValueError, r"stamps have the shape \(n,\), not \(1, 2\)"),
+        (
+            {"translations": np.zeros((3, 3))},
+            ValueError,
+            r"translations for 2 stamps have the shape \(2, 3\), not \(3, 3\)",
+        ),
+        (
+            {"rotations": np.zeros((2, 3))},
+            ValueError,
+            r"rotations for 2 stamps have the shape \(2, 4\), not \(2, 3\)",
+        ),
+        ({"translations": np.full((2, 3), "1")}, TypeError, "translations are numbers"),
+    ],
+)
+def test_what_does_not_fit_is_refused_and_named(change, kind, told):
+    stamps, translations, rotations = line(2)
+    given = {"stamps": stamps, "translations": translations, "rotations": rotations} | change
+
+    with pytest.raises(kind, match=told):
+        Buffer().set_transforms("world", "turtle1", **given)
+
+
+def test_strided_and_read_only_arrays_are_taken():
+    stamps, translations, rotations = (part[::2] for part in line(6))
+    for part in (stamps, translations, rotations):
+        part.flags.writeable = False
+    buffer = Buffer()
+
+    assert buffer.set_transforms("world", "turtle1", stamps, translations, rotations)
+    assert buffer.snapshot(0).frame("turtle1").samples == 3

@@ -1,0 +1,259 @@
+"""Many samples of one link at once, in numpy: `Buffer.set_transforms`."""
+
+from array import array
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass
+from typing import TypeAlias
+
+import numpy as np
+import numpy.typing as npt
+
+from tftool.frames import names, refusals
+from tftool.frames.columns import Column, Stamps, stamps_of
+from tftool.frames.forest import Forest
+from tftool.frames.history import History, Sample
+from tftool.geometry import batch
+from tftool.geometry.batch import Floats
+
+Flags: TypeAlias = npt.NDArray[np.bool_]
+"""One yes or no for each row."""
+
+MOST_LINES = 10
+"""So many refused rows are logged with their reasons; of the others, the number."""
+
+_LEAST = -(2**63)
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Insertion:
+    """What became of samples that were set together; true if all were taken.
+
+    Attributes:
+        accepted: For each row whether it was taken, shape (n,). A row that was known already
+            counts as taken, as it does one by one.
+        reasons: The rows that were not, by tf2's code for the reason (TF_NAN_INPUT,
+            TF_OLD_DATA, …), each an array of row numbers.
+    """
+
+    accepted: Flags
+    reasons: dict[str, npt.NDArray[np.intp]]
+
+    def __bool__(self) -> bool:
+        return bool(self.accepted.all())
+
+    def __len__(self) -> int:
+        return len(self.accepted)
+
+    @property
+    def refused(self) -> npt.NDArray[np.intp]:
+        """The numbers of the rows that were not taken, in order."""
+        return np.flatnonzero(~self.accepted)
+
+
+class Rows:
+    """Samples as they came, checked row by row.
+
+    Attributes:
+        stamps: Nanoseconds, shape (n,).
+        samples: Position and canonical unit quaternion, shape (n, 7).
+        reasons: Which rows are objected to, by tf2's code.
+        sound: Which rows are not.
+    """
+
+    def __init__(
+        self,
+        stamps: npt.ArrayLike,
+        translations: npt.ArrayLike,
+        rotations: npt.ArrayLike,
+        rest: tuple[str, str, str],
+    ) -> None:
+        """Check samples.
+
+        Args:
+            stamps: Whole nanoseconds, shape (n,).
+            translations: Shape (n, 3).
+            rotations: Shape (n, 4).
+            rest: Child, parent and authority.
+        """
+        self.stamps = stamps_of(stamps, "stamps")
+        n = len(self.stamps)
+        self.samples: Floats = np.empty((n, 7))
+        self.samples[:, :3] = _shaped(translations, "translations", (n, 3))
+        turns = batch.unit(_shaped(rotations, "rotations", (n, 4)))
+        self.samples[:, 3:] = batch.canonical(turns)
+        self._rest = rest
+        every = np.ones(n, dtype=np.bool_)
+        whole = self._rest[:2]
+        codes = refusals.objections(*whole, 0, (0.0, 0.0, 0.0), (0.0, 0.0, 0.0, 1.0), "")
+        self.reasons = {
+            **{line.partition(":")[0]: every for line in codes},
+            "TF_NAN_INPUT": np.isnan(self.samples).any(axis=1),
+            "TF_DENORMALIZED_QUATERNION": np.isnan(self.samples[:, 6]),
+        }
+        self.sound: Flags = ~np.any(list(self.reasons.values()), axis=0)
+
+    def taken(self, accepted: Flags) -> Iterator[tuple[int, Sample]]:
+        """Stamp and pose of those rows, in the order in which they came."""
+        for row in np.flatnonzero(accepted).tolist():
+            x, y, z, qx, qy, qz, qw = self.samples[row].tolist()
+            yield int(self.stamps[row]), (x, y, z, qx, qy, qz, qw)
+
+    def lines(self, row: int) -> list[str]:
+        """What is said of a row that is objected to."""
+        child, parent, authority = self._rest
+        x, y, z, qx, qy, qz, qw = self.samples[row].tolist()
+        stamp = int(self.stamps[row])
+        return refusals.objections(child, parent, stamp, (x, y, z), (qx, qy, qz, qw), authority)
+
+
+def insert(
+    forest: Forest,
+    log: Callable[[str, str], None],
+    max_frames: int,
+    link: tuple[str, str, str],
+    stamps: npt.ArrayLike,
+    translations: npt.ArrayLike,
+    rotations: npt.ArrayLike,
+) -> tuple[Insertion, Rows]:
+    """Set many samples of one link.
+
+    Args:
+        forest: Where to.
+        log: Is told what is refused.
+        max_frames: How many names there may be.
+        link: Parent, child and authority.
+        stamps: Shape (n,).
+        translations: Shape (n, 3).
+        rotations: Shape (n, 4).
+
+    Returns:
+        What became of them, and they themselves as they were read.
+    """
+    parent, child, authority = names.stripped(link[0]), names.stripped(link[1]), link[2]
+    rows = Rows(stamps, translations, rotations, (child, parent, authority))
+    accepted, reasons = rows.sound.copy(), dict(rows.reasons)
+    if accepted.any() and not forest.has_room(child, parent, max_frames):
+        full = refusals.too_many_frames(child, authority, len(forest.frames))
+        reasons["TF_TOO_MANY_FRAMES"] = accepted.copy()
+        accepted[:] = False
+        log("ERROR", full)
+    if accepted.any():
+        forest.hang(child, parent, False)
+        frame = forest.children[child]
+        history = frame.link
+        assert isinstance(history, History)
+        chosen = np.flatnonzero(accepted)
+        old = merge(history, frame.parent_number, rows.stamps[chosen], rows.samples[chosen])
+        if old.any():
+            late: Flags = np.zeros(len(accepted), dtype=np.bool_)
+            late[chosen[old]] = True
+            reasons["TF_OLD_DATA"] = late
+            accepted &= ~late
+        if not old.all():
+            frame.authority = authority
+    refused = np.flatnonzero(~accepted).tolist()
+    if "TF_TOO_MANY_FRAMES" in reasons:
+        refused = np.flatnonzero(~rows.sound).tolist()
+    for row in refused[:MOST_LINES]:
+        for line in rows.lines(row):
+            log("ERROR", line)
+        if rows.sound[row]:
+            log("WARN", refusals.old_data(child, int(rows.stamps[row]), authority))
+    if len(refused) > MOST_LINES:
+        log("WARN", refusals.and_more(child, len(refused) - MOST_LINES, authority))
+    found = {code: np.flatnonzero(flags) for code, flags in reasons.items() if flags.any()}
+    return Insertion(accepted, found), rows
+
+
+def merge(history: History, parent: int, stamps: Stamps, samples: Floats) -> Flags:
+    """Insert sound samples as if one by one in their order; tell which were too old."""
+    n = len(stamps)
+    limit = min(history.limit, 2**63 - 1)
+    # The newest stamp there was before each row: what it is too old for, and what it forgets by.
+    before = np.empty(n, dtype=np.int64)
+    before[0] = history.newest_stamp if len(history) else _LEAST
+    np.maximum(before[0], np.maximum.accumulate(stamps[:-1]), out=before[1:])
+    floors = np.where(before < _LEAST + limit, _LEAST, before - limit)
+    old: Flags = stamps < floors
+    floor = int(floors[-1])
+    if (
+        len(history)
+        and not history.mixed
+        and history.parent == parent
+        and int(stamps[0]) > history.newest_stamp
+        and bool(np.all(stamps[1:] > stamps[:-1]))
+    ):
+        kept = slice(int(np.searchsorted(stamps, floor)), n)
+        history.extend(_stamps(stamps[kept]), _numbers(samples[kept]), floor)
+        return old
+
+    column = Column(history)
+    there = column.parents
+    if there is None:
+        there = np.full(len(column.stamps), history.parent, dtype=np.int32)
+    came = stamps[~old]
+    all_stamps = np.concatenate((column.stamps, came))
+    all_samples = np.concatenate((column.samples, samples[~old]))
+    all_parents = np.concatenate((there, np.full(len(came), parent, dtype=np.int32)))
+    # Stable: among equal stamps, what came later stays behind what came before.
+    order = np.argsort(all_stamps, kind="stable")
+    order = order[all_stamps[order] >= floor]
+    order = order[_first_of_their_kind(all_stamps, all_samples, all_parents, order)]
+    history.replace(
+        _stamps(all_stamps[order]),
+        _numbers(all_samples[order]),
+        _parents(all_parents[order]),
+    )
+    return old
+
+
+def _first_of_their_kind(
+    stamps: Stamps, samples: Floats, parents: npt.NDArray[np.int32], order: npt.NDArray[np.intp]
+) -> Flags:
+    """Which samples are not the very same as an earlier one with the same stamp."""
+    keep = np.ones(len(order), dtype=np.bool_)
+    ordered = stamps[order]
+    equal = np.flatnonzero(ordered[1:] == ordered[:-1])
+    seen: set[tuple[float, ...]] = set()
+    last = -2
+    for place in equal.tolist():
+        if place != last + 1:
+            seen = {_kind(samples, parents, int(order[place]))}
+        last = place
+        kind = _kind(samples, parents, int(order[place + 1]))
+        keep[place + 1] = kind not in seen
+        seen.add(kind)
+    return keep
+
+
+def _kind(samples: Floats, parents: npt.NDArray[np.int32], row: int) -> tuple[float, ...]:
+    return (*samples[row].tolist(), float(parents[row]))
+
+
+def _shaped(numbers: npt.ArrayLike, name: str, shape: tuple[int, int]) -> Floats:
+    given = np.asarray(numbers)
+    if given.size == 0 and shape[0] == 0 and given.ndim == 1:
+        return np.empty(shape)
+    if given.shape != shape:
+        raise ValueError(f"{name} for {shape[0]} stamps have the shape {shape}, not {given.shape}")
+    if given.dtype.kind not in "fiub":
+        raise TypeError(f"{name} are numbers (float64), not {given.dtype}")
+    return np.asarray(given, dtype=np.float64)
+
+
+def _stamps(values: Stamps) -> "array[int]":
+    result: array[int] = array("q")
+    result.frombytes(np.ascontiguousarray(values).tobytes())
+    return result
+
+
+def _parents(values: npt.NDArray[np.int32]) -> "array[int]":
+    result: array[int] = array("i")
+    result.frombytes(values.tobytes())
+    return result
+
+
+def _numbers(values: Floats) -> "array[float]":
+    result: array[float] = array("d")
+    result.frombytes(np.ascontiguousarray(values).tobytes())
+    return result
