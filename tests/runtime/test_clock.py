@@ -241,6 +241,31 @@ def test_a_head_start_ends_when_nothing_is_due_in_it():
     assert seconds(10) + 1000 <= run(clock, main()) < seconds(70)
 
 
+def test_in_a_head_start_too_everything_comes_to_rest_before_time_moves_on():
+    clock = WallClock(head_start=seconds(100))
+    seen = []
+
+    async def step():
+        future = asyncio.get_running_loop().create_future()
+        asyncio.get_running_loop().call_soon(future.set_result, None)
+        await future
+
+    async def starts_slowly():
+        for _ in range(5):
+            await step()
+        await clock.sleep(seconds(1))
+        seen.append(("slow starter", clock.elapsed()))
+
+    async def main():
+        later = clock.timer(clock.epoch + seconds(50))
+        await asyncio.gather(starts_slowly(), later)
+        seen.append(("main", clock.elapsed()))
+
+    run(clock, main())
+
+    assert seen == [("slow starter", seconds(1)), ("main", seconds(50))]
+
+
 def test_a_head_start_cannot_be_negative():
     with pytest.raises(ValueError, match="head start"):
         WallClock(head_start=-1)

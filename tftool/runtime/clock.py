@@ -214,6 +214,9 @@ class WallClock(Clock):
         if self._alarm is not None:
             self._alarm.cancel()
             self._alarm = None
+        if self._simulated is not None and _others_wait_their_turn():
+            asyncio.get_running_loop().call_soon(self._wake)
+            return
         due = self._next_due()
         if self._simulated is not None:
             if due is not None and due <= self._caught_up:
@@ -228,6 +231,11 @@ class WallClock(Clock):
         heapq.heappop(self._waiters)[4].set_result(None)
         # The woken task takes its step before the next waiter of the instant is woken.
         asyncio.get_running_loop().call_soon(self._wake)
+
+
+def _others_wait_their_turn() -> bool:
+    """Whether the running loop has work at hand; asyncio has no public way to ask."""
+    return bool(getattr(asyncio.get_running_loop(), "_ready", ()))
 
 
 class _VirtualLoop(asyncio.SelectorEventLoop):
