@@ -54,11 +54,12 @@ def together(buffer, parent, child, rows, authority="me"):
 
 
 def remembered(buffer, child):
-    frame = buffer._forest.children.get(child)
-    if frame is None or frame.link is None:
+    number = buffer._forest.numbers.get(child)
+    link = None if number is None else buffer._forest.frames[number].link
+    if link is None:
         return None
-    link = frame.link
-    return link.items(), link.parent, link.oldest_stamp, link.newest_stamp, frame.authority
+    authority = buffer.snapshot(0).frame(child).authority
+    return link.items(), link.parent, link.oldest_stamp, link.newest_stamp, authority
 
 
 @given(groups, st.integers(0, 12))

@@ -139,7 +139,7 @@ def insert(
         log("ERROR", full)
     if accepted.any():
         forest.hang(child, parent, False)
-        frame = forest.children[child]
+        frame = forest.register(child)
         history = frame.link
         assert isinstance(history, History)
         chosen = np.flatnonzero(accepted)

@@ -264,18 +264,18 @@ class History(Link):
         if self.newest_stamp < oldest_kept:
             self.replace(stamps, samples, array("i", [self.parent]) * len(stamps))
             return
-        self._stamps.extend(stamps)
-        self._samples.extend(samples)
-        self.newest = _unpack_one(self._samples, _WIDTH * (len(self._stamps) - 1))
-        self.newest_stamp = self._stamps[-1]
+        self.stamps.extend(stamps)
+        self.samples.extend(samples)
+        self._note_newest()
         if self.oldest_stamp < oldest_kept:
             self._forget(oldest_kept)
 
     def replace(self, stamps: "array[int]", samples: "array[float]", parents: "array[int]") -> None:
         """Remember these instead: not none, oldest first, of equal stamps the newest last."""
-        self._stamps, self._samples, self._start = stamps, samples, 0
-        self.oldest_stamp, self.newest_stamp = stamps[0], stamps[-1]
-        self.newest = _unpack_one(samples, _WIDTH * (len(stamps) - 1))
+        self.stamps, self.samples, self._start = stamps, samples, 0
+        self._full = max(_LEAST_SLACK, len(stamps) >> _SLACK)
+        self.oldest_stamp = stamps[0]
+        self._note_newest()
         self.parent = parents[-1]
         self.mixed = parents.count(self.parent) != len(parents)
         self._parents = parents if self.mixed else None
@@ -285,6 +285,14 @@ class History(Link):
             while parents[run - 1] == self.parent:
                 run -= 1
             self._run = run
+
+    def _note_newest(self) -> None:
+        """Keep the last two samples at hand."""
+        count = len(self.stamps)
+        self.newest_stamp, self.newest = self.stamps[-1], self._sample(count - 1)
+        self.previous_stamp, self.previous = 0, None
+        if count - self._start > 1:
+            self.previous_stamp, self.previous = self.stamps[-2], self._sample(count - 2)
 
     def _forget(self, oldest_kept: Stamp) -> None:
         """Let go of samples before that stamp."""
