@@ -7,7 +7,8 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from tests.strategies import rotations
-from tftool.frames.history import (
+from tftool.frames.history import History
+from tftool.frames.links import (
     BACKWARD,
     FORWARD,
     KNOWN,
@@ -16,7 +17,6 @@ from tftool.frames.history import (
     STORED,
     TOO_OLD,
     Constant,
-    History,
 )
 from tftool.geometry import quaternions
 from tftool.geometry.rigid import Transform, Vector3, interpolate

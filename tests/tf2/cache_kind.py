@@ -5,7 +5,8 @@ from typing import Any
 
 from tests.tf2.loader import CACHE, Unknown, close, fields
 from tftool.frames import refusals
-from tftool.frames.history import BACKWARD, FORWARD, NO_DATA, TOO_OLD, Constant, History
+from tftool.frames.history import History
+from tftool.frames.links import BACKWARD, FORWARD, NO_DATA, TOO_OLD, Constant
 
 Step = Mapping[str, Any]
 

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Literal
 from tftool.errors import TransformException
 from tftool.frames import export, names, refusals, sweep, velocity
 from tftool.frames.forest import Forest
-from tftool.frames.history import RESHAPED, STORED, TOO_OLD, Sample
+from tftool.frames.links import RESHAPED, STORED, TOO_OLD, Sample
 from tftool.frames.lookups import Lookups
 from tftool.frames.plans import Plan
 from tftool.frames.requests import NEVER, Callback, Requests

@@ -12,7 +12,7 @@ from tftool.frames import kernel, routes
 from tftool.frames.arrays import TransformArray
 from tftool.frames.columns import Column, Columns, Stamps, stamps_of
 from tftool.frames.forest import Forest
-from tftool.frames.history import Link, Sample
+from tftool.frames.links import Link, Sample
 from tftool.frames.lookups import Lookups
 from tftool.frames.plans import Plan
 from tftool.geometry import batch

@@ -11,7 +11,8 @@ import numpy.typing as npt
 from tftool.frames import names, refusals
 from tftool.frames.columns import Column, Stamps, stamps_of
 from tftool.frames.forest import Forest
-from tftool.frames.history import History, Sample
+from tftool.frames.history import History
+from tftool.frames.links import Sample
 from tftool.geometry import batch
 from tftool.geometry.batch import Floats
 

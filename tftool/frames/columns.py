@@ -4,7 +4,8 @@ import numpy as np
 import numpy.typing as npt
 
 from tftool.frames import refusals
-from tftool.frames.history import History, Link, Sample
+from tftool.frames.history import History
+from tftool.frames.links import Link, Sample
 from tftool.geometry.batch import Floats
 
 Stamps = npt.NDArray[np.int64]

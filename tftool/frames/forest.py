@@ -1,6 +1,7 @@
 """Frames by name and number, and what each hangs by: a forest that changes over time."""
 
-from tftool.frames.history import NO_PARENT, Constant, History, Link
+from tftool.frames.history import History
+from tftool.frames.links import NO_PARENT, Constant, Link
 from tftool.stamps import Duration, Stamp
 
 MAX_DEPTH = 1000

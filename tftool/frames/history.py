@@ -1,181 +1,42 @@
 """One link over time: insert, forget, interpolate, refuse to extrapolate.
 
-A link joins a child to its parent. `History` is one that moves: its samples lie in
-flat arrays, oldest first, 64 bytes each, behind a window that slides as old ones are
-forgotten; the newest is kept as a tuple too, so that "latest" touches no array.
-`Constant` is one that holds at all times.
+Samples lie in flat arrays, oldest first, 64 bytes each, behind a window that slides as old
+ones are forgotten; the last two are kept as tuples too, so that most questions touch no
+array.
 """
 
 import struct
 from array import array
 from bisect import bisect_left, bisect_right
-from math import acos, sin
 from typing import TypeAlias
 
-from tftool.geometry import quaternions
+from tftool.frames.chains import chained
+from tftool.frames.links import (
+    BACKWARD,
+    FORWARD,
+    KNOWN,
+    NO_DATA,
+    NO_PARENT,
+    RESHAPED,
+    STORED,
+    TOO_OLD,
+    Link,
+    Refusal,
+    Sample,
+)
 from tftool.stamps import Duration, Stamp
-
-Sample: TypeAlias = tuple[float, float, float, float, float, float, float]
-"""A pose: x, y, z in metres and a unit quaternion x, y, z, w of tf2's sign."""
-
-IDENTITY: Sample = (0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 1.0)
-
-Refusal: TypeAlias = tuple[int, Stamp]
-"""Why a link has no pose at a moment: NO_DATA, FORWARD or BACKWARD, and the stamp it does have."""
 
 Columns: TypeAlias = "tuple[array[int], array[float], array[int] | None]"
 """Stamps, samples flat, and parents (None where there is but one), oldest first."""
 
-NO_PARENT = -1
-"""In place of a parent's number: none."""
-
-# Why a link has no pose at some moment.
-NO_DATA = 1
-FORWARD = 2
-BACKWARD = 3
-
-# What became of an insert.
-TOO_OLD = 0
-KNOWN = 1
-STORED = 2
-RESHAPED = 3
-
 _pack = struct.Struct("=7d").pack
 _unpack_one = struct.Struct("=7d").unpack_from
-_unpack_two = struct.Struct("=14d").unpack_from
 _WIDTH = 56
 
 # Forgotten samples, and room in front for ones that arrive backwards, take at most
 # one part in sixteen, like the room that `array` keeps at its end.
 _SLACK = 4
 _LEAST_SLACK = 32
-
-
-class Link:
-    """What joins a child to its parent.
-
-    Attributes:
-        is_static: Whether it holds at all times.
-        newest_stamp: Stamp of the newest sample; 0 for a constant, and when there is none.
-        oldest_stamp: Stamp of the oldest sample; 0 likewise.
-        newest: The newest sample itself; None when there is none.
-        previous_stamp: Of a history with two samples or more, stamp of the last but one.
-        previous: That sample itself.
-        parent: Number of the newest sample's parent; NO_PARENT when there is none.
-        mixed: Whether samples with different parents are remembered.
-        stamps: Of a history, oldest first; some at the beginning may be forgotten ones.
-        samples: Of a history, seven numbers for each stamp.
-        pace: Samples a nanosecond, as last measured; where to look is guessed from it.
-    """
-
-    __slots__ = (
-        "is_static",
-        "mixed",
-        "newest",
-        "newest_stamp",
-        "oldest_stamp",
-        "pace",
-        "parent",
-        "previous",
-        "previous_stamp",
-        "samples",
-        "stamps",
-    )
-
-    def __init__(self, is_static: bool) -> None:
-        self.is_static: bool = is_static
-        self.newest_stamp: Stamp = 0
-        self.oldest_stamp: Stamp = 0
-        self.newest: Sample | None = None
-        self.previous: Sample | None = None
-        self.previous_stamp: Stamp = 0
-        self.parent: int = NO_PARENT
-        self.mixed: bool = False
-        self.stamps: array[int] = array("q")
-        self.samples: array[float] = array("d")
-        self.pace: float = 0.0
-
-    def __len__(self) -> int:
-        raise NotImplementedError
-
-    def at(self, time: Stamp) -> Sample | None:
-        """The pose at that moment (0: the newest), interpolated; None if it is refused."""
-        raise NotImplementedError
-
-    def parent_at(self, time: Stamp) -> int:
-        """Number of the parent at that moment (0: the newest's); NO_PARENT if refused."""
-        raise NotImplementedError
-
-    def refusal(self, time: Stamp) -> Refusal:
-        """Why there is no pose at that moment; only asked when there is none."""
-        raise NotImplementedError
-
-    def insert(self, stamp: Stamp, parent: int, sample: Sample) -> int:
-        """Remember a sample; says TOO_OLD, KNOWN, STORED, or RESHAPED when the parent changed."""
-        raise NotImplementedError
-
-    def clear(self) -> None:
-        """Forget what moves."""
-        raise NotImplementedError
-
-    def items(self) -> list[tuple[Stamp, int, Sample]]:
-        """Every sample remembered, newest first: stamp, parent's number, pose."""
-        raise NotImplementedError
-
-    def exactly(self, time: Stamp) -> Sample | None:
-        """The pose at a moment that no two samples enclose."""
-        raise NotImplementedError
-
-    def index(self, time: Stamp) -> int:
-        """Where the last sample at or before a moment lies that two samples enclose."""
-        raise NotImplementedError
-
-    def parts(self, time: Stamp) -> bool:
-        """Whether the two samples that enclose a moment have different parents."""
-        raise NotImplementedError
-
-
-class Constant(Link):
-    """A link that holds at all times: one slot, overwritten."""
-
-    __slots__ = ()
-
-    def __init__(self) -> None:
-        super().__init__(True)
-
-    def __len__(self) -> int:
-        return 1
-
-    def at(self, time: Stamp) -> Sample | None:
-        """The one pose, whatever the moment."""
-        return self.newest
-
-    def parent_at(self, time: Stamp) -> int:
-        """The one parent, whatever the moment."""
-        return self.parent
-
-    def refusal(self, time: Stamp) -> Refusal:
-        """Never asked for: a constant refuses nothing."""
-        return NO_DATA, 0
-
-    def insert(self, stamp: Stamp, parent: int, sample: Sample) -> int:
-        """Put the sample in place of the one that was there."""
-        if parent == self.parent and sample == self.newest:
-            return KNOWN
-        self.parent = parent
-        self.newest = sample
-        return RESHAPED
-
-    def clear(self) -> None:
-        """Nothing: what holds at all times is not forgotten."""
-
-    def items(self) -> list[tuple[Stamp, int, Sample]]:
-        """The one sample, at stamp 0."""
-        return [] if self.newest is None else [(0, self.parent, self.newest)]
-
-    def exactly(self, time: Stamp) -> Sample | None:
-        """The one pose."""
-        return self.newest
 
 
 class History(Link):
@@ -504,124 +365,3 @@ class History(Link):
         if time != self.oldest_stamp or self.newest is None:
             return None
         return self._sample(self._start)
-
-
-def chained(links: tuple[Link, ...], time: Stamp) -> Sample | None:
-    """The poses of several links one after the other, lowest first; None if one has none.
-
-    This is where a lookup spends its time, so everything is written out: a call for each
-    link, each search and each product would double the cost.
-
-    Args:
-        links: Each one's parent is the next one's child.
-        time: The moment; 0 for each link's newest.
-
-    Returns:
-        The pose of the first link's child in the last link's parent.
-    """
-    if time == 0 or not links:
-        return _newest(links)
-    first = True
-    for link in links:
-        newest = link.newest_stamp
-        if link.oldest_stamp < time < newest:
-            before = link.previous_stamp
-            if time >= before:
-                # Most questions fall between the last two, and those are at hand.
-                one, two, after = link.previous, link.newest, newest
-                if one is None or two is None:
-                    return None
-                tx, ty, tz, ax, ay, az, aw = one
-                ux, uy, uz, bx, by, bz, bw = two
-            else:
-                stamps = link.stamps
-                # Samples come almost periodically: guess first, search if that is wrong.
-                index = len(stamps) - 2 - int((newest - time) * link.pace)
-                if index < 0:
-                    index = 0
-                before = stamps[index]
-                after = stamps[index + 1]
-                if not before <= time < after:
-                    index = link.index(time)
-                    before = stamps[index]
-                    after = stamps[index + 1]
-                tx, ty, tz, ax, ay, az, aw, ux, uy, uz, bx, by, bz, bw = _unpack_two(
-                    link.samples, _WIDTH * index
-                )
-            if before != time and not (link.mixed and link.parts(time)):
-                ratio = (time - before) / (after - before)
-                tx += ratio * (ux - tx)
-                ty += ratio * (uy - ty)
-                tz += ratio * (uz - tz)
-                # As quaternions.slerp.
-                cosine = ax * bx + ay * by + az * bz + aw * bw
-                take = 1.0
-                if cosine < 0.0:
-                    cosine = -cosine
-                    take = -1.0
-                if cosine < 1.0:
-                    angle = acos(cosine)
-                    sine = sin(angle)
-                    keep = sin((1.0 - ratio) * angle) / sine
-                    take *= sin(ratio * angle) / sine
-                else:
-                    # Too near for acos to tell; on an arc this short the chord is the arc.
-                    keep = 1.0 - ratio
-                    take *= ratio
-                ax = keep * ax + take * bx
-                ay = keep * ay + take * by
-                az = keep * az + take * bz
-                aw = keep * aw + take * bw
-        elif newest == time or link.is_static:
-            one = link.newest
-            if one is None:
-                return None
-            tx, ty, tz, ax, ay, az, aw = one
-        else:
-            one = link.exactly(time)
-            if one is None:
-                return None
-            tx, ty, tz, ax, ay, az, aw = one
-        if first:
-            # One by one, which is quicker than as tuples.
-            first = False
-            x = tx
-            y = ty
-            z = tz
-            qx = ax
-            qy = ay
-            qz = az
-            qw = aw
-        else:
-            cx = 2.0 * (ay * z - az * y)
-            cy = 2.0 * (az * x - ax * z)
-            cz = 2.0 * (ax * y - ay * x)
-            x += aw * cx + ay * cz - az * cy + tx
-            y += aw * cy + az * cx - ax * cz + ty
-            z += aw * cz + ax * cy - ay * cx + tz
-            qx, qy, qz, qw = (
-                aw * qx + ax * qw + ay * qz - az * qy,
-                aw * qy + ay * qw + az * qx - ax * qz,
-                aw * qz + az * qw + ax * qy - ay * qx,
-                aw * qw - ax * qx - ay * qy - az * qz,
-            )
-    return x, y, z, qx, qy, qz, qw
-
-
-def joined(outer: Sample, inner: Sample) -> Sample:
-    """One pose after another: `a_from_c` from `a_from_b` and `b_from_c`."""
-    ox, oy, oz, ax, ay, az, aw = outer
-    ix, iy, iz, bx, by, bz, bw = inner
-    turn = (ax, ay, az, aw)
-    x, y, z = quaternions.rotate(turn, (ix, iy, iz))
-    qx, qy, qz, qw = quaternions.multiply(turn, (bx, by, bz, bw))
-    return x + ox, y + oy, z + oz, qx, qy, qz, qw
-
-
-def _newest(links: tuple[Link, ...]) -> Sample | None:
-    whole = IDENTITY
-    for link in links:
-        if link.newest is None:
-            return None
-        whole = joined(link.newest, whole)
-    return whole

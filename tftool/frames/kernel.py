@@ -11,8 +11,8 @@ from typing import TypeAlias
 import numpy as np
 
 from tftool.frames.columns import Column, Stamps
-from tftool.frames.history import Sample
 from tftool.frames.intervals import SERIES, Intervals
+from tftool.frames.links import Sample
 from tftool.frames.search import Buckets, find_sorted, settle_oldest
 from tftool.geometry.batch import Floats
 

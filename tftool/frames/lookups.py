@@ -3,7 +3,7 @@
 from tftool.errors import TransformException
 from tftool.frames import export, names, refusals, sweep
 from tftool.frames.forest import ARRIVED, LOOP, REFUSED, Forest, Walk
-from tftool.frames.history import IDENTITY, Sample
+from tftool.frames.links import IDENTITY, Sample
 from tftool.frames.plans import MOST_PLANS, Plan, plan_of
 from tftool.frames.requests import AVAILABLE, EXPIRED, PENDING, Question
 from tftool.stamps import Duration, Stamp

@@ -7,8 +7,9 @@ plan cannot know.
 
 from collections.abc import Iterable
 
+from tftool.frames.chains import chained
 from tftool.frames.forest import Forest, Walk
-from tftool.frames.history import Constant, Link, Sample, chained
+from tftool.frames.links import Constant, Link, Sample
 from tftool.geometry import quaternions
 from tftool.stamps import Stamp
 

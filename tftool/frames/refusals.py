@@ -11,7 +11,7 @@ from tftool.errors import (
     LookupException,
     NoDataForExtrapolationException,
 )
-from tftool.frames.history import BACKWARD, FORWARD, NO_DATA, Refusal
+from tftool.frames.links import BACKWARD, FORWARD, NO_DATA, Refusal
 from tftool.stamps import Stamp, display
 
 # Stamps are kept in 64 bits.

@@ -1,0 +1,132 @@
+"""Links one after the other: where a lookup spends its time."""
+
+import struct
+from math import acos, sin
+
+from tftool.frames.links import IDENTITY, Link, Sample
+from tftool.geometry import quaternions
+from tftool.stamps import Stamp
+
+_unpack_two = struct.Struct("=14d").unpack_from
+_WIDTH = 56
+
+
+def chained(links: tuple[Link, ...], time: Stamp) -> Sample | None:
+    """The poses of several links one after the other, lowest first; None if one has none.
+
+    This is where a lookup spends its time, so everything is written out: a call for each
+    link, each search and each product would double the cost.
+
+    Args:
+        links: Each one's parent is the next one's child.
+        time: The moment; 0 for each link's newest.
+
+    Returns:
+        The pose of the first link's child in the last link's parent.
+    """
+    if time == 0 or not links:
+        return _newest(links)
+    first = True
+    for link in links:
+        newest = link.newest_stamp
+        if link.oldest_stamp < time < newest:
+            before = link.previous_stamp
+            if time >= before:
+                # Most questions fall between the last two, and those are at hand.
+                one, two, after = link.previous, link.newest, newest
+                if one is None or two is None:
+                    return None
+                tx, ty, tz, ax, ay, az, aw = one
+                ux, uy, uz, bx, by, bz, bw = two
+            else:
+                stamps = link.stamps
+                # Samples come almost periodically: guess first, search if that is wrong.
+                index = len(stamps) - 2 - int((newest - time) * link.pace)
+                if index < 0:
+                    index = 0
+                before = stamps[index]
+                after = stamps[index + 1]
+                if not before <= time < after:
+                    index = link.index(time)
+                    before = stamps[index]
+                    after = stamps[index + 1]
+                tx, ty, tz, ax, ay, az, aw, ux, uy, uz, bx, by, bz, bw = _unpack_two(
+                    link.samples, _WIDTH * index
+                )
+            if before != time and not (link.mixed and link.parts(time)):
+                ratio = (time - before) / (after - before)
+                tx += ratio * (ux - tx)
+                ty += ratio * (uy - ty)
+                tz += ratio * (uz - tz)
+                # As quaternions.slerp.
+                cosine = ax * bx + ay * by + az * bz + aw * bw
+                take = 1.0
+                if cosine < 0.0:
+                    cosine = -cosine
+                    take = -1.0
+                if cosine < 1.0:
+                    angle = acos(cosine)
+                    sine = sin(angle)
+                    keep = sin((1.0 - ratio) * angle) / sine
+                    take *= sin(ratio * angle) / sine
+                else:
+                    # Too near for acos to tell; on an arc this short the chord is the arc.
+                    keep = 1.0 - ratio
+                    take *= ratio
+                ax = keep * ax + take * bx
+                ay = keep * ay + take * by
+                az = keep * az + take * bz
+                aw = keep * aw + take * bw
+        elif newest == time or link.is_static:
+            one = link.newest
+            if one is None:
+                return None
+            tx, ty, tz, ax, ay, az, aw = one
+        else:
+            one = link.exactly(time)
+            if one is None:
+                return None
+            tx, ty, tz, ax, ay, az, aw = one
+        if first:
+            # One by one, which is quicker than as tuples.
+            first = False
+            x = tx
+            y = ty
+            z = tz
+            qx = ax
+            qy = ay
+            qz = az
+            qw = aw
+        else:
+            cx = 2.0 * (ay * z - az * y)
+            cy = 2.0 * (az * x - ax * z)
+            cz = 2.0 * (ax * y - ay * x)
+            x += aw * cx + ay * cz - az * cy + tx
+            y += aw * cy + az * cx - ax * cz + ty
+            z += aw * cz + ax * cy - ay * cx + tz
+            qx, qy, qz, qw = (
+                aw * qx + ax * qw + ay * qz - az * qy,
+                aw * qy + ay * qw + az * qx - ax * qz,
+                aw * qz + az * qw + ax * qy - ay * qx,
+                aw * qw - ax * qx - ay * qy - az * qz,
+            )
+    return x, y, z, qx, qy, qz, qw
+
+
+def joined(outer: Sample, inner: Sample) -> Sample:
+    """One pose after another: `a_from_c` from `a_from_b` and `b_from_c`."""
+    ox, oy, oz, ax, ay, az, aw = outer
+    ix, iy, iz, bx, by, bz, bw = inner
+    turn = (ax, ay, az, aw)
+    x, y, z = quaternions.rotate(turn, (ix, iy, iz))
+    qx, qy, qz, qw = quaternions.multiply(turn, (bx, by, bz, bw))
+    return x + ox, y + oy, z + oz, qx, qy, qz, qw
+
+
+def _newest(links: tuple[Link, ...]) -> Sample | None:
+    whole = IDENTITY
+    for link in links:
+        if link.newest is None:
+            return None
+        whole = joined(link.newest, whole)
+    return whole
