@@ -718,3 +718,107 @@ assert not thread.is_alive()
     assert heard[:3] == [0.5, 1.0, 1.5]
     assert heard[3] == pytest.approx(1.75, abs=0.002)
     assert program.status == 0
+
+
+def test_arguments_without_those_of_ros_can_be_had(ros_runtime):
+    from rclpy.utilities import (
+        get_rmw_implementation_identifier,
+        remove_ros_args,
+        timeout_sec_to_nsec,
+    )
+
+    assert remove_ros_args(["a", "--ros-args", "-r", "x:=y"]) == ["a"]
+    assert timeout_sec_to_nsec(1.5) == 1_500_000_000
+    assert timeout_sec_to_nsec(None) == -1
+    assert get_rmw_implementation_identifier() == "tftool"
+
+
+def test_a_context_of_ones_own_begins_and_ends(ros_runtime):
+    import rclpy
+    from rclpy.context import Context
+
+    with Context() as context:
+        assert context.ok()
+        assert context.get_domain_id() == 0
+        rclpy.create_node("inside", context=context)
+    assert not context.ok()
+    with rclpy.init(args=["x", "--ros-args", "-p", "n:=3"]):
+        assert rclpy.create_node("a").declare_parameter("n", 1).value == 3
+
+
+def test_a_task_can_be_given_up(ros_runtime):
+    from tftool.ros.client.futures import Future, Task
+
+    waited = Future()
+
+    async def wait():
+        await waited
+
+    task = Task(wait)
+    assert task() is waited
+    task.cancel()
+    assert task.cancelled()
+    assert task() is None
+
+
+def test_a_service_that_goes_answers_with_a_sentence(node, ros_runtime):
+    import rclpy
+    from std_srvs.srv import Trigger
+
+    service = node.create_service(Trigger, "go", lambda request, response: response)
+    asker = rclpy.create_node("asker")
+    client = asker.create_client(Trigger, "go")
+    future = client.call_async(Trigger.Request())
+    ros_runtime.sleep(0.1)
+    service.destroy()
+    rclpy.spin_until_future_complete(asker, future, timeout_sec=1.0)
+
+    with pytest.raises(Exception, match="the node that served 'go' has left"):
+        future.result()
+    other = client.call_async(Trigger.Request())
+    client.remove_pending_request(other)
+    assert other.cancelled()
+
+
+def test_the_simulators_services_take_ros_requests(node, ros_runtime):
+    from std_srvs.srv import Empty
+    from turtlesim.srv import Kill, SetPen, Spawn, TeleportAbsolute, TeleportRelative
+
+    from tftool.nodes.turtlesim import Turtlesim
+
+    ros_runtime.ask(lambda: Turtlesim(ros_runtime.world))
+
+    def ask(kind, service, **fields):
+        client = node.create_client(kind, service)
+        assert client.wait_for_service(timeout_sec=1.0)
+        return client.call(kind.Request(**fields), timeout_sec=1.0)
+
+    assert ask(Spawn, "spawn", x=1.0, y=2.0).name == "turtle2"
+    assert ask(TeleportAbsolute, "turtle2/teleport_absolute", x=3.0, y=4.0) is not None
+    assert ask(TeleportRelative, "turtle2/teleport_relative", linear=1.0) is not None
+    assert ask(SetPen, "turtle2/set_pen", r=255, width=5) is not None
+    ros_runtime.sleep(0.1)
+    turtle = ros_runtime.world.node("turtlesim").turtles["turtle2"]
+    assert tuple(turtle.place)[:2] == pytest.approx((4.0, 4.0))
+    assert ask(Kill, "kill", name="turtle2") is not None
+    assert ask(Empty, "clear") is not None
+    assert ask(Empty, "reset") is not None
+    assert list(ros_runtime.world.node("turtlesim").turtles) == ["turtle1"]
+
+
+def test_points_travel_as_our_own_nodes_send_them(node, ros_runtime):
+    from geometry_msgs.msg import PointStamped as RosPoint
+
+    from tftool.messages import PointStamped
+
+    heard = []
+    node.create_subscription(RosPoint, "points", heard.append, 1)
+    ros_runtime.ask(
+        lambda: ros_runtime.world.topic("points", PointStamped).publish(
+            PointStamped(1_500_000_000, "world", 1.0, 2.0, 3.0)
+        )
+    )
+    spin(node, 0.1)
+
+    assert heard[0].header.stamp.nanosec == 500_000_000
+    assert (heard[0].header.frame_id, heard[0].point.z) == ("world", 3.0)

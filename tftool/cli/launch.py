@@ -72,7 +72,8 @@ def launch(
         started = hosting.Launch(world, path, workspace=workspace, arguments=arguments, say=say)
 
         def tell(record: "LogRecord") -> None:
-            if record.level != "DEBUG":
+            # What the link has to say the session tells.
+            if record.level != "DEBUG" and record.node != "link":
                 label = started.label_of(record.node)
                 notice(visible_lines(f"[{label}] {hosting.log_line(record)}"))
 

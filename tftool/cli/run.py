@@ -67,7 +67,8 @@ def run(
         world = session.world
 
         def tell(record: "LogRecord") -> None:
-            if record.level != "DEBUG":
+            # What the link has to say the session tells.
+            if record.level != "DEBUG" and record.node != "link":
                 notice(visible_lines(hosting.log_line(record)))
 
         world.log.listen(tell)

@@ -178,8 +178,8 @@ class Link:
     @property
     def main_node(self) -> str:
         """The node that what cannot be told apart is said to be of: the first of the world."""
-        nodes = self.world.nodes
-        return nodes[0].name if nodes else f"tftool_{self.options.command}"
+        shown = (node.name for node in self.world.nodes if node.is_shown)
+        return next(shown, f"tftool_{self.options.command}")
 
     def entity(
         self, kind: str, node: str, name: str, ros_type: str, *, depth: int, latched: bool = False
@@ -255,7 +255,8 @@ class Link:
     def _match_nodes(self) -> None:
         if self.options.read_only:
             return
-        wanted = {node.name for node in self.world.nodes} or {f"tftool_{self.options.command}"}
+        shown = {node.name for node in self.world.nodes if node.is_shown}
+        wanted = shown or {f"tftool_{self.options.command}"}
         for name in set(self._nodes) - wanted:
             self._nodes.pop(name)[1]()
         for name in wanted - set(self._nodes):

@@ -8,7 +8,7 @@ import asyncio
 import sys
 import threading
 from collections.abc import Awaitable, Callable, Sequence
-from typing import Any, TypeVar
+from typing import Any, ClassVar, TypeVar
 
 from tftool.errors import TftoolError
 from tftool.ros import fibers
@@ -53,6 +53,8 @@ class Program(Node):
         status: Its exit status once it has ended, None before.
         nodes: What it made with rclpy, destroyed at the end.
     """
+
+    is_shown: ClassVar[bool] = False
 
     def __init__(
         self,

@@ -78,7 +78,7 @@ class Workspace:
             if (parent / "src").is_dir():
                 roots.append(parent / "src")
                 break
-            if any((parent / mark).is_file() for mark in _MARKS):
+            if len(roots) == 1 and any((parent / mark).is_file() for mark in _MARKS):
                 roots.append(parent)
         return roots
 

@@ -4,6 +4,8 @@ Nodes know their world; the world knows them only as residents, so that neither
 module has to know the other.
 """
 
+from typing import ClassVar
+
 
 class Resident:
     """Somebody who lives in a world.
@@ -11,10 +13,12 @@ class Resident:
     Attributes:
         name: Who it is; no two residents of a world share a name.
         rank: Its place among them: who joined first goes first within a phase.
+        is_shown: Whether lists of nodes name it; what only carries others stays out.
     """
 
     name: str
     rank: int
+    is_shown: ClassVar[bool] = True
 
     async def run(self) -> None:
         """What it does; it ends when this returns."""

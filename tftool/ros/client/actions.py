@@ -149,16 +149,7 @@ class ActionClient(Entity):
 
     def wait_for_server(self, timeout_sec: float | None = None) -> bool:
         """Block until somebody serves it; whether somebody does."""
-        node = self.node
-        end = None if timeout_sec is None else node.clock_now() + int(timeout_sec * 1e9)
-        while node.context.ok():
-            if self.server_is_ready():
-                return True
-            left = None if end is None else end - node.clock_now()
-            if left is not None and left <= 0:
-                return False
-            node.program.sleep(min(250_000_000 if left is None else left, 250_000_000))
-        return False
+        return self.node.wait_until(lambda: self.full in self.node.world.actions(), timeout_sec)
 
     def send_goal_async(
         self,

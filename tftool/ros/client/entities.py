@@ -334,16 +334,7 @@ class Client(Entity):
 
     def wait_for_service(self, timeout_sec: float | None = None) -> bool:
         """Block until somebody serves it; whether somebody does."""
-        node = self.node
-        end = None if timeout_sec is None else node.clock_now() + int(timeout_sec * 1e9)
-        while node.context.ok():
-            if self.service_is_ready():
-                return True
-            left = None if end is None else end - node.clock_now()
-            if left is not None and left <= 0:
-                return False
-            node.program.sleep(min(250_000_000 if left is None else left, 250_000_000))
-        return False
+        return self.node.wait_until(lambda: self.node.world.has_service(self.full), timeout_sec)
 
     def call_async(self, request: Any) -> Future:
         """Ask; the answer comes while somebody spins.

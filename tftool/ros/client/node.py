@@ -1,5 +1,6 @@
 """rclpy's Node."""
 
+import asyncio
 from collections.abc import Callable, Iterable, Sequence
 from typing import Any, TypeVar
 from weakref import WeakKeyDictionary
@@ -25,6 +26,7 @@ from tftool.ros.client.qos import QoSProfile, profile_of
 from tftool.ros.client.time import Clock, Rate, ROSClock
 from tftool.ros.interfaces.classes import Message
 from tftool.ros.program import Program, ProgramNode
+from tftool.runtime.clock import Phase
 from tftool.runtime.world import TransformMessage, World
 from tftool.stamps import Stamp
 
@@ -372,21 +374,48 @@ class Node(NodeParameters):
 
         wait_for(self, future, timeout_sec)
 
+    def wait_until(self, there: Callable[[], bool], timeout_sec: float | None) -> bool:
+        """Block until something that comes and goes in the world is there; whether it is."""
+        if timeout_sec is not None and timeout_sec <= 0:
+            timeout_sec = 0.0
+        return bool(self.program.ask(lambda: self._appears(there, timeout_sec)))
+
+    async def _appears(self, there: Callable[[], bool], timeout_sec: float | None) -> bool:
+        clock = self.program.clock
+        timer = None
+        if timeout_sec is not None:
+            timer = clock.timer(clock.now() + int(timeout_sec * 1e9), Phase.WATCH)
+        changed = asyncio.Event()
+        stop = self.world.watch(changed.set)
+        try:
+            while not there() and self.context.ok() and (timer is None or not timer.done()):
+                changed.clear()
+                waiting: set[asyncio.Future[Any]] = {asyncio.ensure_future(changed.wait())}
+                if timer is not None:
+                    waiting.add(timer)
+                try:
+                    await asyncio.wait(waiting, return_when=asyncio.FIRST_COMPLETED)
+                finally:
+                    for one in waiting - {timer}:
+                        one.cancel()
+            return there()
+        finally:
+            stop()
+            if timer is not None:
+                timer.cancel()
+
     def wait_for_node(self, fully_qualified_node_name: str, timeout: float) -> bool:
         """Block until a node is there."""
         wanted = fully_qualified_node_name.strip("/")
-        end = self.clock_now() + int(timeout * 1e9)
-        while wanted not in self.get_node_names():
-            if self.clock_now() >= end or not self.context.ok():
-                return False
-            self.program.sleep(100_000_000)
-        return True
+        return self.wait_until(
+            lambda: any(one.name == wanted for one in self.world.nodes if one.is_shown), timeout
+        )
 
     def get_node_names(self) -> list[str]:
         """The names of all nodes."""
 
         def names_of() -> list[str]:
-            return [one.name for one in self.world.nodes if not isinstance(one, Program)]
+            return [one.name for one in self.world.nodes if one.is_shown]
 
         found: list[str] = self.program.ask(names_of)
         return found

@@ -9,7 +9,7 @@ from collections.abc import Callable, Iterable, Mapping, Sequence
 from contextlib import suppress
 from difflib import get_close_matches
 from pathlib import Path
-from typing import Any
+from typing import Any, ClassVar
 
 from tftool.errors import TftoolError, UsageError
 from tftool.ros import executables, users
@@ -38,6 +38,8 @@ class Launch(Node):
         handlers: Who waits for events.
         labels: What each node of ours is called in log lines, by the node's name.
     """
+
+    is_shown: ClassVar[bool] = False
 
     def __init__(
         self,

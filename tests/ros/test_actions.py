@@ -1,0 +1,195 @@
+import pytest
+
+from tftool.ros.testing import RosRuntime
+
+SERVER = """
+import time
+
+import rclpy
+from action_tutorials_interfaces.action import Fibonacci
+from rclpy.action import ActionServer, CancelResponse, GoalResponse
+from rclpy.callback_groups import ReentrantCallbackGroup
+from rclpy.executors import MultiThreadedExecutor
+from rclpy.node import Node
+
+
+class FibonacciServer(Node):
+
+    def __init__(self):
+        super().__init__('fibonacci_server')
+        self._server = ActionServer(
+            self, Fibonacci, 'fibonacci', self.execute,
+            goal_callback=self.on_goal, cancel_callback=self.on_cancel,
+            callback_group=ReentrantCallbackGroup())
+
+    def on_goal(self, request):
+        return GoalResponse.ACCEPT if request.order < 20 else GoalResponse.REJECT
+
+    def on_cancel(self, handle):
+        return CancelResponse.ACCEPT
+
+    def execute(self, handle):
+        feedback = Fibonacci.Feedback(partial_sequence=[0, 1])
+        for i in range(1, handle.request.order):
+            if handle.is_cancel_requested:
+                handle.canceled()
+                return Fibonacci.Result(sequence=feedback.partial_sequence)
+            feedback.partial_sequence.append(
+                feedback.partial_sequence[i] + feedback.partial_sequence[i - 1])
+            handle.publish_feedback(feedback)
+            time.sleep(1)
+        if handle.request.order == 3:
+            handle.abort()
+            return Fibonacci.Result()
+        handle.succeed()
+        return Fibonacci.Result(sequence=feedback.partial_sequence)
+
+
+rclpy.init()
+rclpy.spin(FibonacciServer(), executor=MultiThreadedExecutor())
+"""
+
+
+@pytest.fixture
+def client(ros_runtime, tmp_path):
+    import rclpy
+    from action_tutorials_interfaces.action import Fibonacci
+    from rclpy.action import ActionClient
+
+    file = tmp_path / "server.py"
+    file.write_text(SERVER)
+    ros_runtime.start(file)
+    rclpy.init()
+    client = ActionClient(rclpy.create_node("client"), Fibonacci, "fibonacci")
+    assert client.wait_for_server(timeout_sec=5.0)
+    return client
+
+
+def order(number):
+    from action_tutorials_interfaces.action import Fibonacci
+
+    return Fibonacci.Goal(order=number)
+
+
+def finish(client, future):
+    import rclpy
+
+    rclpy.spin_until_future_complete(client.node, future, timeout_sec=60.0)
+    return future.result()
+
+
+def test_a_goal_is_worked_on_with_feedback_and_a_result(client, ros_runtime):
+    heard = []
+    handle = finish(
+        client,
+        client.send_goal_async(
+            order(6), feedback_callback=lambda m: heard.append(list(m.feedback.partial_sequence))
+        ),
+    )
+    assert handle.accepted
+    result = finish(client, handle.get_result_async())
+
+    assert list(result.result.sequence) == [0, 1, 1, 2, 3, 5, 8]
+    assert result.status == 4
+    assert heard[-1] == [0, 1, 1, 2, 3, 5, 8]
+    assert len(heard) == 5
+    assert 5.0 <= ros_runtime.elapsed() < 5.1
+
+
+def test_a_goal_can_be_cancelled_on_the_way(client):
+    handle = finish(client, client.send_goal_async(order(15)))
+    result = handle.get_result_async()
+    import rclpy
+    from rclpy.task import Future
+
+    rclpy.spin_until_future_complete(client.node, Future(), timeout_sec=3.5)
+    answer = finish(client, handle.cancel_goal_async())
+
+    assert len(answer.goals_canceling) == 1
+    assert finish(client, result).status == 5
+    assert len(finish(client, handle.cancel_goal_async()).goals_canceling) == 0
+
+
+def test_a_goal_can_be_refused_or_given_up(client):
+    assert not finish(client, client.send_goal_async(order(50))).accepted
+    handle = finish(client, client.send_goal_async(order(3)))
+
+    assert handle.get_result().status == 6
+    assert client.send_goal(order(2)).status == 4
+
+
+def test_goals_of_the_wrong_kind_and_servers_that_are_not_there(client):
+    from rclpy.action import ActionClient, ActionServer
+    from std_srvs.srv import Trigger  # noqa: F401
+
+    with pytest.raises(TypeError, match="Expected"):
+        client.send_goal_async("ten")
+    with pytest.raises(TypeError, match="execute_callback"):
+        ActionServer(client.node, client._type, "x", None)
+    nobody = ActionClient(client.node, client._type, "nobody")
+    assert not nobody.wait_for_server(timeout_sec=0.5)
+    import rclpy
+
+    future = nobody.send_goal_async(order(1))
+    rclpy.spin_until_future_complete(client.node, future, timeout_sec=0.5)
+    assert not future.done()
+    nobody.destroy()
+
+
+def test_an_answer_that_is_no_result_is_said_and_replaced(tmp_path):
+    file = tmp_path / "server.py"
+    file.write_text(
+        SERVER.replace("return Fibonacci.Result(sequence=feedback.partial_sequence)", "return 3")
+    )
+    with RosRuntime() as runtime:
+        import rclpy
+        from action_tutorials_interfaces.action import Fibonacci
+        from rclpy.action import ActionClient
+
+        runtime.start(file)
+        rclpy.init()
+        client = ActionClient(rclpy.create_node("client"), Fibonacci, "fibonacci")
+        client.wait_for_server()
+        assert list(client.send_goal(order(1)).result.sequence) == []
+
+        assert "must return Fibonacci.Result, not int" in runtime.log("fibonacci_server")[0]
+
+
+def test_messages_that_belong_together_arrive_together(ros_runtime):
+    import rclpy
+    from geometry_msgs.msg import PointStamped
+    from message_filters import (
+        ApproximateTimeSynchronizer,
+        Cache,
+        Subscriber,
+        TimeSynchronizer,
+    )
+    from rclpy.time import Time
+    from std_msgs.msg import String
+
+    rclpy.init()
+    node = rclpy.create_node("sync")
+    exact, near = [], []
+    subs = [Subscriber(node, PointStamped, name) for name in ("a", "b")]
+    cache = Cache(subs[0], 2)
+    TimeSynchronizer(subs, 5).registerCallback(lambda one, other: exact.append(one.header.stamp))
+    ApproximateTimeSynchronizer(subs, 5, 0.1).registerCallback(lambda *pair: near.append(pair))
+    senders = [node.create_publisher(PointStamped, name, 10) for name in ("a", "b")]
+    for sender, stamps in zip(senders, ((1.0, 2.0, 3.0), (1.0, 2.05, 5.0)), strict=True):
+        for stamp in stamps:
+            message = PointStamped()
+            message.header.stamp = Time(seconds=stamp).to_msg()
+            sender.publish(message)
+    executor = rclpy.get_global_executor()
+    executor.add_node(node)
+    for _ in range(12):
+        executor.spin_once(timeout_sec=0.1)
+
+    assert [stamp.sec for stamp in exact] == [1]
+    assert len(near) == 2
+    assert cache.getLast().header.stamp.sec == 3
+    assert len(cache.getInterval(Time(seconds=2), Time(seconds=4))) == 2
+    assert subs[0].getTopic() == "a"
+    Cache(words := Subscriber(node, String, "words"), 1)
+    with pytest.raises(TypeError, match="allow_headerless"):
+        words.signalMessage(String())

@@ -1,0 +1,186 @@
+"""Nodes of ours under the names ROS 2 has for them."""
+
+import math
+
+import pytest
+
+from tests.ros.tutorial import start
+from tftool.errors import UsageError
+
+
+def begin(runtime, package, executable, *words):
+    return runtime.ask(lambda: start(runtime.world, executable, *words, package=package))
+
+
+@pytest.mark.parametrize(
+    ("executable", "name"),
+    [
+        ("turtle_tf2_broadcaster", "turtle_tf2_frame_publisher"),
+        ("turtle_tf2_listener", "turtle_tf2_frame_listener"),
+        ("fixed_frame_tf2_broadcaster", "fixed_frame_tf2_broadcaster"),
+        ("dynamic_frame_tf2_broadcaster", "dynamic_frame_tf2_broadcaster"),
+        ("turtle_tf2_message_broadcaster", "turtle_tf2_message_broadcaster"),
+        ("turtle_tf2_message_filter", "turtle_tf2_pose_drawer"),
+    ],
+)
+def test_the_demos_executables_have_their_nodes_names(ros_runtime, executable, name):
+    begin(ros_runtime, "turtlesim", "turtlesim_node")
+
+    assert begin(ros_runtime, "turtle_tf2_py", executable).name == name
+    again = begin(ros_runtime, "turtle_tf2_cpp", executable, "--ros-args", "-r", "__ns:=/x")
+    assert again.name == f"x/{name}"
+    assert begin(ros_runtime, "turtle_tf2_cpp", executable).name == f"{name}_2"
+
+
+def test_the_square_is_drawn_and_mimicked(ros_runtime):
+    for number in (1, 2):
+        begin(ros_runtime, "turtlesim", "turtlesim_node", "--ros-args", "-r", f"__ns:=/s{number}")
+    begin(
+        ros_runtime, "turtlesim", "mimic", "--ros-args",
+        "-r", "/input/pose:=/s1/turtle1/pose", "-r", "/output/cmd_vel:=/s2/turtle1/cmd_vel",
+    )  # fmt: skip
+    from tftool.messages import Twist2D
+
+    def drive():
+        ros_runtime.world.topic("s1/turtle1/cmd_vel", Twist2D).publish(Twist2D(1.0))
+
+    ros_runtime.sleep(0.1)
+    ros_runtime.ask(drive)
+    ros_runtime.sleep(2)
+    x1, x2 = (ros_runtime.world.node(f"s{n}/turtlesim").turtles["turtle1"].place.x for n in (1, 2))
+
+    assert x1 == pytest.approx(6.5524, abs=1e-3)
+    assert x2 > 6.5
+
+
+def test_draw_square_draws(ros_runtime):
+    begin(ros_runtime, "turtlesim", "turtlesim_node")
+    begin(ros_runtime, "turtlesim", "draw_square")
+    ros_runtime.sleep(2.1)
+
+    place = ros_runtime.world.node("turtlesim").turtles["turtle1"].place
+    assert place.x == pytest.approx(7.448, abs=0.03)
+
+
+@pytest.mark.parametrize(
+    ("package", "executable", "words", "expected"),
+    [
+        (
+            "turtle_tf2_py",
+            "static_turtle_tf2_broadcaster",
+            ["child", "1", "2", "3", "0", "0", "1.5"],
+            ("world", "child", (1.0, 2.0, 3.0), (0.0, 0.0, math.sin(0.75), math.cos(0.75))),
+        ),
+        (
+            "tf2_ros",
+            "static_transform_publisher",
+            ["0", "0", "3", "0", "0", "3.14", "A", "B"],
+            ("A", "B", (0.0, 0.0, 3.0), (math.sin(1.57), 0.0, 0.0, math.cos(1.57))),
+        ),
+        (
+            "tf2_ros",
+            "static_transform_publisher",
+            ["1", "0", "0", "0", "0", "1", "0", "A", "B"],
+            ("A", "B", (1.0, 0.0, 0.0), (0.0, 0.0, 1.0, 0.0)),
+        ),
+        (
+            "tf2_ros",
+            "static_transform_publisher",
+            ["--x", "1", "--yaw", "1.5", "--frame-id", "A", "--child-frame-id", "B"],
+            ("A", "B", (1.0, 0.0, 0.0), (0.0, 0.0, math.sin(0.75), math.cos(0.75))),
+        ),
+        (
+            "tf2_ros",
+            "static_transform_publisher",
+            ["--qz", "1", "--qw", "0", "--frame-id", "A", "--child-frame-id", "B"],
+            ("A", "B", (0.0, 0.0, 0.0), (0.0, 0.0, 1.0, 0.0)),
+        ),
+    ],
+)
+def test_static_transforms_are_published(ros_runtime, package, executable, words, expected):
+    begin(ros_runtime, package, executable, *words)
+    ros_runtime.sleep(0.1)
+    parent, child, place, rotation = expected
+    found = ros_runtime.world.buffer.lookup_transform(parent, child).transform
+
+    assert found.translation == pytest.approx(place)
+    assert found.rotation == pytest.approx(rotation)
+
+
+@pytest.mark.parametrize(
+    ("package", "executable", "words", "told"),
+    [
+        ("turtle_tf2_py", "static_turtle_tf2_broadcaster", ["a"], "takes seven arguments, not 1"),
+        (
+            "turtle_tf2_py",
+            "static_turtle_tf2_broadcaster",
+            ["world", *"123456"],
+            'cannot be "world"',
+        ),
+        (
+            "turtle_tf2_py",
+            "static_turtle_tf2_broadcaster",
+            ["a", "one", *"23456"],
+            "a number is wanted: could not convert string to float: 'one'",
+        ),
+        ("tf2_ros", "static_transform_publisher", ["1"], "takes x y z yaw pitch roll"),
+        (
+            "tf2_ros",
+            "static_transform_publisher",
+            ["--frame", "A"],
+            r"cannot use '--frame A'; did you mean '--frame-id'",
+        ),
+        ("tf2_ros", "static_transform_publisher", ["--x", "1"], "needs --frame-id and --child"),
+        (
+            "tf2_ros",
+            "static_transform_publisher",
+            ["--qx", "1", "--yaw", "1", "--frame-id", "A", "--child-frame-id", "B"],
+            "a quaternion or roll, pitch, yaw, not both",
+        ),
+    ],
+)
+def test_wrong_arguments_are_refused_in_one_sentence(ros_runtime, package, executable, words, told):
+    with pytest.raises(UsageError, match=told):
+        begin(ros_runtime, package, executable, *words)
+
+
+def test_where_packages_are_can_be_asked():
+    from tests.ros.tutorial import TUTORIAL
+    from tftool.ros.launching import packages
+    from tftool.ros.workspace import Workspace
+
+    packages.use(Workspace(TUTORIAL))
+
+    assert packages.get_package_share_directory("pkg_tf") == str(TUTORIAL)
+    assert packages.get_package_prefix("pkg_tf") == str(TUTORIAL)
+    assert packages.get_package_share_path("pkg_tf") == TUTORIAL
+    assert packages.get_packages_with_prefixes() == {"pkg_tf": str(TUTORIAL)}
+    with pytest.raises(packages.PackageNotFoundError, match="there is no package 'pkg'"):
+        packages.get_package_share_directory("pkg")
+
+
+def test_launched_commands_run_beside_the_nodes_on_the_wall_clock(tmp_path, capsys, monkeypatch):
+    from tftool.cli.app import main
+
+    monkeypatch.delenv("ROS_DISTRO", raising=False)
+    file = tmp_path / "a.launch.py"
+    file.write_text(
+        "from launch import LaunchDescription\n"
+        "from launch.actions import ExecuteProcess, RegisterEventHandler, EmitEvent\n"
+        "from launch.event_handlers import OnProcessExit\n"
+        "from launch.events import Shutdown\n"
+        "def generate_launch_description():\n"
+        "    first = ExecuteProcess(cmd=['echo', 'hello'])\n"
+        "    return LaunchDescription([first, ExecuteProcess(cmd=['sleep', '60']),\n"
+        "        ExecuteProcess(cmd=['no-such-command-here']),\n"
+        "        RegisterEventHandler(OnProcessExit(target_action=first,\n"
+        "            on_exit=EmitEvent(event=Shutdown(reason='done'))))])\n"
+    )
+
+    status = main(["launch", "--host", str(file)])
+    told = capsys.readouterr().err
+
+    assert "[echo-1] hello" in told
+    assert "[INFO] [launch]: shutting down: done" in told
+    assert "[INFO] [sleep-2]: process has finished cleanly" in told
+    assert status == (1 if "cannot run 'no-such-command-here'" in told else 0)

@@ -1,0 +1,88 @@
+import pytest
+
+from tftool.errors import InputError, UsageError
+from tftool.ros import names
+
+
+@pytest.mark.parametrize(
+    ("given", "full"),
+    [
+        ("scan", "space/scan"),
+        ("/scan", "scan"),
+        ("~/scan", "space/node/scan"),
+        ("~", "space/node"),
+        ("a/b", "space/a/b"),
+    ],
+)
+def test_names_expand_to_full_ones(given, full):
+    assert names.expand(given, "node", "/space") == full
+
+
+@pytest.mark.parametrize("given", ["", "a//b", "1a", "a b", "a-b"])
+def test_what_is_no_name_is_refused(given):
+    with pytest.raises(UsageError, match="cannot be a topic's"):
+        names.expand(given, "node", "")
+
+
+def test_ros_arguments_are_taken_out_of_a_nodes_own():
+    options, own = names.parse(
+        ["a", "--ros-args", "-r", "x:=y", "-p", "n:=2.0", "--log-level", "debug", "--", "b",
+         "--ros-args", "--remap", "me:__node:=you", "--param", "you:list:=[1, 2]",
+         "--log-level", "you:=warn", "--disable-stdout-logs", "-e", "/secret", "z:=w"]
+    )  # fmt: skip
+
+    assert own == ["a", "b"]
+    assert options.name == "you"
+    assert options.remaps == [names.Remap(None, "x", "y"), names.Remap(None, "z", "w")]
+    assert options.parameters_for("you", "") == {"n": 2.0, "list": [1, 2]}
+    assert options.parameters_for("other", "") == {"n": 2.0}
+    assert options.levels == {"": "DEBUG", "you": "WARN"}
+
+
+def test_a_rename_may_hold_for_one_node_alone():
+    options, _ = names.parse(["--ros-args", "-r", "one:a:=b"])
+
+    assert options.remapped("a", "one", "") == "b"
+    assert options.remapped("a", "two", "") == "a"
+
+
+@pytest.mark.parametrize(
+    ("pattern", "fits"),
+    [
+        ("/**", True),
+        ("node", True),
+        ("/space/node", True),
+        ("/*/node", True),
+        ("/**/node", True),
+        ("/space/*", True),
+        ("/other/node", False),
+        ("nod", False),
+    ],
+)
+def test_a_parameter_file_names_nodes_by_patterns(tmp_path, pattern, fits):
+    file = tmp_path / "p.yaml"
+    file.write_text(f"'{pattern}':\n  ros__parameters:\n    a: {{b: 1}}\n")
+    options, _ = names.parse(["--ros-args", "--params-file", str(file)])
+
+    assert options.parameters_for("node", "space") == ({"a.b": 1} if fits else {})
+
+
+@pytest.mark.parametrize(
+    ("text", "told"),
+    [
+        ("a: [", r"p\.yaml:\d+:\d+: "),
+        ("node: {a: 1}", "no parameters in it; the layout is"),
+        ("\xff", "it is not UTF-8 text"),
+    ],
+)
+def test_a_wrong_parameter_file_is_refused(tmp_path, text, told):
+    file = tmp_path / "p.yaml"
+    file.write_bytes(text.encode("latin-1"))
+
+    with pytest.raises(InputError, match=told):
+        names.read_parameters(file)
+
+
+def test_a_value_that_is_no_yaml_is_a_text():
+    assert names.yaml_value("[1, 2") == "[1, 2"
+    assert names.yaml_value("") == ""

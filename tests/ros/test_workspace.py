@@ -1,0 +1,148 @@
+import pytest
+
+from tftool.errors import InputError, UsageError
+from tftool.ros.interfaces.classes import INTERFACES
+from tftool.ros.testing import RosRuntime
+from tftool.ros.workspace import Workspace
+
+
+def package(folder, **files):
+    folder.mkdir(parents=True)
+    for name, text in files.items():
+        (folder / name.replace("__", ".")).write_text(text)
+    return folder
+
+
+SETUP = """
+from setuptools import setup
+name = 'from_' + 'setup'
+scripts = [f'{name}_node = mod:main']
+setup(name=name, entry_points={'console_scripts': scripts + ['other = mod.sub:run [extra]']})
+"""
+CFG = """
+[metadata]
+name = from_cfg
+[options.entry_points]
+console_scripts =
+    one = mod:main
+    two=mod:other
+"""
+TOML = """
+[project]
+name = "from_toml"
+[project.scripts]  # what to run
+node = "mod:main"
+"quoted-one" = 'mod:other'
+[tool.x]
+node = "no"
+"""
+
+
+@pytest.mark.parametrize(
+    ("file", "text", "name", "scripts"),
+    [
+        ("setup__py", SETUP, "from_setup", {"from_setup_node": "mod:main", "other": "mod.sub:run"}),
+        ("setup__cfg", CFG, "from_cfg", {"one": "mod:main", "two": "mod:other"}),
+        ("pyproject__toml", TOML, "from_toml", {"node": "mod:main", "quoted-one": "mod:other"}),
+        ("package__xml", "<package><name>from_xml</name></package>", "from_xml", {}),
+        ("setup__py", "setup(", "pkg", {}),
+        ("setup__py", "print('nothing')", "pkg", {}),
+        ("setup__py", "from s import setup\nsetup(entry_points=made())", "pkg", {}),
+    ],
+)
+def test_a_packages_scripts_are_read_and_nothing_is_run(tmp_path, file, text, name, scripts):
+    package(tmp_path / "src" / "pkg", **{file: text})
+
+    found = Workspace(tmp_path).package(name)
+
+    assert found.scripts == scripts
+    assert found.path == tmp_path / "src" / "pkg"
+
+
+def test_build_folders_and_hidden_ones_hold_no_packages(tmp_path):
+    for folder in ("build", "install", "log", ".git"):
+        package(tmp_path / folder / "pkg", package__xml="<package><name>x</name></package>")
+    package(tmp_path / "src" / "off", package__xml="<name>off</name>", COLCON_IGNORE="")
+
+    assert Workspace(tmp_path).packages == {}
+    with pytest.raises(UsageError, match="there is none at all"):
+        Workspace(tmp_path).package("x")
+
+
+def test_a_workspace_is_found_from_inside_a_package(tmp_path):
+    for name in ("a", "b"):
+        package(tmp_path / "src" / name, package__xml=f"<package><name>{name}</name></package>")
+
+    assert set(Workspace(tmp_path / "src" / "a").packages) == {"a", "b"}
+    with pytest.raises(UsageError, match="there are a, b"):
+        Workspace(tmp_path / "src" / "a").package("zzz")
+
+
+def test_a_node_installed_as_a_script_is_found_by_its_name(tmp_path):
+    folder = package(tmp_path / "pkg", package__xml="<package><name>pkg</name></package>")
+    package(folder / "scripts", talk__py="", listen="#!/usr/bin/env python3\n", data="x")
+    found = Workspace(tmp_path).package("pkg")
+
+    assert found.script_file("talk") == folder / "scripts" / "talk.py"
+    assert found.script_file("listen") == folder / "scripts" / "listen"
+    assert found.script_file("data") is None
+    assert found.script_file("gone") is None
+
+
+@pytest.mark.parametrize("text", [b"\xff", b"[broken"])
+def test_a_package_that_cannot_be_read_says_so(tmp_path, text):
+    package(tmp_path / "pkg")
+    (tmp_path / "pkg" / "setup.cfg").write_bytes(text)
+
+    with pytest.raises(InputError, match=r"setup\.cfg"):
+        Workspace(tmp_path)
+
+
+def test_a_packages_own_interfaces_can_be_imported(tmp_path):
+    folder = package(
+        tmp_path / "my_shapes", package__xml="<package><name>my_shapes</name></package>"
+    )
+    package(folder / "msg", Ball__msg="float64 radius 2.5\ngeometry_msgs/Point center\n")
+    package(folder / "srv", Grow__srv="float64 by\n---\nmy_shapes/Ball ball\n")
+    Workspace(tmp_path)
+    try:
+        with RosRuntime():
+            from my_shapes.msg import Ball
+            from my_shapes.srv import Grow
+
+            assert Grow.Response().ball == Ball(radius=2.5)
+    finally:
+        INTERFACES.add("my_shapes", {})
+
+
+def test_two_programs_of_one_module_share_no_globals(tmp_path):
+    from tftool.ros import users
+
+    folder = package(tmp_path / "pkg", node__py="import helper\ncount = []\n")
+    (folder / "helper.py").write_text("seen = []\n")
+    (folder / "node.py").write_text(
+        "import helper\ncount = []\ndef main():\n    count.append(1)\n"
+        "    helper.seen.append(1)\n    import rclpy\n    rclpy.init()\n"
+        "    rclpy.create_node('n').get_logger().info(f'{len(count)} {len(helper.seen)}')\n"
+    )
+    with RosRuntime() as runtime:
+        for _ in range(2):
+            runtime.start(users.entry_point_body("node", "main", root=folder))
+            runtime.sleep(0.1)
+
+        assert runtime.log() == ["1 1", "1 1"]
+
+
+def test_a_console_script_that_names_nothing_says_so(tmp_path):
+    from tftool.ros import users
+
+    folder = package(tmp_path / "pkg", node__py="")
+    ended = []
+    with RosRuntime() as runtime:
+        from tftool.ros.program import Program
+
+        body = users.whole(users.entry_point_body("node", "main", root=folder))
+        runtime.ask(lambda: Program(runtime.world, "it", body, on_exit=ended.append))
+        runtime.sleep(0.1)
+
+    assert "names node:main, but there is no 'main' in" in str(ended[0].failure)
