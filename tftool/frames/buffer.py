@@ -1,7 +1,7 @@
 """The buffer: remembers transforms over time and answers how frames lie to each other."""
 
 from collections.abc import Callable
-from typing import TYPE_CHECKING, Literal
+from typing import TYPE_CHECKING, Final, Literal
 
 from tftool.errors import TransformException
 from tftool.frames import export, names, refusals, sweep, velocity
@@ -12,7 +12,7 @@ from tftool.frames.plans import Plan
 from tftool.frames.requests import NEVER, Callback, Requests
 from tftool.frames.sample import FrameInfo, Snapshot, TransformStamped
 from tftool.geometry import quaternions, rigid
-from tftool.geometry.rigid import Quaternion, Transform, Vector3
+from tftool.geometry.rigid import Transform
 from tftool.stamps import Duration, Stamp, seconds
 
 if TYPE_CHECKING:
@@ -29,9 +29,9 @@ Listener = Callable[[TransformStamped, bool, str], object]
 MAX_FRAMES = 16_384
 """How many names a buffer takes unless it is told to take more."""
 
-_EXACT = 8e-16
+_EXACT: Final = 8e-16
 _NO_PLANS: dict[str, Plan] = {}
-_new = tuple.__new__
+_new: Final = tuple.__new__
 
 
 class Buffer:
@@ -266,18 +266,17 @@ class Buffer:
         """
         if time.__class__ is not int:
             time = refusals.whole(time)
-        sample: Sample | None = None
+        pose: Transform | None = None
         try:
             plan = self._plans[target_frame][source_frame]
         except KeyError:
             pass
         else:
             moment = time or plan.latest()
-            sample = plan.solve(moment)
-        if sample is None:
+            pose = plan.solve(moment)
+        if pose is None:
             moment, sample = self._lookups.pose(target_frame, source_frame, time)
-        x, y, z, qx, qy, qz, qw = sample
-        pose = _new(Transform, (_new(Vector3, (x, y, z)), _new(Quaternion, (qx, qy, qz, qw))))
+            pose = rigid.transform(sample[:3], sample[3:])
         return _new(TransformStamped, (moment, target_frame, source_frame, pose))
 
     def lookup_transform_full(

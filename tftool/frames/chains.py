@@ -2,17 +2,18 @@
 
 import struct
 from math import acos, sin
+from typing import Final
 
-from tftool.frames.links import IDENTITY, Link, Sample
+from tftool.frames.links import IDENTITY, NOWHERE, Link, Sample
 from tftool.geometry import quaternions
 from tftool.stamps import Stamp
 
-_unpack_two = struct.Struct("=14d").unpack_from
-_WIDTH = 56
+_unpack_two: Final = struct.Struct("14d").unpack_from
+_WIDTH: Final = 56
 
 
-def chained(links: tuple[Link, ...], time: Stamp) -> Sample | None:
-    """The poses of several links one after the other, lowest first; None if one has none.
+def chained(links: tuple[Link, ...], time: Stamp) -> Sample:
+    """The poses of several links one after the other, lowest first; NOWHERE if one has none.
 
     This is where a lookup spends its time, so everything is written out: a call for each
     link, each search and each product would double the cost.
@@ -26,6 +27,21 @@ def chained(links: tuple[Link, ...], time: Stamp) -> Sample | None:
     """
     if time == 0 or not links:
         return _newest(links)
+    # What compiled code is to keep as plain floats.
+    tx: float
+    ty: float
+    tz: float
+    ax: float
+    ay: float
+    az: float
+    aw: float
+    ux: float
+    uy: float
+    uz: float
+    bx: float
+    by: float
+    bz: float
+    bw: float
     first = True
     for link in links:
         newest = link.newest_stamp
@@ -35,7 +51,7 @@ def chained(links: tuple[Link, ...], time: Stamp) -> Sample | None:
                 # Most questions fall between the last two, and those are at hand.
                 one, two, after = link.previous, link.newest, newest
                 if one is None or two is None:
-                    return None
+                    return NOWHERE
                 tx, ty, tz, ax, ay, az, aw = one
                 ux, uy, uz, bx, by, bz, bw = two
             else:
@@ -80,12 +96,12 @@ def chained(links: tuple[Link, ...], time: Stamp) -> Sample | None:
         elif newest == time or link.is_static:
             one = link.newest
             if one is None:
-                return None
+                return NOWHERE
             tx, ty, tz, ax, ay, az, aw = one
         else:
             one = link.exactly(time)
             if one is None:
-                return None
+                return NOWHERE
             tx, ty, tz, ax, ay, az, aw = one
         if first:
             # One by one, which is quicker than as tuples.
@@ -123,10 +139,10 @@ def joined(outer: Sample, inner: Sample) -> Sample:
     return x + ox, y + oy, z + oz, qx, qy, qz, qw
 
 
-def _newest(links: tuple[Link, ...]) -> Sample | None:
+def _newest(links: tuple[Link, ...]) -> Sample:
     whole = IDENTITY
     for link in links:
         if link.newest is None:
-            return None
+            return NOWHERE
         whole = joined(link.newest, whole)
     return whole

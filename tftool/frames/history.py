@@ -8,7 +8,7 @@ array.
 import struct
 from array import array
 from bisect import bisect_left, bisect_right
-from typing import TypeAlias
+from typing import Final, TypeAlias
 
 from tftool.frames.chains import chained
 from tftool.frames.links import (
@@ -29,14 +29,14 @@ from tftool.stamps import Duration, Stamp
 Columns: TypeAlias = "tuple[array[int], array[float], array[int] | None]"
 """Stamps, samples flat, and parents (None where there is but one), oldest first."""
 
-_pack = struct.Struct("=7d").pack
-_unpack_one = struct.Struct("=7d").unpack_from
-_WIDTH = 56
+_pack: Final = struct.Struct("7d").pack
+_unpack_one: Final = struct.Struct("7d").unpack_from
+_WIDTH: Final = 56
 
 # Forgotten samples, and room in front for ones that arrive backwards, take at most
 # one part in sixteen, like the room that `array` keeps at its end.
-_SLACK = 4
-_LEAST_SLACK = 32
+_SLACK: Final = 4
+_LEAST_SLACK: Final = 32
 
 
 class History(Link):
@@ -268,7 +268,8 @@ class History(Link):
 
         Between two samples with different parents it is the older one, as it is.
         """
-        return chained((self,), time)
+        found = chained((self,), time)
+        return None if found[6] != found[6] else found
 
     def parent_at(self, time: Stamp) -> int:
         """Number of the parent at that moment: the older neighbour's."""

@@ -1,31 +1,35 @@
 """What joins a child to its parent: what every such link can do, and one that never changes."""
 
 from array import array
-from typing import TypeAlias
+from math import nan
+from typing import Final, TypeAlias
 
 from tftool.stamps import Stamp
 
 Sample: TypeAlias = tuple[float, float, float, float, float, float, float]
 """A pose: x, y, z in metres and a unit quaternion x, y, z, w of tf2's sign."""
 
-IDENTITY: Sample = (0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 1.0)
+IDENTITY: Final[Sample] = (0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 1.0)
+
+NOWHERE: Final[Sample] = (nan, nan, nan, nan, nan, nan, nan)
+"""In place of a pose: none. A tuple of floats like any other, so compiled code need not box it."""
 
 Refusal: TypeAlias = tuple[int, Stamp]
 """Why a link has no pose at a moment: NO_DATA, FORWARD or BACKWARD, and the stamp it does have."""
 
-NO_PARENT = -1
+NO_PARENT: Final = -1
 """In place of a parent's number: none."""
 
 # Why a link has no pose at some moment.
-NO_DATA = 1
-FORWARD = 2
-BACKWARD = 3
+NO_DATA: Final = 1
+FORWARD: Final = 2
+BACKWARD: Final = 3
 
 # What became of an insert.
-TOO_OLD = 0
-KNOWN = 1
-STORED = 2
-RESHAPED = 3
+TOO_OLD: Final = 0
+KNOWN: Final = 1
+STORED: Final = 2
+RESHAPED: Final = 3
 
 
 class Link:

@@ -46,10 +46,10 @@ class Lookups:
         walk = forest.walk(target_number, source_number, time)
         if walk.ended != ARRIVED:
             raise self._refusal(walk, time, target, source)
-        sample = plan_of(forest, walk).solve(time)
-        assert sample is not None, "a link that answers for its parent answers for its pose"
+        pose = plan_of(forest, walk).solve(time)
+        assert pose is not None, "a link that answers for its parent answers for its pose"
         self._remember_plan(target_number, source_number)
-        return time, sample
+        return time, pose.translation + pose.rotation
 
     def latest_common(self, target: int, source: int) -> Stamp:
         """The newest moment for which every link between two frames has data.

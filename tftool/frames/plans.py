@@ -6,16 +6,20 @@ plan cannot know.
 """
 
 from collections.abc import Iterable
+from typing import Final
 
 from tftool.frames.chains import chained
 from tftool.frames.forest import Forest, Walk
-from tftool.frames.links import Constant, Link, Sample
+from tftool.frames.links import Constant, Link
 from tftool.geometry import quaternions
+from tftool.geometry.rigid import Quaternion, Transform, Vector3
 from tftool.stamps import Stamp
 
 # So many pairs of frames are remembered; a program that asks for more than this in turn
 # pays for each plan anew rather than with memory.
-MOST_PLANS = 20_000
+MOST_PLANS: Final = 20_000
+
+_new: Final = tuple.__new__
 
 
 class Plan:
@@ -54,17 +58,11 @@ class Plan:
                 return False
         return True
 
-    def solve(self, time: Stamp) -> Sample | None:
+    def solve(self, time: Stamp) -> Transform | None:
         """The pose of source in target at that moment, or None if a link has none for it."""
-        found = chained(self.up, time)
-        if found is None:
-            return None
-        x, y, z, qx, qy, qz, qw = found
+        x, y, z, qx, qy, qz, qw = chained(self.up, time)
         if self.down:
-            found = chained(self.down, time)
-            if found is None:
-                return None
-            ux, uy, uz, vx, vy, vz, vw = found
+            ux, uy, uz, vx, vy, vz, vw = chained(self.down, time)
             # The inverse of the target's side. The difference is turned, not the two ends:
             # where they are equal, the answer is zero to the last bit.
             x -= ux
@@ -86,10 +84,12 @@ class Plan:
         # quaternions.canonical, written out for the usual case.
         if qw * qw > 0.25:
             if qw < 0.0:
-                return x, y, z, -qx, -qy, -qz, -qw
-            return x, y, z, qx, qy, qz, qw
-        qx, qy, qz, qw = quaternions.canonical((qx, qy, qz, qw))
-        return x, y, z, qx, qy, qz, qw
+                qx, qy, qz, qw = -qx, -qy, -qz, -qw
+        elif qw != qw:
+            return None
+        else:
+            qx, qy, qz, qw = quaternions.canonical((qx, qy, qz, qw))
+        return _new(Transform, (_new(Vector3, (x, y, z)), _new(Quaternion, (qx, qy, qz, qw))))
 
 
 def folded(links: Iterable[Link]) -> tuple[Link, ...]:
@@ -111,7 +111,8 @@ def _one(run: list[Link]) -> list[Link]:
     if len(run) < 2:
         return run
     constant = Constant()
-    constant.newest = chained(tuple(run), 0)
+    whole = chained(tuple(run), 0)
+    constant.newest = None if whole[6] != whole[6] else whole
     return [constant]
 
 
