@@ -163,13 +163,24 @@ class _Batch:
         self, plan: Plan, times: Stamps, translations: batch.Floats, rotations: batch.Floats
     ) -> None:
         """Answer moments that a plan has data for."""
-        try:
-            workspace = self.spare.pop()
-        except IndexError:
-            workspace = kernel.Workspace()
         up, down = self.edges(plan.up), self.edges(plan.down)
-        workspace.solve(up, down, times, translations, rotations)
-        self.spare.append(workspace)
+        in_order = bool(np.all(times[1:] >= times[:-1]))
+        for start in range(0, len(times), kernel.BLOCK):
+            rows = slice(start, start + kernel.BLOCK)
+            block = times[rows]
+            workspace = self.workspace(len(block))
+            workspace.solve(up, down, block, in_order, translations[rows], rotations[rows])
+            if len(block) == kernel.BLOCK:
+                self.spare.append(workspace)
+
+    def workspace(self, count: int) -> kernel.Workspace:
+        """One that no thread works in."""
+        if count == kernel.BLOCK:
+            try:
+                return self.spare.pop()
+            except IndexError:
+                pass
+        return kernel.Workspace(count)
 
     def edges(self, links: Iterable[Link]) -> list[kernel.Edge]:
         """Links made ready for the arithmetic, each once."""

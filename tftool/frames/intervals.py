@@ -46,10 +46,11 @@ class Intervals:
         starts: A, shape (k, 4).
         turns: C, shape (k, 4).
         endless: Whether one of them begins or ends at infinity.
+        row_by_row: Whether they were worked out for given samples, one for each moment.
         terms: How many terms of the series the largest turn needs; 0 if too many.
     """
 
-    __slots__ = ("endless", "paths", "places", "stamps", "starts", "terms", "turns")
+    __slots__ = ("endless", "paths", "places", "row_by_row", "stamps", "starts", "terms", "turns")
 
     def __init__(self, column: Column, first: npt.NDArray[np.intp] | slice) -> None:
         """Work out some intervals of a column.
@@ -59,6 +60,7 @@ class Intervals:
             first: The samples they begin with. After the last sample comes an empty one.
         """
         last = len(column.stamps) - 1
+        self.row_by_row = not isinstance(first, slice)
         if isinstance(first, slice):
             first = np.arange(first.start, first.stop)
         second = np.minimum(first + 1, last)

@@ -1,25 +1,26 @@
 """The arithmetic of a batch: one chain of links, many moments.
 
 Everything happens in blocks of a few thousand moments, in arrays made once that stay in
-the processor's cache. Vectors lie as rows x, y, z, x, y, so that a cross product is
-three operations on three rows each; a quaternion has its w before them.
+the processor's cache.
 """
 
 from collections.abc import Sequence
 from typing import TypeAlias
 
 import numpy as np
+from numpy import add, copyto, multiply, subtract, take
 
 from tftool.frames.columns import Column, Stamps
 from tftool.frames.intervals import SERIES, Intervals
 from tftool.frames.links import Sample
 from tftool.frames.search import Buckets, find_sorted, settle_oldest
 from tftool.geometry.batch import Floats
+from tftool.geometry.lanes import Place, Turn, chain, rotate
 
-BLOCK = 1 << 13
+BLOCK = 1 << 14
 """Moments worked on together."""
 
-# The intervals of so long a history are still worked out as one: 128 bytes each.
+# The intervals of so long a history are still worked out as one: 136 bytes each.
 _MOST_INTERVALS = 1 << 16
 
 
@@ -46,14 +47,14 @@ class Moving:
 
 
 class Fixed:
-    """A link that does not move: arrays of one column, which broadcast."""
+    """A link that does not move: one column that stands for all."""
 
     __slots__ = ("place", "turn")
 
     def __init__(self, sample: Sample) -> None:
         x, y, z, qx, qy, qz, qw = sample
         self.place: Floats = np.array([[x], [y], [z]])
-        self.turn: Floats = np.array([[qw], [qx], [qy], [qz], [qx], [qy]])
+        self.turn = Turn(np.array([[qw], [qx], [qy], [qz], [qx], [qy]]))
 
 
 Edge: TypeAlias = "Moving | Fixed"
@@ -62,35 +63,37 @@ Edge: TypeAlias = "Moving | Fixed"
 class _Side:
     """What came together on the way up from the source, or from the target."""
 
-    __slots__ = ("empty", "place", "spare_turn", "square", "turn")
+    __slots__ = ("empty", "place", "square", "turn", "unused")
 
-    def __init__(self) -> None:
+    def __init__(self, count: int) -> None:
         self.empty = True
-        self.place: Floats = np.empty((5, BLOCK))
-        self.turn, self.spare_turn = np.empty((2, 6, BLOCK))
+        self.place = Place(np.empty((5, count)))
+        self.turn, self.unused = Turn(np.empty((6, count))), Turn(np.empty((6, count)))
         # The quaternions are as long as they come out; this is their length squared.
-        self.square: Floats = np.empty(BLOCK)
+        self.square: Floats = np.empty(count)
 
 
 class Workspace:
-    """The arrays one thread works in, and what is done in them."""
+    """The arrays in which a block of moments is worked on, and what is done in them."""
 
-    def __init__(self) -> None:
-        self._index = np.empty(BLOCK, dtype=np.intp)
-        self._whole = np.empty(BLOCK, dtype=np.int64)
-        self._later = np.empty(BLOCK, dtype=np.bool_)
-        self._rows = np.empty((4, BLOCK, 4))
-        self._share, self._bend, self._factor, self._square = np.empty((4, BLOCK))
-        self._turn: Floats = np.empty((6, BLOCK))
-        self._place, self._spare = np.empty((2, 3, BLOCK))
-        self._cross: Floats = np.empty((5, BLOCK))
-        self._up, self._down = _Side(), _Side()
+    def __init__(self, count: int) -> None:
+        """Make room for blocks of exactly so many moments."""
+        self._index = np.empty(count, dtype=np.intp)
+        self._whole = np.empty(count, dtype=np.int64)
+        self._flags = np.empty(count, dtype=np.bool_)
+        self._some, self._more = np.empty((2, count, 4))
+        self._share, self._bend, self._factor, self._square = np.empty((4, count))
+        self._spare: Floats = np.empty((3, count))
+        self._cross, self._place = Place(np.empty((5, count))), Place(np.empty((5, count)))
+        self._turn = Turn(np.empty((6, count)))
+        self._up, self._down = _Side(count), _Side(count)
 
     def solve(
         self,
         up: Sequence[Edge],
         down: Sequence[Edge],
         times: Stamps,
+        in_order: bool,
         translations: Floats,
         rotations: Floats,
     ) -> None:
@@ -99,210 +102,168 @@ class Workspace:
         Args:
             up: Links from the source to where both sides meet.
             down: Links from the target to there.
-            times: Moments for which every link has data, shape (n,).
+            times: Moments for which every link has data, shape (n,), n as made room for.
+            in_order: Whether no moment is earlier than the one before.
             translations: Is written to, shape (n, 3).
             rotations: Is written to, shape (n, 4).
         """
-        in_order = bool(np.all(times[1:] >= times[:-1]))
         with np.errstate(all="ignore"):
-            for start in range(0, len(times), BLOCK):
-                rows = slice(start, start + BLOCK)
-                block = times[rows]
-                self._climb(self._up, up, block, in_order)
-                self._climb(self._down, down, block, in_order)
-                self._join(translations[rows], rotations[rows])
+            self._climb(self._up, up, times, in_order)
+            self._climb(self._down, down, times, in_order)
+            self._join(translations, rotations)
 
     def _climb(self, side: _Side, edges: Sequence[Edge], times: Stamps, in_order: bool) -> None:
         """Chain the links of one side."""
-        m = len(times)
         side.empty = not edges
-        place, square = side.place[:, :m], side.square[:m]
+        factor: Floats | float
         for number, edge in enumerate(edges):
-            turn = side.turn[:, :m]
             if number == 0:
                 if isinstance(edge, Moving):
-                    self._interpolate(edge, times, in_order, place, turn, square)
+                    self._interpolate(edge, times, in_order, side.place, side.turn, side.square)
                 else:
-                    place[:3], turn[:], square[:] = edge.place, edge.turn, 1.0
-                place[3:] = place[:2]
+                    copyto(side.place.xyz, edge.place)
+                    copyto(side.turn.rows, edge.turn.rows)
+                    side.square.fill(1.0)
+                side.place.close()
                 continue
-            factor = self._factor[:m]
             if isinstance(edge, Moving):
-                step, twist, extent = self._place[:, :m], self._turn[:, :m], self._square[:m]
-                self._interpolate(edge, times, in_order, step, twist, extent)
-                np.multiply(square, extent, out=square)
-                np.divide(2.0, extent, out=factor)
+                step, turn, factor = self._place.xyz, self._turn, self._factor
+                self._interpolate(edge, times, in_order, self._place, turn, self._square)
+                multiply(side.square, self._square, side.square)
+                np.divide(2.0, self._square, factor)
             else:
-                step, twist = edge.place, edge.turn
-                factor[:] = 2.0
-            self._rotate(twist, factor, place)
-            place[:3] += step
-            place[3:] = place[:2]
-            self._chain(twist, turn, side.spare_turn[:, :m])
-            side.turn, side.spare_turn = side.spare_turn, side.turn
+                step, turn, factor = edge.place, edge.turn, 2.0
+            rotate(turn, factor, side.place, self._cross, self._spare)
+            add(side.place.xyz, step, side.place.xyz)
+            side.place.close()
+            chain(turn, side.turn, side.unused, self._spare)
+            side.turn, side.unused = side.unused, side.turn
 
     def _interpolate(
         self,
         edge: Moving,
         times: Stamps,
         in_order: bool,
-        place: Floats,
-        turn: Floats,
+        place: Place,
+        turn: Turn,
         square: Floats,
     ) -> None:
         """Write a link's pose at each moment, and the square of its quaternion's length."""
-        m = len(times)
-        index, whole = self._index[:m], self._whole[:m]
-        column, intervals = edge.column, edge.intervals
-        if in_order:
-            find_sorted(column.stamps, times, index)
+        index, whole, share = self._index, self._whole, self._share
+        intervals = self._find(edge, times, in_order)
+        row_by_row = intervals.row_by_row
+        if row_by_row:
+            # Worked out row by row: nothing to be fetched.
+            begun, some, more = intervals.stamps, intervals.places, intervals.paths
         else:
-            edge.buckets.find(times, index, whole, self._later[:m])
-        settle_oldest(column, times, index)
-        if intervals is None and in_order:
-            first, last = int(index[0]), int(index[-1])
-            if last - first < m // 2:
-                intervals = Intervals(column, slice(first, last + 1))
-                index -= first
-        if intervals is None:
-            intervals = Intervals(column, index)
-            begun = intervals.stamps
-            places, paths, starts, turns = (
-                intervals.places,
-                intervals.paths,
-                intervals.starts,
-                intervals.turns,
-            )
-        else:
-            rows = self._rows[:, :m]
-            begun = np.take(intervals.stamps, index, out=whole, mode="clip")
-            places = np.take(intervals.places, index, axis=0, out=rows[0], mode="clip")
-            paths = np.take(intervals.paths, index, axis=0, out=rows[1], mode="clip")
-            starts = np.take(intervals.starts, index, axis=0, out=rows[2], mode="clip")
-            turns = np.take(intervals.turns, index, axis=0, out=rows[3], mode="clip")
-        np.subtract(times, begun, out=whole)
-        share = self._share[:m]
-        np.copyto(share, whole)
-        np.multiply(share, places[:, 3], out=share)
-        np.multiply(share, paths.T[:3], out=place[:3])
-        place[:3] += places.T[:3]
+            begun = take(intervals.stamps, index, None, whole, "clip")
+            some = take(intervals.places, index, 0, self._some, "clip")
+            more = take(intervals.paths, index, 0, self._more, "clip")
+        subtract(times, begun, whole)
+        copyto(share, whole)
+        multiply(share, some[:, 3], share)
+        multiply(share, more.T[:3], place.xyz)
+        add(place.xyz, some.T[:3], place.xyz)
         if intervals.endless:
             # No way leads from or to infinity, but a sample is met as it is.
             met = np.flatnonzero(share == 0.0)
-            place[:3, met] = places[met, :3].T
-        self._bow(share, paths[:, 3], intervals.terms, square)
-        np.multiply(share, turns.T, out=turn[:4])
-        turn[:4] += starts.T
-        turn[4:] = turn[1:3]
+            place.xyz[:, met] = some[met, :3].T
+        self._bow(share, more[:, 3], intervals.terms, square)
+        if row_by_row:
+            some, more = intervals.starts, intervals.turns
+        else:
+            some = take(intervals.starts, index, 0, self._some, "clip")
+            more = take(intervals.turns, index, 0, self._more, "clip")
+        multiply(share, more.T, turn.wxyz)
+        add(turn.wxyz, some.T, turn.wxyz)
+        turn.close()
+
+    def _find(self, edge: Moving, times: Stamps, in_order: bool) -> Intervals:
+        """The intervals to use, with each moment's number in `_index`."""
+        index, column = self._index, edge.column
+        if in_order:
+            find_sorted(column.stamps, times, index)
+        else:
+            edge.buckets.find(times, index, self._whole, self._flags)
+        settle_oldest(column, times, index)
+        if edge.intervals is not None:
+            return edge.intervals
+        if in_order:
+            first, last = int(index[0]), int(index[-1])
+            if last - first < len(index) // 2:
+                subtract(index, first, index)
+                return Intervals(column, slice(first, last + 1))
+        return Intervals(column, index)
 
     def _bow(self, share: Floats, theta_squared: Floats, terms: int, square: Floats) -> None:
         """Turn shares of the arc into shares of its tangent, in place; give 1 + their square."""
-        m = len(share)
-        bend = self._bend[:m]
+        bend = self._bend
         if terms == 0:
-            np.sqrt(theta_squared, out=bend)
-            np.multiply(share, bend, out=square)
-            np.tan(square, out=square)
+            np.sqrt(theta_squared, bend)
+            multiply(share, bend, square)
+            np.tan(square, square)
             # Where there is no turn at all, the share itself will do.
-            np.divide(square, bend, out=share, where=bend > 0.0)
-            np.multiply(square, square, out=square)
-            square += 1.0
+            np.divide(square, bend, share, where=bend > 0.0)
+            multiply(square, square, square)
+            add(square, 1.0, square)
             return
         if terms > 1:
-            np.multiply(share, share, out=bend)
-            np.multiply(bend, theta_squared, out=bend)
-            np.multiply(bend, SERIES[terms - 1], out=square)
+            multiply(share, share, bend)
+            multiply(bend, theta_squared, bend)
+            multiply(bend, SERIES[terms - 1], square)
             for term in range(terms - 2, 0, -1):
-                square += SERIES[term]
-                square *= bend
-            square += 1.0
-            np.multiply(share, square, out=share)
-        np.multiply(share, share, out=square)
-        np.multiply(square, theta_squared, out=square)
-        square += 1.0
-
-    def _rotate(self, turn: Floats, factor: Floats, place: Floats) -> None:
-        """Turn places in place; `factor` is 2 over the quaternion's length squared."""
-        m = place.shape[1]
-        cross, spare = self._cross[:, :m], self._spare[:, :m]
-        _cross(turn[1:], place, cross[:3], spare)
-        np.multiply(cross[:3], factor, out=cross[:3])
-        cross[3:] = cross[:2]
-        np.multiply(cross[:3], turn[0], out=spare)
-        place[:3] += spare
-        np.multiply(turn[2:5], cross[2:5], out=spare)
-        place[:3] += spare
-        np.multiply(turn[3:6], cross[1:4], out=spare)
-        place[:3] -= spare
-
-    def _chain(self, first: Floats, second: Floats, out: Floats) -> None:
-        """Multiply quaternions: `second` is applied first."""
-        spare = self._spare[:, : out.shape[1]]
-        _cross(first[1:], second[1:], out[1:4], spare)
-        np.multiply(second[1:4], first[0], out=spare)
-        out[1:4] += spare
-        np.multiply(first[1:4], second[0], out=spare)
-        out[1:4] += spare
-        out[4:] = out[1:3]
-        np.multiply(first[1:4], second[1:4], out=spare)
-        np.multiply(first[0], second[0], out=out[0])
-        for row in spare:
-            out[0] -= row
+                add(square, SERIES[term], square)
+                multiply(square, bend, square)
+            add(square, 1.0, square)
+            multiply(share, square, share)
+        multiply(share, share, square)
+        multiply(square, theta_squared, square)
+        add(square, 1.0, square)
 
     def _join(self, translations: Floats, rotations: Floats) -> None:
         """Put the two sides together, and write the answers."""
-        m = len(translations)
-        up, down = self._up, self._down
-        place, turn, square = up.place[:, :m], up.turn[:, :m], up.square[:m]
+        up, down, scale = self._up, self._down, self._factor
+        place, turn, square = up.place, up.turn, up.square
         if not down.empty:
-            there, back = down.place[:, :m], down.turn[:, :m]
-            factor = self._factor[:m]
-            np.divide(2.0, down.square[:m], out=factor)
-            np.negative(back[1:], out=back[1:])
+            np.divide(2.0, down.square, scale)
+            back = down.turn
+            back.conjugate()
             if up.empty:
-                place, turn, square = there, back, down.square[:m]
-                np.negative(place, out=place)
-                self._rotate(back, factor, place)
+                place, turn, square = down.place, back, down.square
+                np.negative(place.xyz, place.xyz)
+                place.close()
             else:
                 # The difference is turned, not the two ends: where they are equal, the
                 # answer is zero to the last bit.
-                np.subtract(place, there, out=place)
-                self._rotate(back, factor, place)
-                self._chain(back, turn, up.spare_turn[:, :m])
-                turn = up.spare_turn[:, :m]
-                np.multiply(square, down.square[:m], out=square)
-        translations.T[:] = place[:3]
-        scale = self._factor[:m]
-        np.sqrt(square, out=scale)
-        np.divide(1.0, scale, out=scale)
-        np.copysign(scale, self._lead(turn, square), out=scale)
-        np.multiply(turn[1:4], scale, out=rotations.T[:3])
-        np.multiply(turn[0], scale, out=rotations.T[3])
+                subtract(place.xyz, down.place.xyz, place.xyz)
+                place.close()
+                chain(back, turn, up.unused, self._spare)
+                turn = up.unused
+                multiply(square, down.square, square)
+            rotate(back, scale, place, self._cross, self._spare)
+        copyto(translations.T, place.xyz)
+        np.sqrt(square, scale)
+        np.divide(1.0, scale, scale)
+        np.copysign(scale, self._lead(turn, square), scale)
+        multiply(turn.xyz, scale, rotations.T[:3])
+        multiply(turn.w, scale, rotations.T[3])
 
-    def _lead(self, turn: Floats, square: Floats) -> Floats:
-        """The number whose sign tf2 makes positive; see `quaternions.canonical`."""
-        m = len(square)
-        mask, small = self._later[:m], self._bend[:m]
-        np.multiply(turn[0], turn[0], out=small)
-        np.multiply(square, 0.25, out=square)
-        np.less_equal(small, square, out=mask)
-        if not mask.any():
-            w: Floats = turn[0]
+    def _lead(self, turn: Turn, square: Floats) -> Floats:
+        """The numbers whose sign tf2 makes positive; see `quaternions.canonical`."""
+        small, large, lead, size = self._bend, self._flags, self._share, self._spare
+        multiply(turn.w, turn.w, small)
+        multiply(square, 0.25, square)
+        np.less_equal(small, square, large)
+        if not large.any():
+            w: Floats = turn.w
             return w
-        size, lead = self._spare[:, :m], self._share[:m]
-        np.abs(turn[1:4], out=size)
-        np.copyto(lead, turn[0])
-        np.copyto(lead, turn[1], where=mask)
+        copyto(lead, turn.w)
+        x, y, z = turn.xyz
+        np.abs(turn.xyz, size)
+        copyto(lead, x, where=large)
         second = size[1] > size[0]
         np.maximum(size[0], size[1], out=size[0])
         third = size[2] > size[0]
-        np.copyto(lead, turn[2], where=mask & second)
-        np.copyto(lead, turn[3], where=mask & third)
+        copyto(lead, y, where=np.logical_and(large, second, second))
+        copyto(lead, z, where=np.logical_and(large, third, third))
         return lead
-
-
-def _cross(first: Floats, second: Floats, out: Floats, spare: Floats) -> None:
-    """Write the cross products of two stacks of vectors."""
-    np.multiply(first[1:4], second[2:5], out=out)
-    np.multiply(first[2:5], second[1:4], out=spare)
-    out -= spare
