@@ -1,0 +1,250 @@
+"""Many lookups at once: against tf2's own C++, other libraries' batches, and ourselves.
+
+Single-threaded work is told in processor time, so that what else runs on the machine
+counts for nobody. Answers are compared before anything is timed.
+"""
+
+import statistics
+import time
+from collections.abc import Callable
+from dataclasses import dataclass
+from functools import partial
+from importlib.util import find_spec
+
+import numpy as np
+
+from tests.benchmarks import noetic
+from tests.benchmarks.batch_peers import PEERS
+from tftool.frames.arrays import TransformArray
+from tftool.frames.buffer import Buffer
+from tftool.stamps import seconds
+
+ROUNDS = 5
+MANY = 1_000_000
+FEW = 100_000
+"""Times for the peers that take their time."""
+
+
+@dataclass(frozen=True)
+class Chain:
+    """f0 ← f1 ← …, each link a hundred samples a second, in a world that moves in all axes."""
+
+    stamps: np.ndarray
+    samples: np.ndarray
+    buffer: Buffer
+
+    @property
+    def source(self) -> str:
+        return f"f{len(self.stamps)}"
+
+    def times(self, count: int, *, in_order: bool) -> np.ndarray:
+        """Moments all over the chain's data."""
+        random = np.random.default_rng(7)
+        times = random.integers(self.stamps[:, 0].max(), self.stamps[:, -1].min(), count)
+        return np.sort(times) if in_order else times
+
+    def ask(self, times: np.ndarray, threads: int = 1) -> TransformArray:
+        """The batch under test."""
+        return self.buffer.lookup_transforms("f0", self.source, times, threads=threads)
+
+
+def chain(depth: int, samples: int = 1000) -> Chain:
+    """Make one."""
+    random = np.random.default_rng(depth)
+    jitter = random.integers(0, 2_000_000, (depth, samples))
+    stamps = seconds(1) + np.arange(samples) * 10_000_000 + jitter
+    turns = random.normal(size=(depth, 1, 4)) + np.cumsum(
+        random.normal(size=(depth, samples, 4)) * 0.01, axis=1
+    )
+    turns /= np.linalg.norm(turns, axis=-1, keepdims=True)
+    places = np.cumsum(random.normal(size=(depth, samples, 3)) * 0.01, axis=1)
+    buffer = Buffer(seconds(1e6))
+    for link in range(depth):
+        buffer.set_transforms(
+            f"f{link}", f"f{link + 1}", stamps[link], places[link], turns[link], "benchmark"
+        )
+    return Chain(stamps, np.concatenate((places, turns), axis=-1), buffer)
+
+
+def interleaved(
+    works: dict[str, Callable[[], object]], clock: Callable[[], float] = time.process_time
+) -> dict[str, float]:
+    """Seconds each takes, the median of rounds in which they take turns."""
+    for work in works.values():
+        work()
+    taken: dict[str, list[float]] = {name: [] for name in works}
+    for _ in range(ROUNDS):
+        for name, work in works.items():
+            began = clock()
+            work()
+            taken[name].append(clock() - began)
+    return {name: statistics.median(each) for name, each in taken.items()}
+
+
+def against_noetic() -> list[str]:
+    """One million times, depth 5, against single lookups in C++."""
+    head = "  noetic C++, single lookups, depth 5"
+    if isinstance(noetic.program(), str):
+        return [f"{head}: left out, {noetic.program()}"]
+    lines = []
+    world = chain(5)
+    for order, wanted in (("sorted", 4.0), ("random", 3.0)):
+        times = world.times(MANY, in_order=order == "sorted")
+        _, answers = noetic.lookups(world.stamps, world.samples, times[:FEW])
+        found = world.ask(times[:FEW])
+        np.testing.assert_allclose(found.translations, answers[:, :3], rtol=0, atol=1e-12)
+        # ROS 1 gives another sign where ROS 2 gives the canonical one.
+        dots = np.einsum("ij,ij->i", found.rotations, answers[:, 3:])
+        np.testing.assert_allclose(np.abs(dots), 1.0, rtol=0, atol=1e-12)
+        ours, theirs = [], []
+        world.ask(times)
+        for _ in range(ROUNDS):
+            theirs += noetic.lookups(world.stamps, world.samples, times)[0]
+            began = time.process_time()
+            world.ask(times)
+            ours.append((time.process_time() - began) / MANY * 1e9)
+        lines.append(
+            row(
+                f"{head}, {order}",
+                statistics.median(ours),
+                statistics.median(theirs),
+                wanted,
+            )
+        )
+    return lines
+
+
+def against_peers() -> list[str]:
+    """The same chain and the same times in every library that is installed."""
+    lines = []
+    for peer in PEERS:
+        if find_spec(peer.module) is None:
+            lines.append(f"  {peer.name}: left out, it is not installed")
+            continue
+        world = chain(peer.depth)
+        for order in ("sorted", "random"):
+            times = world.times(peer.count, in_order=order == "sorted")
+            work = peer.ready(world.stamps, world.samples, times)
+            peer.compare(work(), world.ask(times))
+            taken = interleaved({"ours": partial(world.ask, times), "theirs": work})
+            scale = 1e9 / peer.count
+            lines.append(
+                row(
+                    f"  {peer.name}, depth {peer.depth}, {peer.count:,} times, {order}",
+                    taken["ours"] * scale,
+                    taken["theirs"] * scale,
+                    peer.wanted,
+                )
+            )
+    return lines
+
+
+def threads() -> list[str]:
+    """Two threads against one, by the clock on the wall: needs two idle cores."""
+    world = chain(5)
+    lines = []
+    for order in ("sorted", "random"):
+        times = world.times(MANY, in_order=order == "sorted")
+        taken = interleaved(
+            {"one": partial(world.ask, times), "two": partial(world.ask, times, 2)},
+            time.perf_counter,
+        )
+        one, two = taken["one"] / MANY * 1e9, taken["two"] / MANY * 1e9
+        lines.append(row(f"  one thread of ours against two, depth 5, {order}", two, one, 1.5))
+    return lines
+
+
+def growth() -> list[str]:
+    """What a time costs by depth, by samples, and by the size of the batch."""
+    lines = []
+    for depth, samples, count in (
+        (2, 1000, FEW),
+        (5, 1000, 1000),
+        (5, 1000, FEW),
+        (20, 1000, FEW),
+        (5, 100_000, FEW),
+        (5, 100_000, MANY),
+    ):
+        world = chain(depth, samples)
+        works = {
+            order: partial(world.ask, world.times(count, in_order=order == "sorted"))
+            for order in ("sorted", "random")
+        }
+        taken = interleaved(works)
+        told = ", ".join(f"{order} {taken[order] / count * 1e9:.0f} ns" for order in works)
+        lines.append(f"  depth {depth}, {samples:,} samples a link, {count:,} times: {told}")
+    return lines
+
+
+def insertion() -> list[str]:
+    """A hundred thousand samples set together."""
+    world = chain(1, FEW)
+    stamps, places, turns = world.stamps[0], world.samples[0, :, :3], world.samples[0, :, 3:]
+    order = np.random.default_rng(3).permutation(FEW)
+
+    def together(rows: np.ndarray) -> None:
+        fresh = Buffer(seconds(1e6))
+        fresh.set_transforms("f0", "f1", stamps[rows], places[rows], turns[rows])
+
+    works = {"in order": partial(together, np.arange(FEW)), "shuffled": partial(together, order)}
+    taken = interleaved(works)
+    return [
+        f"  {FEW:,} samples set together, {what}: {taken[what] / FEW * 1e9:.0f} ns each"
+        for what in works
+    ]
+
+
+def snapshot() -> list[str]:
+    """All frames in one sweep against a lookup each."""
+    world = chain(300, 3)
+    frames = [f"f{number}" for number in range(1, 301)]
+    # A chain is the worst of trees: every frame lies below all those before it.
+    taken = interleaved(
+        {
+            "sweep": lambda: world.buffer.snapshot(0, seconds(1.015)),
+            "each": lambda: [
+                world.buffer.lookup_transform("f0", frame, seconds(1.015)) for frame in frames
+            ],
+        }
+    )
+    bushy = Buffer()
+    for number in range(1, 1001):
+        bushy.set_transforms(
+            f"f{(number - 1) // 4}",
+            f"f{number}",
+            [seconds(1), seconds(2)],
+            [[1, 0, 0]] * 2,
+            [[0, 0, 0.6, 0.8]] * 2,
+        )
+    names = [f"f{number}" for number in range(1, 1001)]
+    more = interleaved(
+        {
+            "sweep": lambda: bushy.snapshot(0, seconds(1.5)),
+            "each": lambda: [bushy.lookup_transform("f0", name, seconds(1.5)) for name in names],
+        }
+    )
+    return [
+        f"  all frames of a chain of 300 in one sweep: {taken['sweep'] * 1e3:.1f} ms, "
+        f"a lookup each {taken['each'] / taken['sweep']:.1f} times as long",
+        f"  all of a tree of 1,000, four to a parent: {more['sweep'] * 1e3:.1f} ms, "
+        f"a lookup each {more['each'] / more['sweep']:.1f} times as long",
+    ]
+
+
+def row(what: str, ours: float, theirs: float, wanted: float) -> str:
+    """One line of the table."""
+    return (
+        f"{what:<62}{theirs:8.0f} → {ours:5.0f} ns   {theirs / ours:5.1f} times faster "
+        f"(wanted: {wanted:g})"
+    )
+
+
+def report() -> str:
+    """Measure, and say it as a table."""
+    parts = (against_noetic, against_peers, threads, growth, insertion, snapshot)
+    head = f"batch, nanoseconds a time (median of {ROUNDS} interleaved rounds): theirs → ours"
+    return "\n".join([head, *(line for part in parts for line in part())])
+
+
+if __name__ == "__main__":
+    print(report())  # noqa: T201
