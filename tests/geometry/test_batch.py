@@ -1,0 +1,75 @@
+"""Each function for many gives, row by row, what its namesake gives for one."""
+
+import math
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from tests.strategies import fractions, rotations, vectors
+from tftool.geometry import batch, quaternions
+
+several = st.lists(rotations, min_size=1, max_size=5)
+ODD = [
+    (0.0, 0.0, 0.0, 0.0),
+    (math.nan, 0.0, 0.0, 1.0),
+    (math.inf, 0.0, 0.0, 1.0),
+    (3e200, 0.0, 0.0, 4e200),
+    (1e-200, 0.0, 0.0, 0.0),
+    (1e-160, 0.0, 0.0, 0.0),
+    (0.0, 0.0, 0.6, -0.8),
+    (0.0, 0.0, 0.0, 2.0),
+]
+
+
+@given(st.lists(st.one_of(rotations, st.sampled_from(ODD)), max_size=6))
+def test_unit_and_canonical_are_the_single_ones_to_the_last_bit(given_rows):
+    rows = np.array(given_rows).reshape(-1, 4)
+
+    found = batch.canonical(batch.unit(rows))
+
+    wanted = [quaternions.canonical(quaternions.unit(tuple(row))) for row in rows.tolist()]
+    np.testing.assert_array_equal(found, np.array(wanted).reshape(-1, 4))
+
+
+@given(several, rotations, vectors)
+def test_products_and_turns_are_the_single_ones(given_rows, other, vector):
+    rows = np.array(given_rows)
+
+    products = batch.multiply(rows, np.array(other))
+    turned = batch.rotate(rows, np.array(vector))
+
+    for row, quad in enumerate(given_rows):
+        assert tuple(products[row]) == pytest.approx(quaternions.multiply(quad, other), abs=1e-15)
+        assert tuple(turned[row]) == pytest.approx(quaternions.rotate(quad, vector), abs=1e-12)
+        assert tuple(batch.conjugate(rows)[row]) == quaternions.conjugate(quad)
+
+
+@given(several, rotations, fractions)
+def test_slerp_is_the_single_one(given_rows, end, fraction):
+    rows = np.array(given_rows)
+
+    found = batch.slerp(rows, np.array(end), np.full(len(rows), fraction))
+
+    for row, quad in enumerate(given_rows):
+        wanted = quaternions.slerp(quad, tuple(end), fraction)
+        # Where both ways are equally short, the last bit decides which is taken.
+        if abs(np.dot(quad, end)) > 1e-9:
+            assert tuple(found[row]) == pytest.approx(wanted, abs=1e-7)
+
+
+@given(several)
+def test_rotation_vectors_turn_as_far_and_about_the_same_axis(given_rows):
+    rows = np.array(given_rows)
+
+    found = batch.rotation_vectors(rows)
+
+    for vector, quad in zip(found, given_rows, strict=True):
+        angle = float(np.linalg.norm(vector))
+        assert angle == pytest.approx(
+            quaternions.angle_between(quad, quaternions.IDENTITY), abs=1e-9
+        )
+        half = math.sin(angle / 2.0)
+        again = (*(vector / angle * half if angle > 0.0 else vector), math.cos(angle / 2.0))
+        assert quaternions.angle_between(tuple(again), quad) < 1e-7
