@@ -4,7 +4,7 @@ A stamp is an `int`. In every question 0 is not a moment but means "latest".
 """
 
 import math
-from typing import TypeAlias
+from typing import SupportsIndex, TypeAlias
 
 Stamp: TypeAlias = int
 """A moment in nanoseconds since the clock's epoch; 0 in a question means latest."""
@@ -36,6 +36,19 @@ def seconds(value: float) -> int:
     whole = math.floor(value)
     # The fraction is never negative, so half away from zero is half up.
     return whole * NANOSECONDS + math.floor((value - whole) * 1e9 + 0.5)
+
+
+def whole(stamp: object) -> Stamp:
+    """A moment or a duration as an `int`, whatever kind of whole number it comes as.
+
+    Raises:
+        TypeError: If it is a float, or nothing like a whole number.
+    """
+    if isinstance(stamp, SupportsIndex):
+        return stamp.__index__()
+    raise TypeError(
+        f"stamps are whole nanoseconds, not {stamp!r}: seconds(2.5) makes one of 2.5 seconds"
+    )
 
 
 def as_seconds(stamp: int) -> float:

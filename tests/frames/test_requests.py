@@ -1,6 +1,7 @@
 import pytest
 
 from tftool.frames.buffer import NEVER, Buffer
+from tftool.frames.lookups import Lookups
 from tftool.frames.requests import AVAILABLE, EXPIRED, NOW, PENDING, Requests
 from tftool.frames.sample import TransformStamped
 from tftool.geometry.rigid import Transform
@@ -38,6 +39,39 @@ def test_requests_fire_in_the_order_they_were_made(buffer, told):
     put(buffer, "a", "b", 1)
 
     assert told == [(handle, True) for handle in handles]
+
+
+def test_a_new_child_wakes_nobody_who_waits_for_its_sisters(told, monkeypatch):
+    examine = Lookups.examine
+    asked = []
+
+    def counted(lookups, question, first):
+        asked.append(question)
+        return examine(lookups, question, first)
+
+    monkeypatch.setattr(Lookups, "examine", counted)
+    buffer = Buffer()
+    put(buffer, "world", "sister", 1)
+    asker(buffer, told)("world", "sister", 2)
+    asked.clear()
+
+    put(buffer, "world", "new", 1)
+    put(buffer, "world", "fixed", 1, static=True)
+    put(buffer, "new", "newer", 1)
+
+    assert asked == []
+
+
+def test_a_name_that_comes_up_in_a_refused_sample_is_news_to_who_waits_for_it(buffer, told):
+    ask = asker(buffer, told)
+    put(buffer, "world", "child", 100)
+    put(buffer, "world", "child", 101)
+    handle = ask("late_parent", "child", 0)
+    assert not put(buffer, "late_parent", "child", 1)
+
+    assert put(buffer, "late_parent", "child", 102)
+
+    assert told == [(handle, True)]
 
 
 def test_waits_on_other_frames_are_not_asked_again():

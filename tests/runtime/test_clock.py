@@ -269,3 +269,14 @@ def test_in_a_head_start_too_everything_comes_to_rest_before_time_moves_on():
 def test_a_head_start_cannot_be_negative():
     with pytest.raises(ValueError, match="head start"):
         WallClock(head_start=-1)
+
+
+@pytest.mark.parametrize("make_clock", [SimClock, WallClock])
+@pytest.mark.parametrize("moment", [0.5, float("nan"), float("inf"), None])
+def test_a_moment_that_is_not_whole_nanoseconds_is_refused(make_clock, moment):
+    clock = make_clock()
+    with pytest.raises(TypeError):
+        run(clock, clock.sleep(moment))
+    with pytest.raises(TypeError, match=r"seconds\(2.5\) makes one"):
+        run(clock, clock.sleep_until(moment))
+    assert isinstance(clock.now(), int)

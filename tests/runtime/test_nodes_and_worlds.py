@@ -74,6 +74,13 @@ def test_a_period_of_nothing_is_refused():
         lived(world, 10)
 
 
+def test_a_period_in_seconds_by_mistake_is_refused():
+    world = World(SimClock())
+    Ticker(world, period=0.1)
+    with pytest.raises(NodeFailed, match=r"whole nanoseconds, not 0\.1"):
+        lived(world, 10)
+
+
 def test_nodes_that_are_due_together_run_in_the_order_they_joined():
     def order():
         world = World(SimClock())

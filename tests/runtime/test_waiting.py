@@ -136,3 +136,43 @@ def test_a_question_across_time_waits_for_both_of_its_halves(world):
     found = run(world.clock, main())
     assert found.transform.translation.x == pytest.approx(5.0)
     assert world.clock.elapsed() == seconds(2)
+
+
+@pytest.mark.parametrize(
+    ("name", "refused"),
+    [("ghost", LookupException), ("", InvalidArgumentException), ("/a", InvalidArgumentException)],
+)
+def test_a_question_across_time_of_one_name_that_nobody_knows_comes_to_an_end(world, name, refused):
+    epoch = world.clock.epoch
+    with pytest.raises(refused):
+        run(
+            world.clock,
+            world.wait_for_transform_full(name, epoch, name, epoch + 1, name, seconds(1)),
+        )
+
+
+def test_a_half_that_is_forgotten_while_the_other_is_waited_for_is_not_waited_for_again(world):
+    epoch = world.clock.epoch
+
+    async def main():
+        put(world, 0)
+        later(world, 1, lambda: [put(world, at) for at in (40, 80)])
+        later(world, 2, lambda: put(world, 2, child="turtle2"))
+        await world.wait_for_transform_full(
+            "turtle2", epoch + seconds(2), "turtle1", epoch, "world", seconds(5)
+        )
+
+    with pytest.raises(ExtrapolationException):
+        run(world.clock, main())
+    assert world.clock.elapsed() == seconds(2)
+
+
+@pytest.mark.parametrize("timeout", [1.0, float("nan"), float("inf"), "1"])
+def test_a_timeout_that_is_not_whole_nanoseconds_is_refused(world, timeout):
+    with pytest.raises(TypeError, match=r"seconds\(2.5\) makes one"):
+        run(world.clock, world.wait_for_transform("world", "turtle1", 0, timeout))
+    with pytest.raises(TypeError, match=r"seconds\(2.5\) makes one"):
+        run(
+            world.clock,
+            world.wait_for_transform_full("world", 1, "turtle1", 2, "world", timeout),
+        )

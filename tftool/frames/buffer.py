@@ -13,7 +13,7 @@ from tftool.frames.requests import NEVER, Callback, Requests
 from tftool.frames.sample import FrameInfo, Snapshot, TransformStamped
 from tftool.geometry import quaternions, rigid
 from tftool.geometry.rigid import Transform
-from tftool.stamps import Duration, Stamp, seconds
+from tftool.stamps import Duration, Stamp, seconds, whole
 
 if TYPE_CHECKING:
     import numpy.typing as npt
@@ -59,7 +59,7 @@ class Buffer:
         Raises:
             ValueError: If `cache_time` is negative.
         """
-        cache_time = refusals.whole(cache_time)
+        cache_time = whole(cache_time)
         if cache_time < 0:
             raise ValueError(f"cache_time must not be negative, but is {cache_time} ns")
         self.cache_time = cache_time
@@ -138,7 +138,7 @@ class Buffer:
     def _set_slowly(self, transform: TransformStamped, authority: str, static: bool) -> bool:
         """Set what is new, odd or static: every check, each with its own line in the log."""
         stamp, parent, child, pose = transform
-        stamp = refusals.whole(stamp)
+        stamp = whole(stamp)
         parent, child = names.stripped(parent), names.stripped(child)
         rotation = quaternions.canonical(quaternions.unit(pose.rotation))
         errors = refusals.objections(child, parent, stamp, pose.translation, rotation, authority)
@@ -156,8 +156,12 @@ class Buffer:
         assert frame.link is not None
         sample = pose.translation + rotation
         outcome = frame.link.insert(stamp, frame.parent_number, sample)
+        # A name that comes up is news even if the sample is refused; a parent that was
+        # known is none, or each new child would wake whoever waits for something below it.
+        named = [new.name for new in forest.frames[known:]]
         if outcome == TOO_OLD:
             self._log("WARN", refusals.old_data(child, stamp, authority))
+            self._requests.changed(*named)
             return False
         frame.authority = authority
         if fresh or outcome == RESHAPED:
@@ -165,10 +169,7 @@ class Buffer:
         if self._listeners:
             self._tell(sample, stamp, parent, child, authority, static)
         if self._requests.pending:
-            if len(forest.frames) > known:
-                self._requests.changed(child, parent)
-            else:
-                self._requests.changed(child)
+            self._requests.changed(child, *named)
         return True
 
     def _tell(
@@ -265,7 +266,7 @@ class Buffer:
             TypeError: If `time` is not a whole number.
         """
         if time.__class__ is not int:
-            time = refusals.whole(time)
+            time = whole(time)
         pose: Transform | None = None
         try:
             plan = self._plans[target_frame][source_frame]
@@ -451,7 +452,7 @@ class Buffer:
     def can_transform(self, target_frame: str, source_frame: str, time: Stamp = 0) -> bool:
         """Whether `lookup_transform` would answer; it never raises for a name or a time."""
         if time.__class__ is not int:
-            time = refusals.whole(time)
+            time = whole(time)
         plan = self._plans.get(target_frame, _NO_PLANS).get(source_frame)
         if plan is not None and plan.covers(time or plan.latest()):
             return True
@@ -472,7 +473,7 @@ class Buffer:
 
     def why_not(self, target_frame: str, source_frame: str, time: Stamp = 0) -> str:
         """Why `can_transform` says no, in tf2's words; empty if it says yes."""
-        reason = self._lookups.why_not(target_frame, source_frame, refusals.whole(time))
+        reason = self._lookups.why_not(target_frame, source_frame, whole(time))
         return "" if reason is None else str(reason)
 
     def why_not_full(
@@ -514,7 +515,7 @@ class Buffer:
             0 if it can be looked up now, NEVER if it never can again (in both cases
             `callback` is not kept), else a handle for `cancel`.
         """
-        return self._requests.add(callback, ((target_frame, source_frame, refusals.whole(time)),))
+        return self._requests.add(callback, ((target_frame, source_frame, whole(time)),))
 
     def request_full(
         self,
@@ -529,8 +530,8 @@ class Buffer:
         return self._requests.add(
             callback,
             (
-                (target_frame, fixed_frame, refusals.whole(target_time)),
-                (fixed_frame, source_frame, refusals.whole(source_time)),
+                (target_frame, fixed_frame, whole(target_time)),
+                (fixed_frame, source_frame, whole(source_time)),
             ),
         )
 
@@ -547,7 +548,7 @@ class Buffer:
             now: What the clock reads; ages are told against it.
             at: The moment to show; 0 for each frame at the latest moment of its chain.
         """
-        return sweep.snapshot(self._forest, refusals.whole(now), refusals.whole(at))
+        return sweep.snapshot(self._forest, whole(now), whole(at))
 
     def frames(self) -> list[str]:
         """Every name that ever came up, in that order; of one sample the child first."""
@@ -572,7 +573,7 @@ class Buffer:
         Raises:
             TransformException: As `lookup_transform`.
         """
-        return self._lookups.chain(target_frame, source_frame, refusals.whole(time))
+        return self._lookups.chain(target_frame, source_frame, whole(time))
 
     def all_frames_as_yaml(self, current_time: Stamp = 0) -> str:
         """tf2's YAML of all frames; see `export.as_yaml`."""

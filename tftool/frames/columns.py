@@ -7,6 +7,7 @@ from tftool.frames import refusals
 from tftool.frames.history import History
 from tftool.frames.links import Link, Sample
 from tftool.geometry.batch import Floats
+from tftool.stamps import whole
 
 Stamps = npt.NDArray[np.int64]
 """Nanoseconds, shape (n,)."""
@@ -84,7 +85,7 @@ def stamps_of(times: npt.ArrayLike, name: str) -> Stamps:
         return np.zeros(0, dtype=np.int64)
     kind = given.dtype.kind
     if kind == "O":
-        wholes = [refusals.whole(time) for time in given]
+        wholes = [whole(time) for time in given]
         unfit = [time for time in wholes if not refusals.fits(time)]
         if unfit:
             raise ValueError(f"{name} hold {unfit[0]} ns, which does not fit 64 bits")

@@ -111,22 +111,6 @@ def extrapolation(
     )
 
 
-def whole(stamp: object) -> Stamp:
-    """A moment as an `int`, whatever kind of whole number it comes as.
-
-    Raises:
-        TypeError: If it is a float, or nothing like a whole number.
-    """
-    if stamp.__class__ is int:
-        return stamp
-    try:
-        return int(stamp.__index__())  # type: ignore[attr-defined]
-    except AttributeError:
-        raise TypeError(
-            f"stamps are whole nanoseconds, not {stamp!r}: seconds(2.5) makes one of 2.5 seconds"
-        ) from None
-
-
 def fits(stamp: Stamp) -> bool:
     """Whether a stamp can be kept."""
     return -_LONGEST <= stamp < _LONGEST

@@ -23,7 +23,7 @@ from enum import IntEnum
 from typing import Any, TypeVar
 
 from tftool.errors import TftoolError
-from tftool.stamps import NANOSECONDS, Duration, Stamp, seconds
+from tftool.stamps import NANOSECONDS, Duration, Stamp, seconds, whole
 
 T = TypeVar("T")
 
@@ -73,7 +73,12 @@ class Clock(ABC):
         """A future that is done at `stamp` (at once, in turn, if that has passed).
 
         Cancel it to give it up.
+
+        Raises:
+            TypeError: If `stamp` is not a whole number: 0.5 of a nanosecond is a slip of who
+                meant seconds, and NaN would be no moment at all.
         """
+        stamp = whole(stamp)
         future: asyncio.Future[None] = asyncio.get_running_loop().create_future()
         self._asked += 1
         heapq.heappush(self._waiters, (stamp, phase, rank, self._asked, future))
@@ -122,7 +127,7 @@ class SimClock(Clock):
         self, stamp: Stamp, phase: Phase = Phase.CONSUME, rank: int = 0
     ) -> "asyncio.Future[None]":
         """A future that is done at `stamp`; what has passed takes its turn in this instant."""
-        return super().timer(max(stamp, self._now), phase, rank)
+        return super().timer(max(whole(stamp), self._now), phase, rank)
 
     def new_loop(self) -> asyncio.AbstractEventLoop:
         """Make an event loop that lives in this clock's time."""

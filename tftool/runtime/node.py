@@ -9,7 +9,7 @@ from tftool.runtime.clock import Clock, Phase
 from tftool.runtime.parameters import Parameters, Value
 from tftool.runtime.resident import Resident
 from tftool.runtime.world import World
-from tftool.stamps import Duration, Stamp, as_seconds
+from tftool.stamps import Duration, Stamp, as_seconds, whole
 
 T = TypeVar("T")
 
@@ -66,8 +66,10 @@ class Node(Resident):
             immediately: Whether the first moment is now.
 
         Raises:
-            ValueError: If the period is not positive.
+            TypeError: If the period is not a whole number.
+            ValueError: If it is not positive.
         """
+        period = whole(period)
         if period <= 0:
             raise ValueError(f"a timer's period must be positive, not {period} ns")
         due = self.clock.now() if immediately else self.clock.now() + period

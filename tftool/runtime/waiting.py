@@ -6,11 +6,16 @@ makes its transform possible.
 
 import asyncio
 
-from tftool.errors import InvalidArgumentException, TimeoutException, TransformException
+from tftool.errors import (
+    InvalidArgumentException,
+    LookupException,
+    TimeoutException,
+    TransformException,
+)
 from tftool.frames.buffer import NEVER, Buffer
 from tftool.frames.sample import TransformStamped
 from tftool.runtime.clock import Clock, Phase
-from tftool.stamps import Duration, Stamp
+from tftool.stamps import Duration, Stamp, whole
 
 
 async def wait_for_transform(
@@ -36,8 +41,9 @@ async def wait_for_transform(
             that stood at the end.
         InvalidArgumentException: If a name can never be asked for.
         TransformException: If the moment has been forgotten and will not come back.
+        TypeError: If the moment or the timeout is not a whole number.
     """
-    deadline = None if timeout is None else clock.now() + timeout
+    deadline = None if timeout is None else clock.now() + whole(timeout)
     return await _wait(buffer, clock, target_frame, source_frame, time, deadline)
 
 
@@ -53,19 +59,24 @@ async def wait_for_transform_full(
 ) -> TransformStamped:
     """The transform between two moments, through a fixed frame, as soon as it can be given.
 
-    Raises as `wait_for_transform` does.
+    Raises as `wait_for_transform` does, and LookupException at once if all three frames
+    are one that nobody knows.
     """
-    deadline = None if timeout is None else clock.now() + timeout
+    deadline = None if timeout is None else clock.now() + whole(timeout)
     while True:
         await _wait(buffer, clock, fixed_frame, source_frame, source_time, deadline)
         await _wait(buffer, clock, target_frame, fixed_frame, target_time, deadline)
-        # The first half may have been forgotten while the second was waited for.
-        if buffer.can_transform_full(
-            target_frame, target_time, source_frame, source_time, fixed_frame
-        ):
+        try:
             return buffer.lookup_transform_full(
                 target_frame, target_time, source_frame, source_time, fixed_frame
             )
+        except (InvalidArgumentException, LookupException):
+            # A frame to itself is given whatever its name, here names are checked as well:
+            # to ask again would never come to an end.
+            raise
+        except TransformException:
+            # The first half was forgotten while the second was waited for.
+            continue
 
 
 async def _wait(
