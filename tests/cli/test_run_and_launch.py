@@ -1,7 +1,11 @@
 """`tftool run` and `tftool launch`, as people type them, in the tutorial's workspace."""
 
+import os
 import re
 import shlex
+import signal
+import subprocess
+import sys
 from pathlib import Path
 
 import pytest
@@ -214,3 +218,47 @@ def test_every_line_of_the_readmes_table_works(line, tftool, simulated):
 
 def test_the_table_has_its_lines():
     assert len(LINES) > 15
+
+
+def test_a_node_can_be_put_into_a_scenario(tmp_path, capsys):
+    file = tmp_path / "where.py"
+    file.write_text(
+        NODE + "from tf2_ros import Buffer, TransformListener\n"
+        "buffer = Buffer()\nlistener = TransformListener(buffer, node)\n"
+        "def look():\n"
+        "    found = buffer.lookup_transform('map', 'laser_link', rclpy.time.Time())\n"
+        "    node.get_logger().info(f'laser in {found.header.frame_id}')\n"
+        "node.create_timer(4.0, look)\nrclpy.spin(node)\n"
+    )
+
+    assert main(["run", "--in", "robot", *SIMULATED, str(file)]) == 0
+    assert "[mine]: laser in map" in capsys.readouterr().err
+
+
+def test_ctrl_c_runs_destroy_node_and_ends_the_command_as_interrupted(tmp_path):
+    file = tmp_path / "ends.py"
+    file.write_text(
+        "import rclpy\nfrom rclpy.node import Node\n"
+        "class Ends(Node):\n"
+        "    def destroy_node(self):\n"
+        "        self.get_logger().info('destroyed')\n"
+        "        super().destroy_node()\n"
+        "rclpy.init()\nnode = Ends('ends')\nnode.get_logger().info('ready')\nrclpy.spin(node)\n"
+    )
+    environment = {**os.environ, "TFTOOL_SESSION_DIR": str(tmp_path / "session")}
+    command = subprocess.Popen(
+        [sys.executable, "-m", "tftool", "run", "--host", str(file)],
+        stderr=subprocess.PIPE,
+        text=True,
+        env={**environment, "PYTHONPATH": str(TUTORIAL.parent.parent)},
+    )
+    with command:
+        for line in command.stderr:
+            if "[ends]: ready" in line:
+                command.send_signal(signal.SIGINT)
+                break
+        rest = command.stderr.read()
+
+    assert command.returncode == 130
+    assert "[ends]: destroyed" in rest
+    assert "Traceback" not in rest

@@ -163,6 +163,7 @@ def test_launched_commands_run_beside_the_nodes_on_the_wall_clock(tmp_path, caps
     from tftool.cli.app import main
 
     monkeypatch.delenv("ROS_DISTRO", raising=False)
+    monkeypatch.setenv("TFTOOL_SESSION_DIR", str(tmp_path / "session"))
     file = tmp_path / "a.launch.py"
     file.write_text(
         "from launch import LaunchDescription\n"

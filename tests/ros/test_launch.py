@@ -403,3 +403,36 @@ def test_every_element_of_xml_has_its_meaning(tmp_path):
     values = done.nodes["space/sim"].parameters.values()
     assert (values["background_g"], values["background_b"]) == (7, 4)
     assert done.elapsed == 1
+
+
+def test_the_tutorial_runs_live_too():
+    import asyncio
+
+    from tftool.messages import Twist2D
+    from tftool.ros.launching import packages
+    from tftool.ros.launching.engine import Launch
+    from tftool.runtime.clock import WallClock, run
+    from tftool.runtime.supervisor import live
+    from tftool.runtime.world import World
+
+    async def until_driven(world):
+        driven = asyncio.Event()
+        world.topic("turtle2/cmd_vel", Twist2D).subscribe(lambda twist: driven.set())
+        living = asyncio.ensure_future(live(world))
+        waiting = asyncio.ensure_future(driven.wait())
+        await asyncio.wait({living, waiting}, return_when=asyncio.FIRST_COMPLETED)
+        for task in (living, waiting):
+            task.cancel()
+        await asyncio.gather(living, waiting, return_exceptions=True)
+        return world.topic("turtle2/cmd_vel", Twist2D).latest
+
+    with ros_free():
+        workspace = Workspace(TUTORIAL)
+        packages.use(workspace)
+        world = World(WallClock())
+        Launch(world, TUTORIAL / "launch" / "turtle_following.launch.py", workspace=workspace)
+        first = run(world.clock, until_driven(world))
+
+    # The first command is the tutorial's, from where both turtles stand at the start.
+    assert first.linear_x == pytest.approx(1.933157795, abs=1e-6)
+    assert first.angular_z == pytest.approx(1.159866862, abs=1e-4)

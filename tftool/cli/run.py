@@ -22,6 +22,12 @@ def run(
             help="A package's executable; the node's own arguments; ROS 2's after --ros-args.",
         ),
     ] = None,
+    place: Annotated[
+        str | None,
+        typer.Option(
+            "--in", metavar="SCENARIO", help="World to host for it: a scenario's name or file."
+        ),
+    ] = None,
     insist: Annotated[
         bool, typer.Option("--ros-free", help="Also where a real ROS 2 is sourced.")
     ] = False,
@@ -41,6 +47,7 @@ def run(
 
     tftool run turtle_tf_broadcaster.py --ros-args -p turtlename:=turtle1
     tftool run pkg_tf turtle_following --ros-args -p source_frame:=carrot1
+    tftool run --in robot --simulated --for 20 my_listener.py
     """
     from pathlib import Path
 
@@ -61,9 +68,8 @@ def run(
         if simulator:
             session = open_empty_session(clock)
         else:
-            session = open_session(
-                clock=clock, head_start=0, without=lambda node: node.kind != "turtlesim"
-            )
+            alone = None if place else lambda node: node.kind != "turtlesim"
+            session = open_session(place, clock=clock, head_start=0, without=alone)
         world = session.world
 
         def tell(record: "LogRecord") -> None:
