@@ -122,7 +122,7 @@ def against_peers() -> list[str]:
             lines.append(f"  {peer.name}: left out, it is not installed")
             continue
         world = chain(peer.depth)
-        for order in ("sorted", "random"):
+        for order in peer.orders:
             times = world.times(peer.count, in_order=order == "sorted")
             work = peer.ready(world.stamps, world.samples, times)
             peer.compare(work(), world.ask(times))

@@ -21,6 +21,7 @@ class Peer:
     wanted: float
     ready: Callable[[np.ndarray, np.ndarray, np.ndarray], Work]
     compare: Callable[[object, TransformArray], None]
+    orders: tuple[str, ...] = ("sorted", "random")
 
 
 def _wxyz(samples: np.ndarray) -> np.ndarray:
@@ -153,5 +154,6 @@ PEERS = (
         6,
         rigid_body_motion,
         compare_rigid_body_motion,
+        ("sorted",),  # it refuses others
     ),
 )
