@@ -2,9 +2,9 @@
 
 import platform
 
-from tests.benchmarks import batch, scalar, start_up, turtle_world
+from tests.benchmarks import batch, link, scalar, start_up, turtle_world
 
-REPORTS = (scalar.report, batch.report, start_up.report, turtle_world.report)
+REPORTS = (scalar.report, batch.report, start_up.report, turtle_world.report, link.report)
 """What is measured; add yours."""
 
 if __name__ == "__main__":

@@ -1,6 +1,8 @@
 """Two worlds, two zenoh sessions, real sockets: what one says the other hears."""
 
 import asyncio
+import shutil
+import subprocess
 
 import pytest
 
@@ -10,7 +12,7 @@ from tftool.frames.sample import TransformStamped
 from tftool.geometry.rigid import Transform
 from tftool.link.graph import hosts
 from tftool.link.session import Link, Options
-from tftool.link.transport import Reach
+from tftool.link.transport import Certificates, Reach
 from tftool.messages import (
     Clear,
     Color,
@@ -536,3 +538,56 @@ def test_a_link_without_zenoh_says_what_is_missing(monkeypatch):
 
     with pytest.raises(LinkError, match=r"'eclipse-zenoh', which is missing here.*--host"):
         Link(Options())
+
+
+def test_where_there_are_no_unix_sockets_the_loopback_serves(monkeypatch):
+    monkeypatch.setattr("tftool.link.rendezvous.HAS_UNIX_SOCKETS", False)
+
+    async def send():
+        async with Two() as two:
+            two.there.broadcast([sample(1)], "guest")
+            two.here.broadcast([sample(0, "A")], "static", static=True)
+            await until(lambda: two.there.buffer.frame_exists("A"))
+            two.host.close()
+            await until(lambda: not two.guest.graph.processes())
+
+    play(send())
+
+
+def certificates(folder):
+    """A small authority and one certificate of it for this machine."""
+
+    def openssl(*words):
+        subprocess.run(["openssl", *words], check=True, capture_output=True, cwd=folder)
+
+    for name in ("ca", "own"):
+        openssl("ecparam", "-name", "prime256v1", "-genkey", "-noout", "-out", f"{name}.key")
+    (folder / "own.ext").write_text("subjectAltName=DNS:localhost,IP:127.0.0.1\n")
+    openssl("req", "-x509", "-key", "ca.key", "-subj", "/CN=test", "-days", "2", "-out", "ca.pem")
+    openssl("req", "-new", "-key", "own.key", "-subj", "/CN=localhost", "-out", "own.csr")
+    openssl(
+        *("x509", "-req", "-in", "own.csr", "-CA", "ca.pem", "-CAkey", "ca.key"),
+        *("-CAcreateserial", "-days", "2", "-extfile", "own.ext", "-out", "own.pem"),
+    )
+    return Certificates(folder / "own.pem", folder / "own.key", folder / "ca.pem")
+
+
+@pytest.mark.skipif(shutil.which("openssl") is None, reason="needs openssl to make certificates")
+def test_over_tls_only_who_has_a_certificate_is_let_in(session_dir, monkeypatch, tmp_path):
+    monkeypatch.setattr("tftool.link.session.REACHING", 1.0)
+    files = certificates(tmp_path)
+
+    async def reach():
+        endpoint = (f"tls/localhost:{free_port()}",)
+        gate_options = Options("demo", reach=Reach(listen=endpoint, certificates=files))
+        with Link(gate_options) as gate:
+            gate.attach(new_world(), is_host=True)
+            monkeypatch.setenv("TFTOOL_SESSION_DIR", str(session_dir / "far"))
+            with Link(Options("echo", reach=Reach(connect=endpoint, certificates=files))) as far:
+                assert hosts(far.graph.processes())
+            (tmp_path / "stranger").mkdir()
+            stranger = certificates(tmp_path / "stranger")
+            with pytest.raises(LinkError, match="nobody answers at tls/localhost"):
+                Link(Options("echo", reach=Reach(connect=endpoint, certificates=stranger)))
+
+    play(reach())

@@ -1,18 +1,11 @@
 """The demo in a real terminal: tmux is one that can be asked what is on it."""
 
-import os
 import re
-import shlex
 import shutil
-import subprocess
-import sys
-from pathlib import Path
-from threading import Event
 
 import pytest
 
-ROOT = Path(__file__).parents[2]
-TRIES, PAUSE = 1200, 0.05
+from tests.terminals import Terminal
 
 pytestmark = pytest.mark.skipif(
     shutil.which("tmux") is None, reason="needs tmux, a terminal that can be asked"
@@ -30,78 +23,6 @@ async def run(self):
 Broadcaster.run = run
 sys.exit(main(["demo"]))
 """
-
-
-class Terminal:
-    """A tmux with one window, in which a command runs and then its exit status stands."""
-
-    def __init__(self, place, width, height, words, environment):
-        self.socket = str(place / "tmux")
-        self.pid_file = place / "pid"
-        command = shlex.join([sys.executable, *words])
-        # exec, so that the number in the file is the command's own.
-        line = f"sh -c {shlex.quote(f'echo $$ > {self.pid_file}; exec {command}')}"
-        line += '; echo "ended with $?"; exec cat'
-        kept = {
-            key: os.environ[key]
-            for key in ("PATH", "HOME", "TFTOOL_SESSION_DIR")
-            if key in os.environ
-        }
-        self.environment = {
-            **kept,
-            "LC_ALL": "C.UTF-8",
-            "PYTHONPATH": str(ROOT),
-            "SHELL": "/bin/sh",
-            **environment,
-        }
-        self.tmux("new-session", "-d", "-x", str(width), "-y", str(height), line)
-
-    def tmux(self, *words):
-        done = subprocess.run(
-            ["tmux", "-u", "-f", "/dev/null", "-S", self.socket, *words],
-            check=True,
-            capture_output=True,
-            text=True,
-            env=self.environment,
-            cwd=ROOT,
-        )
-        return done.stdout
-
-    def screen(self):
-        return self.tmux("capture-pane", "-p")
-
-    def press(self, *keys):
-        for key in keys:
-            self.tmux("send-keys", key)
-
-    def until(self, condition, what):
-        """Look at the screen until it is as it should be."""
-        for _ in range(TRIES):
-            screen = self.screen()
-            if condition(screen):
-                return screen
-            Event().wait(PAUSE)
-        raise AssertionError(f"{what} never came; this did:\n{screen}")
-
-    def shows(self, words):
-        return self.until(lambda screen: words in screen, words)
-
-    def facts(self):
-        """Whether the other screen is on, the cursor seen, the mouse caught."""
-        asked = "#{alternate_on} #{cursor_flag} #{mouse_any_flag}"
-        return self.tmux("display-message", "-p", asked).split()
-
-    def signal(self, number):
-        os.kill(int(self.pid_file.read_text()), number)
-
-    def ended(self, status):
-        """Wait for the end; the terminal is then as it was before."""
-        screen = self.shows(f"ended with {status}")
-        assert self.facts() == ["0", "1", "0"]
-        # Typed keys are echoed again.
-        self.press("o", "k", "?")
-        self.shows("ok?")
-        return screen
 
 
 @pytest.fixture

@@ -36,6 +36,9 @@ REACHING: Final = 3.0
 NEARBY: Final = 1.0
 """Seconds to wait for the processes of this machine."""
 
+INTRODUCED: Final = 1.0
+"""Seconds to wait for tokens of those who are connected."""
+
 _STEP = 0.005
 _PLAIN = re.compile(r"[A-Za-z_][A-Za-z0-9_]*(/[A-Za-z_][A-Za-z0-9_]*)*", re.ASCII)
 
@@ -95,8 +98,7 @@ class Link:
             raise
         self.graph = Graph(self.wire.zid, options.domain)
         self._reach_out(len(others))
-        for token in self._present_tokens():
-            self.graph.add(token)
+        self._take_in_tokens(len(others))
         self._world: World | None = None
         self._stops: list[Callable[[], None]] = []
         self._bridges: dict[str, TopicBridge | TransformBridge] = {}
@@ -414,11 +416,18 @@ class Link:
         if self._place is not None:
             self._place.leave()
 
-    def _present_tokens(self) -> list[str]:
-        found: list[str] = []
-        for prefix in (keys.LIVELINESS, keys.OURS):
-            found += self.wire.tokens(f"{prefix}/{self.options.domain}/**")
-        return found
+    def _take_in_tokens(self, others: int) -> None:
+        """Fill the graph with who is there now, where somebody should be."""
+        expected = others or self.options.reach.connect or self.options.reach.config
+        pause = threading.Event()
+        # Connected is not yet introduced: routers take a moment to pass tokens on.
+        for _ in range(round(INTRODUCED / _STEP) if expected else 1):
+            for prefix in (keys.LIVELINESS, keys.OURS):
+                for token in self.wire.tokens(f"{prefix}/{self.options.domain}/**"):
+                    self.graph.add(token)
+            if not self.graph.is_empty or not expected:
+                return
+            pause.wait(_STEP)
 
     def _node_id(self, node: str) -> int:
         found = self._nodes.get(node)

@@ -1,0 +1,120 @@
+"""The options of sharing: what they say, and what cannot be said."""
+
+from pathlib import Path
+
+import pytest
+
+from tftool.cli.sharing import Choice, Mode, choice, shares
+from tftool.link.transport import Certificates
+
+
+@pytest.fixture
+def told():
+    """A command that gives what it was told, run with some options."""
+
+    def command():
+        return choice()
+
+    return shares(command)
+
+
+def test_without_options_whatever_fits_is_done(told, monkeypatch):
+    monkeypatch.delenv("ROS_DOMAIN_ID", raising=False)
+
+    assert told() == Choice("command")
+    assert not told().is_asked_for
+    assert choice() == Choice()
+
+
+def test_the_domain_comes_from_the_option_then_from_ros_2s_variable(told, monkeypatch):
+    monkeypatch.setenv("ROS_DOMAIN_ID", "42")
+
+    assert told().domain == 42
+    assert told(domain=7).domain == 7
+
+
+@pytest.mark.parametrize("value", ["x", "-1", "233", "99999999999999999999", "４"])
+def test_a_domain_in_the_environment_that_is_none_is_named(tftool, monkeypatch, value):
+    monkeypatch.setenv("ROS_DOMAIN_ID", value)
+
+    result = tftool("echo", "a", "b", "turtles")
+
+    assert result.status == 2
+    assert "ROS_DOMAIN_ID is" in result.err
+
+
+@pytest.mark.parametrize(
+    ("words", "told"),
+    [
+        (["--join", "--host"], "contradict each other"),
+        (["--host", "--read-only"], "cannot --host one"),
+        (["--listen", "7448"], "'7448' is no endpoint"),
+        (["--connect", "http/localhost:1"], "'http/localhost:1' is no endpoint"),
+        (["--connect", "tls/there:7448"], "needs --tls-cert, --tls-key and --tls-ca"),
+        (["--tls-cert", "pyproject.toml"], "give --tls-cert, --tls-key and --tls-ca together"),
+        (["--zenoh-config", "nowhere.json5"], "There is no file 'nowhere.json5'"),
+        (["--zenoh-config", "README.md", "--listen", "tcp/0.0.0.0:1"], "says all endpoints"),
+        (["--domain", "233"], "233"),
+    ],
+)
+def test_what_contradicts_itself_is_wrong_usage(tftool, words, told):
+    result = tftool("echo", "a", "b", *words)
+
+    assert result.status == 2
+    assert told in result.err
+
+
+def test_a_named_world_cannot_be_joined(tftool):
+    result = tftool("echo", "a", "b", "turtles", "--join")
+
+    assert result.status == 2
+    assert "'turtles' is always hosted" in result.err
+
+
+def test_a_zenoh_configuration_that_is_none_is_a_sentence(tftool):
+    result = tftool("echo", "a", "b", "--zenoh-config", "README.md")
+
+    assert result.status == 1
+    assert "the link cannot be opened (README.md)" in result.err
+
+
+def test_the_link_gets_what_was_said(told, tmp_path):
+    files = [tmp_path / name for name in ("cert", "key", "ca")]
+    for file in files:
+        file.write_text("")
+
+    chosen = told(
+        join=True,
+        domain=1,
+        listen=["tls/0.0.0.0:7448"],
+        tls_cert=files[0],
+        tls_key=files[1],
+        tls_ca=files[2],
+        read_only=True,
+    )
+
+    assert chosen.mode is Mode.JOIN
+    assert chosen.is_asked_for
+    options = chosen.options()
+    assert options.reach.listen == ("tls/0.0.0.0:7448",)
+    assert options.reach.certificates == Certificates(*map(Path, files))
+    assert options.read_only
+
+
+def test_demo_without_a_terminal_shares_nothing_and_says_so(tftool):
+    result = tftool("demo", "turtles", "--listen", "tcp/127.0.0.1:7999")
+
+    assert result.status == 2
+    assert "which nobody can share" in result.err
+
+
+def test_session_has_nothing_to_host(tftool):
+    result = tftool("session", "--host")
+
+    assert result.status == 2
+    assert "nothing to --host" in result.err
+
+
+def test_every_command_but_check_says_how_it_shares(tftool):
+    assert "--connect" in tftool("echo", "--help").out
+    assert "--connect" not in tftool("check", "--help").out

@@ -1,0 +1,83 @@
+"""Who is there, from tokens alone."""
+
+from tftool.link import graph, keys
+from tftool.link.graph import Graph, Process, parse_process
+from tftool.link.keys import Entity
+
+
+def talker(session="ab", number=1, name="tf"):
+    return Entity(0, session, number, number, "MP", f"node{number}", name, "t/msg/T", "h", "q")
+
+
+def test_a_process_comes_back_from_its_token_and_names_are_made_plain():
+    process = Process(3, "ab12", 1_700_000_000_000_000_000, 42, True, "demo")
+
+    assert parse_process(process.token()) == process
+    assert parse_process(process.token().replace("/host/", "/ghost/")) is None
+    assert parse_process("@tftool/3/ab12") is None
+    odd = Process(0, "ab", 1, 2, False, "de mo/../x")
+    assert parse_process(odd.token()).command == "de_mo____x"
+
+
+def test_ones_own_tokens_and_what_is_no_token_are_passed_over():
+    there = Graph("me", 0)
+
+    assert there.add(talker("me").token()) is None
+    assert there.add("@ros2_lv/nonsense") is None
+    assert there.is_empty
+    assert there.remove("@ros2_lv/nonsense") is None
+
+
+def test_a_token_counts_once_and_goes_when_it_is_withdrawn():
+    there = Graph("me", 0)
+    token = talker().token()
+
+    assert there.add(token) == talker()
+    assert there.add(token) is None
+    assert there.entities("MP", name="tf") == [talker()]
+    assert there.entities("MS") == []
+    assert there.remove(token) == talker()
+    assert there.is_empty
+
+
+def test_other_domains_are_heard_of_and_kept_out():
+    there = Graph("me", 0)
+    there.add(Entity(5, "ab", 0, 0, "NN", "far").token())
+
+    assert there.foreign_domains == {5}
+    assert there.is_empty
+
+
+def test_a_flood_of_tokens_is_kept_within_bounds(monkeypatch):
+    monkeypatch.setattr(graph, "MOST", 10)
+    there = Graph("me", 0)
+    for number in range(100):
+        there.add(talker(number=number).token())
+
+    assert len(there.entities()) == 10
+
+
+def test_processes_stand_in_the_order_in_which_they_joined():
+    there = Graph("me", 0)
+    late = Process(0, "aa", 20, 1, False, "echo")
+    early = Process(0, "bb", 10, 2, True, "demo")
+    for one in (late, early):
+        there.add(one.token())
+
+    assert there.processes() == [early, late]
+    assert there.process("bb") == early
+    assert there.process("cc") is None
+    assert graph.hosts(there.processes()) == [early]
+
+
+def test_a_publisher_is_known_by_its_gid_or_by_being_the_only_one_it_can_be():
+    there = Graph("me", 0)
+    ours, ros = talker("aa", 1), talker("bb", 2)
+    there.add(Process(0, "aa", 1, 1, True, "demo").token())
+    there.add(ours.token())
+    there.add(ros.token())
+
+    assert there.publisher(keys.gid_of(ours.token()), "tf") == "node1"
+    assert there.publisher(bytes(range(16)), "tf") == "node2"
+    there.add(talker("cc", 3).token())
+    assert there.publisher(bytes(range(16)), "tf") == "publisher_00010203"
