@@ -89,6 +89,29 @@ def test_the_second_reason_is_told_when_it_comes(world, capsys):
     assert "not part of the same tree" in reasons[1]
 
 
+def test_a_frame_nobody_has_heard_of_is_hinted_at_once_there_are_others(world, capsys):
+    Mover(world, "a", start=0.5)
+    Mover(world, "c", start=5)
+
+    _, err, _ = echoed(world, capsys, "a", "c")
+
+    assert err.split("\n")[1:] == [
+        'Waiting for c in a: Invalid frame ID "c" passed to canTransform argument source_frame'
+        " - frame does not exist",
+        "Frames there are so far: a, world. --timeout SECONDS ends the wait.",
+        "",
+    ]
+
+
+def test_whoever_has_said_how_long_to_wait_is_not_told_how_to(world, capsys):
+    Mover(world, "a")
+
+    _, err, raised = echoed(world, capsys, source="c", patience=seconds(3))
+
+    assert err.endswith("\nFrames there are so far: a, world.\n")
+    assert isinstance(raised, LookupException)
+
+
 def test_a_reason_that_only_counts_time_on_is_told_once(world, capsys):
     Mover(world, "a")
 

@@ -35,6 +35,15 @@ def test_a_chain_is_read_in_words(tftool, simulated):
     assert "Net delay     avg = 0.0" in result.out
 
 
+def test_frames_that_are_not_connected_in_the_time_given_end_it(tftool, simulated):
+    result = tftool("monitor", "turtle2", "nosuch", "--for", "2")
+
+    assert (result.status, result.out) == (4, "")
+    assert result.err.endswith(
+        'tftool: "nosuch" passed to lookupTransform argument source_frame does not exist.\n'
+    )
+
+
 def test_reports_come_once_a_period_and_at_the_end(tftool, simulated):
     result = tftool("monitor", "turtles", "--for", "2.5", "--every", "1", "--json")
 

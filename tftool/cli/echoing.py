@@ -13,12 +13,15 @@ from tftool.frames.buffer import Buffer
 from tftool.frames.sample import TransformStamped
 from tftool.runtime.clock import Phase
 from tftool.runtime.world import World
-from tftool.stamps import LATEST, Duration, Stamp
+from tftool.stamps import LATEST, Duration, Stamp, seconds
 from tftool.views import echo as view
 from tftool.views.escaping import visible, visible_lines
 
 MOST_NAMED = 12
 """How many frames a hint names."""
+
+SETTLED = seconds(1)
+"""When whoever has just joined a session may be told which frames there are."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -114,6 +117,7 @@ class Echo:
         count: int | None = None,
         patience: Duration | None = None,
         tells: bool = True,
+        advice: str = "--timeout SECONDS ends the wait.",
     ) -> None:
         """Prepare to ask.
 
@@ -125,6 +129,7 @@ class Echo:
             count: How many answers to print; None for no end.
             patience: How long to wait for the first, in nanoseconds; None for ever.
             tells: Whether to say why it waits; nobody needs to know while time is simulated.
+            advice: What ends a wait for a frame that never comes, when patience does not.
         """
         self.world = world
         self.question = question
@@ -133,6 +138,7 @@ class Echo:
         self.count = count
         self.patience = patience
         self.tells = tells
+        self.advice = advice
         self._hinted = False
 
     async def run(self) -> None:
@@ -167,6 +173,8 @@ class Echo:
         end = None if self.patience is None else clock.timer(clock.now() + self.patience)
         if end is not None:
             end.add_done_callback(lambda _: news.set())
+        settled = clock.timer(clock.now() + SETTLED)
+        settled.add_done_callback(self._hint_when)
         told = ""
         try:
             while True:
@@ -183,6 +191,7 @@ class Echo:
                 await news.wait()
         finally:
             stop()
+            settled.cancel()
             if end is not None:
                 end.cancel()
 
@@ -205,6 +214,11 @@ class Echo:
             self._hint()
         return kind
 
+    def _hint_when(self, settled: "asyncio.Future[None]") -> None:
+        """Hint again once frames had time to arrive, to whoever is still waiting."""
+        if self.tells and not settled.cancelled():
+            self._hint()
+
     def _hint(self) -> None:
         """Name the frames there are, when one of those asked for is not among them."""
         frames = self.world.buffer.frames()
@@ -217,4 +231,5 @@ class Echo:
         named = ", ".join(visible(frame) for frame in frames[:MOST_NAMED])
         more = f" and {len(frames) - MOST_NAMED} more" if len(frames) > MOST_NAMED else ""
         meant = f" Did you mean {visible(near[0])}?" if near else ""
-        notice(f"Frames there are so far: {named}{more}.{meant}")
+        end = f" {self.advice}" if self.patience is None else ""
+        notice(f"Frames there are so far: {named}{more}.{meant}{end}")

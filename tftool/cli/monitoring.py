@@ -57,14 +57,14 @@ class Monitor:
     async def run(self, duration: Duration | None) -> None:
         """Listen and report, for so many nanoseconds or for ever.
 
-        The last report is at the end of that time.
+        The last report is at the end of that time, which begins once the frames are connected.
 
         Raises:
-            TransformException: If a frame's name can never be asked for.
+            TransformException: If the frames are not connected in as much time, or never will be.
         """
         clock = self.world.clock
         if self.frames is not None:
-            await self._find_chain(*self.frames)
+            await self._find_chain(*self.frames, patience=duration)
         began = clock.now()
         end = None if duration is None else began + duration
         stops = [
@@ -102,10 +102,18 @@ class Monitor:
             await clock.sleep_until(due, Phase.WATCH)
             report()
 
-    async def _find_chain(self, target: str, source: str) -> None:
+    async def _find_chain(self, target: str, source: str, patience: Duration | None) -> None:
         """Wait until the two frames are connected, as tf2_monitor does."""
         question = Question(target, source)
-        await Echo(self.world, question, Printer(), period=ASK_EVERY).wait()
+        waiting = Echo(
+            self.world,
+            question,
+            Printer(),
+            period=ASK_EVERY,
+            patience=patience,
+            advice="--for SECONDS ends the wait.",
+        )
+        await waiting.wait()
         frames = tuple(self.world.buffer.chain(target, source)) or (target,)
         self.chain = view.Chain(target, source, frames, NetDelay())
 
