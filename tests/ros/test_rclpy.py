@@ -822,3 +822,62 @@ def test_points_travel_as_our_own_nodes_send_them(node, ros_runtime):
 
     assert heard[0].header.stamp.nanosec == 500_000_000
     assert (heard[0].header.frame_id, heard[0].point.z) == ("world", 3.0)
+
+
+def test_an_event_lets_a_callback_wait_for_an_answer_in_another_thread(ros_runtime, tmp_path):
+    file = tmp_path / "waiter.py"
+    file.write_text(
+        """
+from threading import Event
+
+import rclpy
+from rclpy.callback_groups import ReentrantCallbackGroup
+from rclpy.executors import MultiThreadedExecutor
+from std_srvs.srv import Trigger
+
+rclpy.init()
+node = rclpy.create_node('waiter')
+group = ReentrantCallbackGroup()
+
+
+def answer(request, response):
+    response.message = 'here'
+    return response
+
+
+node.create_service(Trigger, 'go', answer, callback_group=group)
+client = node.create_client(Trigger, 'go', callback_group=group)
+
+
+def ask():
+    timer.cancel()
+    event = Event()
+    future = client.call_async(Trigger.Request())
+    future.add_done_callback(lambda _: event.set())
+    assert not event.is_set()
+    event.wait(5.0)
+    node.get_logger().info(future.result().message)
+    event.clear()
+    node.get_logger().info(str(event.wait(timeout=1.0)))
+
+
+timer = node.create_timer(0.5, ask, callback_group=group)
+executor = MultiThreadedExecutor()
+executor.add_node(node)
+executor.spin()
+"""
+    )
+    ros_runtime.start(file)
+    ros_runtime.sleep(3)
+
+    assert ros_runtime.log("waiter") == ["here", "False"]
+
+
+def test_a_log_level_asked_for_on_the_command_line_holds(ros_runtime):
+    import rclpy
+
+    rclpy.init()
+    node = rclpy.create_node("probe", cli_args=["--ros-args", "--log-level", "debug"])
+    node.get_logger().debug("heard")
+
+    assert ros_runtime.log("probe") == ["heard"]

@@ -46,7 +46,8 @@ def launch(
     import sys
     from pathlib import Path
 
-    from tftool.cli.session import notice, open_empty_session
+    from tftool.cli.session import notice, open_empty_session, open_session
+    from tftool.cli.sharing import Mode, choice
     from tftool.errors import NodeFailed, TftoolError, UsageError
     from tftool.ros import hosting
     from tftool.runtime.clock import SimClock
@@ -62,7 +63,11 @@ def launch(
         if show_args:
             sys.stdout.write(visible_lines(hosting.show_arguments(path, workspace)) + "\n")
             return 0
-        session = open_empty_session(SimClock() if simulated else None)
+        if choice().mode is Mode.JOIN and not simulated:
+            session = open_session(head_start=0)
+        else:
+            # It brings all there is to it, and shares a session that runs all the same.
+            session = open_empty_session(SimClock() if simulated else None)
         world = session.world
 
         def say(level: str, who: str, text: str) -> None:
@@ -73,7 +78,7 @@ def launch(
 
         def tell(record: "LogRecord") -> None:
             # What the link has to say the session tells.
-            if record.level != "DEBUG" and record.node != "link":
+            if record.node != "link":
                 label = started.label_of(record.node)
                 notice(visible_lines(f"[{label}] {hosting.log_line(record)}"))
 

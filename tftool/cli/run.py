@@ -74,7 +74,7 @@ def run(
 
         def tell(record: "LogRecord") -> None:
             # What the link has to say the session tells.
-            if record.level != "DEBUG" and record.node != "link":
+            if record.node != "link":
                 notice(visible_lines(hosting.log_line(record)))
 
         world.log.listen(tell)

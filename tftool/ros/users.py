@@ -76,6 +76,35 @@ class UserThread(threading.Thread):
         return hasattr(self, "_fiber") and not self._fiber.ended
 
 
+class UserEvent:
+    """`threading.Event` between the threads of one program."""
+
+    def __init__(self) -> None:
+        self._set = False
+
+    def is_set(self) -> bool:
+        """Whether it is set."""
+        return self._set
+
+    def set(self) -> None:
+        """Set it; whoever waits goes on."""
+        self._set = True
+
+    def clear(self) -> None:
+        """Unset it."""
+        self._set = False
+
+    def wait(self, timeout: float | None = None) -> bool:
+        """Block until it is set; whether it is."""
+        owner = program.current()
+        limit = None if timeout is None else owner.now() + seconds(max(0.0, timeout))
+        while not self._set and not owner.interrupted:
+            if limit is not None and owner.now() >= limit:
+                break
+            owner.sleep(seconds(0.001))
+        return self._set
+
+
 @cache
 def _shims() -> dict[str, ModuleType]:
     return {
@@ -91,7 +120,7 @@ def _shims() -> dict[str, ModuleType]:
                 "perf_counter_ns": _elapsed_ns,
             },
         ),
-        "threading": _Shim(threading, {"Thread": UserThread}),
+        "threading": _Shim(threading, {"Thread": UserThread, "Event": UserEvent}),
     }
 
 

@@ -36,6 +36,11 @@ std_msgs/msg/Float32MultiArray = MultiArrayLayout layout; float32[] data
 std_msgs/msg/Float64MultiArray = MultiArrayLayout layout; float64[] data
 std_msgs/msg/Int32MultiArray = MultiArrayLayout layout; int32[] data
 std_msgs/msg/Int64MultiArray = MultiArrayLayout layout; int64[] data
+std_msgs/msg/Int8MultiArray = MultiArrayLayout layout; int8[] data
+std_msgs/msg/Int16MultiArray = MultiArrayLayout layout; int16[] data
+std_msgs/msg/UInt16MultiArray = MultiArrayLayout layout; uint16[] data
+std_msgs/msg/UInt32MultiArray = MultiArrayLayout layout; uint32[] data
+std_msgs/msg/UInt64MultiArray = MultiArrayLayout layout; uint64[] data
 std_msgs/msg/UInt8MultiArray = MultiArrayLayout layout; uint8[] data
 
 geometry_msgs/msg/Vector3 = float64 x; float64 y; float64 z
@@ -75,6 +80,12 @@ sensor_msgs/msg/LaserScan = std_msgs/Header header; float32 angle_min; float32 a
 sensor_msgs/msg/JointState = std_msgs/Header header; string[] name; float64[] position; float64[] velocity; float64[] effort
 sensor_msgs/msg/Imu = std_msgs/Header header; geometry_msgs/Quaternion orientation; float64[9] orientation_covariance; geometry_msgs/Vector3 angular_velocity; float64[9] angular_velocity_covariance; geometry_msgs/Vector3 linear_acceleration; float64[9] linear_acceleration_covariance
 sensor_msgs/msg/Range = uint8 ULTRASOUND=0; uint8 INFRARED=1; std_msgs/Header header; uint8 radiation_type; float32 field_of_view; float32 min_range; float32 max_range; float32 range; float32 variance
+sensor_msgs/msg/Image = std_msgs/Header header; uint32 height; uint32 width; string encoding; uint8 is_bigendian; uint32 step; uint8[] data
+sensor_msgs/msg/CompressedImage = std_msgs/Header header; string format; uint8[] data
+sensor_msgs/msg/RegionOfInterest = uint32 x_offset; uint32 y_offset; uint32 height; uint32 width; bool do_rectify
+sensor_msgs/msg/CameraInfo = std_msgs/Header header; uint32 height; uint32 width; string distortion_model; float64[] d; float64[9] k; float64[9] r; float64[12] p; uint32 binning_x; uint32 binning_y; RegionOfInterest roi
+sensor_msgs/msg/Temperature = std_msgs/Header header; float64 temperature; float64 variance
+sensor_msgs/msg/MagneticField = std_msgs/Header header; geometry_msgs/Vector3 magnetic_field; float64[9] magnetic_field_covariance
 sensor_msgs/msg/Joy = std_msgs/Header header; float32[] axes; int32[] buttons
 
 nav_msgs/msg/Odometry = std_msgs/Header header; string child_frame_id; geometry_msgs/PoseWithCovariance pose; geometry_msgs/TwistWithCovariance twist

@@ -247,7 +247,8 @@ class FindExecutable(Substitution):
         name = perform(context, self.name)
         found = shutil.which(name)
         if found is None:
-            raise SubstitutionFailure(f"there is no command '{name}' on the PATH")
+            hint = "; start nodes by Node(…) instead" if name == "ros2" else ""
+            raise SubstitutionFailure(f"there is no command '{name}' on the PATH{hint}")
         return found
 
 
