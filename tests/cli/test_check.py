@@ -33,8 +33,19 @@ def test_what_holds_ends_with_0(tftool, scenarios):
     result = tftool("check", "good.yaml")
 
     assert (result.status, result.err) == (0, "")
-    assert "at 1 s: turtles are turtle1" in result.out
-    assert result.out.endswith("\n1 scenario, none failed: 1 of 1 expectation held\n")
+    assert result.out == (
+        "good  ok  1 of 1 expectation held\n1 scenario, none failed: 1 of 1 expectation held\n"
+    )
+
+
+def test_what_holds_is_told_in_full_to_whoever_asks(tftool, scenarios):
+    result = tftool("check", "good.yaml", "--verbose")
+
+    shown = [line.split("  ") for line in result.out.splitlines()]
+    assert [[cell.strip() for cell in line if cell] for line in shown][2:] == [
+        ["good", "at 1 s: turtles are turtle1", "turtle1 at 1 s", "ok"],
+        ["1 scenario, none failed: 1 of 1 expectation held"],
+    ]
 
 
 def test_what_does_not_hold_ends_with_1_and_says_what_was_found_and_when(tftool, scenarios):
@@ -42,8 +53,7 @@ def test_what_does_not_hold_ends_with_1_and_says_what_was_found_and_when(tftool,
 
     assert (result.status, result.err) == (1, "")
     shown = " ".join(result.out.split())
-    assert "by 2 s: distance from a to b below 1 m LookupException:" in shown
-    assert "does not exist. at 2 s" in shown
+    assert "line 4: by 2 s: distance from a to b below 1 m found at 2 s: LookupException:" in shown
     assert shown.count("FAILED") == 1
     assert result.out.endswith("\n2 scenarios, 1 failed (bad): 2 of 3 expectations held\n")
 
@@ -62,7 +72,7 @@ def test_what_cannot_be_read_ends_with_3_and_the_rest_is_judged(tftool, scenario
         "       |         ^^^^^^^^\n"
         "tftool: cannot read 'gone.yaml': No such file or directory\n"
     )
-    assert "at 1 s: turtles are turtle1" in result.out
+    assert "good   ok      1 of 1 expectation held\n" in result.out
     assert result.out.endswith("\n3 scenarios, 2 failed (wrong, gone): 1 of 1 expectation held\n")
 
 
@@ -107,8 +117,11 @@ def test_junit_is_for_build_servers(tftool, scenarios):
 def test_a_report_that_cannot_be_written_is_told(tftool, scenarios):
     result = tftool("check", "good.yaml", "--junit", "no/such/folder.xml")
 
-    assert result.status == 2
-    assert result.err == "tftool: cannot write 'no/such/folder.xml': No such file or directory\n"
+    assert result.status == 3
+    assert "1 of 1 expectation held" in result.out
+    assert result.err == (
+        "tftool: 'no/such/folder.xml' cannot be written: No such file or directory.\n"
+    )
 
 
 def test_names_from_strangers_do_nothing_on_the_terminal(tftool, scenarios):

@@ -32,11 +32,45 @@ NASTY = Report(
 )
 
 
-def text(*reports, width=90):
+def text(*reports, width=90, render=findings.render_all):
     """What a terminal of that width, without colour, would show."""
     console = Console(file=io.StringIO(), width=width, color_system=None)
-    console.print(findings.render(reports))
+    console.print(render(reports))
     return console.file.getvalue()
+
+
+def brief(*reports, width=90):
+    """The same of what only the failures are told in full."""
+    return [
+        line.rstrip() for line in text(*reports, width=width, render=findings.render).split("\n")
+    ]
+
+
+def test_a_scenario_is_one_line_and_only_what_failed_is_told_in_full():
+    assert brief(GOOD, BAD, EMPTY) == [
+        "turtles  ok      1 of 1 expectation held",
+        "own      FAILED  0 of 2 expectations held",
+        "                 line 4: by 9 s: distance from a to b below 1 m",
+        "                   found at 9 s: 2 m",
+        "                 line 5: at 50 s: number of trees is 1",
+        "                   found: not reached",
+        "                 node 'script' failed: TftoolError: no node serves 'clear'",
+        "empty    ok      nothing is expected",
+        "",
+    ]
+
+
+def test_what_could_not_be_read_has_no_expectations_to_count():
+    unreadable = Report("own", "own.yaml", (), failure="own.yaml has 2 mistakes:\nand more")
+
+    assert brief(unreadable) == ["own  FAILED  own.yaml has 2 mistakes", ""]
+
+
+def test_few_words_fit_into_a_narrow_terminal_too():
+    shown = brief(GOOD, BAD, NASTY, width=40)
+
+    assert all(len(line) <= 40 for line in shown)
+    assert "\x1b" not in "".join(shown)
 
 
 def test_the_table_shows_what_was_expected_found_and_when():

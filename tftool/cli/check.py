@@ -9,6 +9,9 @@ import typer
 if TYPE_CHECKING:
     from tftool.messages import Report
 
+LOG_WIDTH = 2000
+"""How wide a line gets where there is no terminal to wrap it for."""
+
 
 def check(
     scenarios: Annotated[
@@ -21,11 +24,12 @@ def check(
         Path | None,
         typer.Option(metavar="FILE", help="Write a JUnit report for a build server."),
     ] = None,
+    verbose: Annotated[bool, typer.Option("--verbose", "-v", help="Show what held, too.")] = False,
     for_programs: Annotated[bool, typer.Option("--json", help="Print JSON.")] = False,
 ) -> int:
     """Play scenarios on simulated time and judge what they expect.
 
-    The exit status is 0 when everything held, 1 when something did not, 3 when a
+    One line for each, and below it whatever did not hold. The exit status is 0 when everything held, 1 when something did not, 3 when a
     file could not be read.
 
     tftool check turtles
@@ -36,26 +40,31 @@ def check(
 
     from rich.console import Console
 
-    from tftool.errors import UsageError
+    from tftool.errors import InputError
     from tftool.views import findings
     from tftool.views.escaping import visible
 
     judged = [_judge(word) for word in scenarios]
     reports = [report for report, _ in judged]
+    if for_programs:
+        sys.stdout.write(json.dumps(findings.as_rows(reports), indent=2) + "\n")
+    else:
+        console = Console()
+        if not (verbose or console.is_terminal):
+            # A log may be searched by line: what is one sentence stays in one.
+            console.width = LOG_WIDTH
+        # Written by us: rich ends the process with 1 when a reader (`| head`) is gone.
+        with console.capture() as table:
+            console.print(findings.render_all(reports) if verbose else findings.render(reports))
+        for line in table.get().splitlines():
+            sys.stdout.write(f"{line.rstrip()}\n")
+        sys.stdout.write(f"{findings.summary(reports)}\n")
     if junit is not None:
         try:
             junit.write_text(findings.as_junit(reports), encoding="utf-8")
         except OSError as error:
             reason = error.strerror or error
-            raise UsageError(f"cannot write '{visible(str(junit))}': {reason}") from error
-    if for_programs:
-        sys.stdout.write(json.dumps(findings.as_rows(reports), indent=2) + "\n")
-    else:
-        console = Console()
-        # Written by us: rich ends the process with 1 when a reader (`| head`) is gone.
-        with console.capture() as table:
-            console.print(findings.render(reports))
-        sys.stdout.write(f"{table.get()}{findings.summary(reports)}\n")
+            raise InputError(f"'{visible(str(junit))}' cannot be written: {reason}.") from error
     if not all(readable for _, readable in judged):
         return 3
     return 0 if all(report.ok for report in reports) else 1

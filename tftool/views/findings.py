@@ -12,6 +12,39 @@ if TYPE_CHECKING:
 
 
 def render(reports: Sequence[Report]) -> "Table":
+    """A line for each report, and below it, in full, what is not as it should be."""
+    from rich.padding import Padding
+    from rich.table import Table
+    from rich.text import Text
+
+    table = Table.grid(padding=(0, 2), pad_edge=False)
+    for _ in range(3):
+        table.add_column(overflow="fold")
+    for report in reports:
+        ok = Text("ok", "green") if report.ok else Text("FAILED", "bold red")
+        table.add_row(Text(visible(report.name), "bold"), ok, Text(_told(report)))
+        for finding in report.findings:
+            if not finding.ok:
+                where = f"line {finding.line}: " if finding.line else ""
+                when = "" if finding.at is None else f" at {finding.at:g} s"
+                found = f"found{when}: {visible(finding.found).rstrip()}"
+                table.add_row("", "", Text(f"{where}{visible(finding.subject)}"))
+                table.add_row("", "", Padding(Text(found), (0, 0, 0, 2)))
+        if report.failure and report.findings:
+            table.add_row("", "", Text(_lines(report.failure)[0]))
+    return table
+
+
+def _told(report: Report) -> str:
+    if report.findings:
+        held = sum(finding.ok for finding in report.findings)
+        return f"{held} of {_count(len(report.findings), 'expectation')} held"
+    if report.failure:
+        return _lines(report.failure)[0].rstrip(":")
+    return "nothing is expected"
+
+
+def render_all(reports: Sequence[Report]) -> "Table":
     """Every finding in a table, grouped by report; what is not as it should be stands out."""
     from rich import box
     from rich.table import Table
