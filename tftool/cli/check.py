@@ -29,8 +29,8 @@ def check(
 ) -> int:
     """Play scenarios on simulated time and judge what they expect.
 
-    One line for each, and below it whatever did not hold. The exit status is 0 when everything held, 1 when something did not, 3 when a
-    file could not be read.
+    One line for each, and below it whatever did not hold. The exit status is 0 when
+    everything held, 1 when something did not, 3 when a file could not be read.
 
     tftool check turtles
     tftool check scenarios/*.yaml --junit report.xml
