@@ -618,6 +618,11 @@ $("over").addEventListener("pointermove", (event) => {
   if (!event.buttons) $("over").classList.toggle("hit", nearest(event) !== null);
 });
 addEventListener("resize", changed);
+// A narrow window breaks the bar into lines: the panels begin where it ends.
+new ResizeObserver(() => {
+  const { bottom } = $("bar").getBoundingClientRect();
+  document.documentElement.style.setProperty("--top", `${bottom + 10}px`);
+}).observe($("bar"));
 
 setTheme(state.theme);
 setView(state.view);

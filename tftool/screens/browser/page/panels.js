@@ -20,16 +20,11 @@ export function fill(list, rows) {
     }
     const cell = list.children[2 * at + 1];
     if (name.textContent !== term) name.textContent = term;
-    if (typeof value === "string") {
-      cell.className = "one";
-      if (cell.textContent !== value) cell.textContent = value;
-      return;
-    }
-    cell.className = { 4: "four", 1: "one" }[value.length] ?? "";
-    while (cell.children.length > value.length) cell.lastChild.remove();
-    value.forEach((one, place) => {
+    const texts = typeof value === "string" ? [value] : value.map((one) => number(one, digits));
+    cell.className = texts.length === 1 ? "one" : "";
+    while (cell.children.length > texts.length) cell.lastChild.remove();
+    texts.forEach((text, place) => {
       if (!cell.children[place]) cell.append(document.createElement("span"));
-      const text = number(one, digits);
       if (cell.children[place].textContent !== text) cell.children[place].textContent = text;
     });
   });
