@@ -365,3 +365,12 @@ def test_a_thousand_links_are_a_chain_and_one_more_is_a_loop(buffer):
         buffer.lookup_transform("f0", "f1001")
     assert refused.value.looped
     assert len(buffer.snapshot(0).frames) == 1002
+
+
+@pytest.mark.parametrize("name", [None, 5, b"world"])
+def test_a_name_that_is_no_string_is_refused_by_name(buffer, name):
+    for parent, child in ((name, "turtle1"), ("world", name)):
+        with pytest.raises(TypeError, match="a frame's name is a string, not"):
+            buffer.set_transform(TransformStamped(1, parent, child, Transform()), "test")
+
+    assert buffer.frames() == []

@@ -75,3 +75,17 @@ def test_a_still_body_has_a_velocity_of_zero_by_tf2s_formula_too():
 
     assert found.linear == (0, 0, 0)
     assert found.angular == (0, 0, 0)
+
+
+@pytest.mark.parametrize("interval", [0, -1])
+def test_a_twist_over_no_interval_is_refused(circling, interval):
+    with pytest.raises(ValueError, match=f"a positive interval, not {interval} ns"):
+        circling.lookup_twist("body", "world", seconds(1002), interval)
+
+
+@pytest.mark.parametrize("wrong", [0.1, math.nan])
+def test_a_velocity_wants_whole_nanoseconds(circling, wrong):
+    for ask in (circling.lookup_twist, circling.lookup_velocity):
+        for time, interval in ((wrong, seconds(1)), (seconds(1002), wrong)):
+            with pytest.raises(TypeError, match="whole nanoseconds"):
+                ask("body", "world", time, interval)

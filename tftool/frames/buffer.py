@@ -444,6 +444,8 @@ class Buffer:
 
         Raises:
             TransformException: As `lookup_transform`.
+            TypeError: If a moment or the interval is not a whole number.
+            ValueError: If the interval is not positive.
         """
         return velocity.twist(self, tracking_frame, observation_frame, time, interval)
 

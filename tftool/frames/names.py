@@ -12,7 +12,13 @@ SLASHED = "in tf2 frame_ids cannot start with a '/'"
 
 
 def stripped(name: str) -> str:
-    """The name as it is remembered: without the one leading slash it may have."""
+    """The name as it is remembered: without the one leading slash it may have.
+
+    Raises:
+        TypeError: If it is not a string.
+    """
+    if not isinstance(name, str):
+        raise TypeError(f"a frame's name is a string, not {name!r}")
     return name[1:] if name.startswith("/") else name
 
 

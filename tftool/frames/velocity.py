@@ -8,7 +8,7 @@ from tftool.frames.sample import TransformStamped
 from tftool.geometry import quaternions
 from tftool.geometry.quaternions import Triple
 from tftool.geometry.rigid import Transform, Vector3
-from tftool.stamps import Duration, Stamp, as_seconds, seconds
+from tftool.stamps import Duration, Stamp, as_seconds, seconds, whole
 
 
 @dataclass(frozen=True, slots=True)
@@ -60,9 +60,10 @@ def full(
 
     Raises:
         TransformException: What the lookups it is worked out from are refused with.
+        TypeError: If a moment or the interval is not a whole number.
     """
     # Times run through float seconds as they do in tf2, which rounds them the same way.
-    at, over = as_seconds(time), as_seconds(interval)
+    at, over = as_seconds(whole(time)), as_seconds(whole(interval))
     end = min(at + over * 0.5, as_seconds(buffer.newest_common(observation, tracking)))
     start = max(0.00001 + over, end) - over
     duration = end - start
@@ -86,7 +87,15 @@ def twist(
     """How the origin of `tracking` moves and how it turns, given in `observation`.
 
     The mean over `interval` around `time`, or over what part of it the buffer holds.
+
+    Raises:
+        TransformException: As the lookups of its two ends.
+        TypeError: If a moment or the interval is not a whole number.
+        ValueError: If the interval is not positive.
     """
+    time, interval = whole(time), whole(interval)
+    if interval <= 0:
+        raise ValueError(f"a velocity wants a positive interval, not {interval} ns")
     newest = buffer.newest_common(observation, tracking)
     middle = time or newest
     end = min(middle + interval // 2, newest) if newest else middle + interval // 2
