@@ -65,6 +65,14 @@ class Terminal:
     def shows(self, words):
         return self.until(lambda screen: words in screen, words)
 
+    def has_shown(self, words):
+        """Wait for words that may have left the screen at its top since."""
+        for _ in range(TRIES):
+            if words in self.tmux("capture-pane", "-p", "-J", "-S", "-"):
+                return
+            Event().wait(PAUSE)
+        raise AssertionError(f"{words} never came; this did:\n{self.screen()}")
+
     def facts(self):
         """Whether the other screen is on, the cursor seen, the mouse caught."""
         asked = "#{alternate_on} #{cursor_flag} #{mouse_any_flag}"
