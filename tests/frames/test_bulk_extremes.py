@@ -34,7 +34,7 @@ def assert_agrees(buffer, times):
 @pytest.mark.parametrize("most", [1 << 16, 10])
 def test_histories_shorter_and_longer_than_the_batch_agree(monkeypatch, in_order, most):
     # Beyond so many samples, intervals are worked out a block at a time.
-    monkeypatch.setattr(kernel, "_MOST_INTERVALS", most)
+    monkeypatch.setattr(kernel, "MOST_INTERVALS", most)
     random = np.random.default_rng(6)
     for count, asked in ((2000, 300), (300, 2000), (5, 2000)):
         stamps = np.cumsum(random.integers(1, 1_000_000, count))

@@ -21,6 +21,9 @@ from tftool.stamps import Stamp
 CHUNK = 1 << 16
 """So many rows are looked at together; what a batch needs beyond its answers grows with it."""
 
+SECTION = 1 << 18
+"""The same where histories are long: moments in no order are sorted first, so many at a time."""
+
 # Below this, a second thread costs more than it brings.
 _WORTH_A_THREAD = 2 * CHUNK
 
@@ -101,11 +104,14 @@ class _Batch:
         self.columns = Columns()
         self.plan = routes.steady_plan(forest, self.target, self.source)
         self.first, self.last = -(2**63), 2**63 - 1
+        self.rows_at_once = CHUNK
         for link in self.plan.moving if self.plan else ():
             column = self.columns.of(link)
             assert isinstance(column, Column)
             self.first = max(self.first, column.oldest)
             self.last = min(self.last, column.newest)
+            if len(column.stamps) > kernel.MOST_INTERVALS:
+                self.rows_at_once = SECTION
         self.ready: dict[int, kernel.Edge] = {}
         self.spare: list[kernel.Workspace] = []
         self.latest: tuple[Stamp, Sample] | TransformException | None = None
@@ -117,7 +123,7 @@ class _Batch:
 
     def run(self, complete: bool, workers: int) -> None:
         """Answer every row; if they must be complete, the first that is refused raises."""
-        starts = range(0, len(self.times), CHUNK)
+        starts = range(0, len(self.times), self.rows_at_once)
         if workers == 1 or len(starts) < 2:
             for start in starts:
                 self.fill(start, complete)
@@ -132,7 +138,7 @@ class _Batch:
 
     def fill(self, start: int, complete: bool) -> None:
         """Answer one chunk of rows."""
-        rows = slice(start, start + CHUNK)
+        rows = slice(start, start + self.rows_at_once)
         times = self.times[rows]
         self.stamps[rows] = times
         usable = (times >= self.first) & (times <= self.last) & (times != 0)
@@ -165,6 +171,12 @@ class _Batch:
         """Answer moments that a plan has data for."""
         up, down = self.edges(plan.up), self.edges(plan.down)
         in_order = bool(np.all(times[1:] >= times[:-1]))
+        if not in_order and self.rows_at_once == SECTION:
+            order = np.argsort(times)
+            turned = np.empty((len(times), 4)), np.empty((len(times), 3))
+            self.solve(plan, times[order], turned[1], turned[0])
+            rotations[order], translations[order] = turned
+            return
         for start in range(0, len(times), kernel.BLOCK):
             rows = slice(start, start + kernel.BLOCK)
             block = times[rows]

@@ -64,7 +64,7 @@ class Intervals:
         if isinstance(first, slice):
             first = np.arange(first.start, first.stop)
         second = np.minimum(first + 1, last)
-        begin, end = column.samples[first], column.samples[second]
+        begin, end = column.samples.take(first, axis=0), column.samples.take(second, axis=0)
         self.stamps: Stamps = column.stamps[first]
         length = (column.stamps[second] - self.stamps).astype(np.float64)
         still = length == 0.0
@@ -85,11 +85,13 @@ class Intervals:
         ahead = np.where(_dot(self.starts, ahead) < 0.0, -ahead, ahead)
         apart = ahead - self.starts
         square = _dot(apart, apart)
-        together = ahead + self.starts
-        # The arc cosine would lose half the digits of a small angle.
-        theta = 2.0 * np.arctan2(np.sqrt(square), np.sqrt(_dot(together, together)))
-        sine = np.sin(theta)
-        stretch = np.where(theta < 1e-9, 1.0, theta / np.where(theta < 1e-9, 1.0, sine))
+        # The chord is 2·sin(θ/2), and θ at most a right angle: no digits are lost, as they
+        # would be by the arc cosine.
+        chord = np.sqrt(square)
+        theta = 2.0 * np.arcsin(np.minimum(0.5 * chord, 1.0))
+        sine = chord * np.sqrt(np.maximum(1.0 - 0.25 * square, 0.0))
+        tiny = theta < 1e-9
+        stretch = np.where(tiny, 1.0, theta / np.where(tiny, 1.0, sine))
         # ahead − cos θ · start, without the cancellation.
         np.multiply(apart + 0.5 * square * self.starts, stretch, out=self.turns)
         theta *= theta

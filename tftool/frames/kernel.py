@@ -21,7 +21,7 @@ BLOCK = 1 << 14
 """Moments worked on together."""
 
 # The intervals of so long a history are still worked out as one: 136 bytes each.
-_MOST_INTERVALS = 1 << 16
+MOST_INTERVALS = 1 << 16
 
 
 class Moving:
@@ -34,7 +34,7 @@ class Moving:
         self.column = column
         k = len(column.stamps)
         self.intervals = (
-            Intervals(column, slice(0, k)) if 0 < k <= min(count, _MOST_INTERVALS) else None
+            Intervals(column, slice(0, k)) if 0 < k <= min(count, MOST_INTERVALS) else None
         )
         self._buckets: Buckets | None = None
 
@@ -190,7 +190,7 @@ class Workspace:
             return edge.intervals
         if in_order:
             first, last = int(index[0]), int(index[-1])
-            if last - first < len(index) // 2:
+            if last - first < len(index):
                 subtract(index, first, index)
                 return Intervals(column, slice(first, last + 1))
         return Intervals(column, index)
