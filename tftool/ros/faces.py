@@ -24,8 +24,8 @@ rclpy.timer: client.time: Rate
 rclpy.timer: client.entities: Timer TimerInfo
 rclpy.publisher: client.entities: Publisher
 rclpy.subscription: client.entities: Subscription
-rclpy.client: client.entities: Client
-rclpy.service: client.entities: Service
+rclpy.client: client.services: Client
+rclpy.service: client.services: Service
 rclpy.guard_condition: client.entities: GuardCondition
 rclpy.task: client.futures: Future Task
 rclpy.executors: client.executors: Executor SingleThreadedExecutor MultiThreadedExecutor
@@ -52,9 +52,12 @@ rclpy.qos: client.qos: InvalidQoSProfileException qos_profile_system_default
 rclpy.qos: client.qos: qos_profile_sensor_data qos_profile_services_default
 rclpy.qos: client.qos: qos_profile_parameters qos_profile_parameter_events
 rclpy.qos: client.qos: qos_profile_action_status_default
-rclpy.action: client.actions: ActionClient ActionServer GoalResponse CancelResponse
-rclpy.action.client: client.actions: ActionClient ClientGoalHandle GoalStatus
-rclpy.action.server: client.actions: ActionServer ServerGoalHandle GoalResponse CancelResponse
+rclpy.action: client.action_client: ActionClient
+rclpy.action: client.action_server: ActionServer GoalResponse CancelResponse
+rclpy.action.client: client.action_client: ActionClient ClientGoalHandle
+rclpy.action.client: client.action_goals: GoalStatus
+rclpy.action.server: client.action_server: ActionServer ServerGoalHandle GoalResponse
+rclpy.action.server: client.action_server: CancelResponse
 rclpy.signals: client.signals: SignalHandlerOptions
 rclpy.utilities: client.utilities: remove_ros_args ok get_default_context timeout_sec_to_nsec
 rclpy.utilities: client.utilities: get_rmw_implementation_identifier
@@ -63,8 +66,9 @@ message_filters: client.message_filters: ApproximateTimeSynchronizer
 tf2_py: tf.buffer: BufferCore
 tf2_py: tf.errors: TransformException LookupException ConnectivityException TimeoutException
 tf2_py: tf.errors: ExtrapolationException InvalidArgumentException
-tf2_ros: tf.buffer: Buffer BufferInterface TransformListener TransformBroadcaster
-tf2_ros: tf.buffer: StaticTransformBroadcaster StaticTransformListener BufferCore
+tf2_ros: tf.buffer: Buffer BufferInterface BufferCore
+tf2_ros: tf.talking: TransformListener TransformBroadcaster
+tf2_ros: tf.talking: StaticTransformBroadcaster StaticTransformListener
 tf2_ros: tf.errors: TransformException LookupException ConnectivityException TimeoutException
 tf2_ros: tf.errors: ExtrapolationException InvalidArgumentException
 tf2_ros: tf.registry: TransformRegistration ConvertRegistration TypeException convert
@@ -73,10 +77,10 @@ tf2_ros.buffer: tf.buffer: Buffer
 tf2_ros.buffer_interface: tf.buffer: BufferInterface
 tf2_ros.buffer_interface: tf.registry: TransformRegistration ConvertRegistration TypeException
 tf2_ros.buffer_interface: tf.registry: convert NotImplementedException
-tf2_ros.transform_listener: tf.buffer: TransformListener
-tf2_ros.static_transform_listener: tf.buffer: StaticTransformListener
-tf2_ros.transform_broadcaster: tf.buffer: TransformBroadcaster
-tf2_ros.static_transform_broadcaster: tf.buffer: StaticTransformBroadcaster
+tf2_ros.transform_listener: tf.talking: TransformListener
+tf2_ros.static_transform_listener: tf.talking: StaticTransformListener
+tf2_ros.transform_broadcaster: tf.talking: TransformBroadcaster
+tf2_ros.static_transform_broadcaster: tf.talking: StaticTransformBroadcaster
 tf2_geometry_msgs: tf.do_transform: do_transform_point do_transform_vector3 do_transform_pose
 tf2_geometry_msgs: tf.do_transform: do_transform_pose_stamped do_transform_wrench
 tf2_geometry_msgs: tf.do_transform: do_transform_wrench_stamped do_transform_polygon_stamped
@@ -128,10 +132,10 @@ launch.substitutions: launching.substitutions: OrSubstitution NotSubstitution If
 launch.utilities: launching.substitutions: perform_substitutions=perform
 launch_xml.launch_description_sources: launching.description: XMLLaunchDescriptionSource
 launch_yaml.launch_description_sources: launching.description: YAMLLaunchDescriptionSource
-launch_ros.actions: launching.actions: Node PushRosNamespace SetRemap SetParameter
+launch_ros.actions: launching.nodes: Node PushRosNamespace SetRemap SetParameter
 launch_ros.substitutions: launching.substitutions: FindPackageShare FindPackagePrefix FindPackage
-launch_ros.parameter_descriptions: launching.actions: ParameterValue ParameterFile
-launch_ros.descriptions: launching.actions: ParameterValue ParameterFile
+launch_ros.parameter_descriptions: launching.nodes: ParameterValue ParameterFile
+launch_ros.descriptions: launching.nodes: ParameterValue ParameterFile
 ament_index_python: launching.packages: get_package_share_directory get_package_prefix
 ament_index_python: launching.packages: get_package_share_path PackageNotFoundError
 ament_index_python: launching.packages: get_packages_with_prefixes

@@ -146,8 +146,8 @@ class Fiber:
         self._on_busy = on_busy
         self._patience = PATIENCE if patience is None else patience
         self._give_up = GIVE_UP if give_up is None else give_up
-        self._go = threading.Semaphore(0)
-        self._rest = threading.Semaphore(0)
+        self._go = _taken_lock()
+        self._rest = _taken_lock()
         self._request: Callable[[], Any] | None = None
         self._answer: tuple[Any, BaseException | None] = (None, None)
         self._arrived: tuple[asyncio.AbstractEventLoop, asyncio.Future[None]] | None = None
@@ -328,6 +328,13 @@ class Fiber:
 def current() -> Fiber | None:
     """The fiber whose thread this is; None on the loop's and on foreign threads."""
     return getattr(_local, "fiber", None)
+
+
+def _taken_lock() -> threading.Lock:
+    # One thread releases it, another takes it: the fastest signal there is.
+    lock = threading.Lock()
+    lock.acquire()
+    return lock
 
 
 def _done(future: "asyncio.Future[None]") -> None:

@@ -8,11 +8,9 @@ from weakref import WeakKeyDictionary
 from tftool.ros import names, program
 from tftool.ros.client.context import Context, context_of
 from tftool.ros.client.entities import (
-    Client,
     Entity,
     GuardCondition,
     Publisher,
-    Service,
     Subscription,
     Timer,
     period_of,
@@ -23,6 +21,7 @@ from tftool.ros.client.groups import CallbackGroup, MutuallyExclusiveCallbackGro
 from tftool.ros.client.logging import LoggingSeverity, RcutilsLogger
 from tftool.ros.client.node_parameters import NodeParameters
 from tftool.ros.client.qos import QoSProfile, profile_of
+from tftool.ros.client.services import Client, Service
 from tftool.ros.client.time import Clock, Rate, ROSClock
 from tftool.ros.interfaces.classes import Message
 from tftool.ros.program import Program, ProgramNode

@@ -8,7 +8,7 @@ from typing import Any
 from xml.parsers import expat
 
 from tftool.errors import InputError
-from tftool.ros.launching import actions, substitutions
+from tftool.ros.launching import actions, nodes, substitutions
 from tftool.ros.launching.conditions import IfCondition, UnlessCondition
 from tftool.ros.launching.description import LaunchDescription, LaunchDescriptionSource
 from tftool.ros.launching.substitutions import TextSubstitution
@@ -213,7 +213,7 @@ def _node(element: Element) -> Any:
     ros_arguments = element.get("ros_args")
     element.get("output"), element.get("respawn"), element.get("respawn_delay")
     element.get("launch-prefix"), element.get("emulate_tty")
-    return actions.Node(
+    return nodes.Node(
         package=_text(element, "pkg"),
         executable=_text(element, "exec"),
         name=_optional(element, "name"),
@@ -245,7 +245,7 @@ def _words(text: Any, element: Element) -> list[Any]:
 
 def _param(element: Element, prefix: str = "") -> Any:
     if "from" in element.values:
-        return actions.ParameterFile(parsed(element.need("from"), element.where))
+        return nodes.ParameterFile(parsed(element.need("from"), element.where))
     name = prefix + str(element.need("name"))
     below = element.inside("param")
     if below:
@@ -258,7 +258,7 @@ def _param(element: Element, prefix: str = "") -> Any:
     kind = kinds.get(element.get("type"))
     if not isinstance(value, str):
         return {name: value}
-    return {name: actions.ParameterValue(parsed(value, element.where), value_type=kind)}
+    return {name: nodes.ParameterValue(parsed(value, element.where), value_type=kind)}
 
 
 def _include(element: Element) -> Any:
@@ -295,13 +295,13 @@ _MEANINGS: dict[str, Callable[[Element], Any]] = {
     "node": _node,
     "include": _include,
     "group": _group,
-    "push_ros_namespace": lambda e: actions.PushRosNamespace(_text(e, "namespace")),
+    "push_ros_namespace": lambda e: nodes.PushRosNamespace(_text(e, "namespace")),
     "set_env": lambda e: actions.SetEnvironmentVariable(_text(e, "name"), _text(e, "value")),
     "unset_env": lambda e: actions.UnsetEnvironmentVariable(_text(e, "name")),
-    "set_parameter": lambda e: actions.SetParameter(
-        _text(e, "name"), actions.ParameterValue(_text(e, "value"))
+    "set_parameter": lambda e: nodes.SetParameter(
+        _text(e, "name"), nodes.ParameterValue(_text(e, "value"))
     ),
-    "set_remap": lambda e: actions.SetRemap(_text(e, "from"), _text(e, "to")),
+    "set_remap": lambda e: nodes.SetRemap(_text(e, "from"), _text(e, "to")),
     "executable": _executable,
     "timer": _timer,
     "log": lambda e: actions.LogInfo(msg=_text(e, "message")),

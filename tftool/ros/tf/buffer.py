@@ -1,11 +1,11 @@
-"""tf2_ros: the buffer, its listener, the broadcasters.
+"""tf2_ros: the buffer.
 
 A listener's transforms go straight into its buffer, whoever spins, so waiting in a
 callback works; and it waits on the world's clock.
 """
 
 import asyncio
-from collections.abc import Callable, Iterable
+from collections.abc import Callable
 from typing import Any
 
 from tftool.errors import TransformException
@@ -19,14 +19,10 @@ from tftool.ros.interfaces.classes import INTERFACES
 from tftool.ros.tf.registry import Registration, convert
 from tftool.runtime import waiting
 from tftool.runtime.clock import Phase
-from tftool.runtime.world import TransformMessage
 from tftool.stamps import Stamp
 
 NOW = Duration()
 """No waiting."""
-
-AUTHORITY = "default_authority"
-"""How tf2's Python listener names every sender; ours tells the real one."""
 
 
 def _stamp(time: Any) -> Stamp:
@@ -354,102 +350,3 @@ def _converted(result: Any, new_type: Any) -> Any:
 
 BufferCore = Buffer
 BufferInterface = Buffer
-
-
-class TransformListener:
-    """Fills a buffer from `/tf` and `/tf_static`; statics sent before are there at once."""
-
-    def __init__(
-        self,
-        buffer: Buffer,
-        node: Node,
-        *,
-        spin_thread: bool = False,
-        qos: Any = None,
-        static_qos: Any = None,
-        tf_topic: str = "/tf",
-        tf_static_topic: str = "/tf_static",
-        static_only: bool = False,
-    ) -> None:
-        self.buffer = buffer
-        self.node = node
-        self._stops: list[Callable[[], None]] = []
-        node.program.listens = True
-        node.program.ask(lambda: self._listen(static_only))
-
-    def _listen(self, static_only: bool) -> None:
-        world, frames = self.node.world, self.buffer.frames
-
-        def moving(message: TransformMessage) -> None:
-            for sample in message.transforms:
-                frames.set_transform(sample, message.authority)
-
-        def fixed(message: TransformMessage) -> None:
-            for sample in message.transforms:
-                frames.set_transform_static(sample, message.authority)
-
-        for sample in world.static_transforms():
-            frames.set_transform_static(sample, AUTHORITY)
-        self._stops = [world.tf_static.subscribe(fixed)]
-        if not static_only:
-            self._stops.append(world.tf.subscribe(moving))
-        self.node.add_entity(_Stopper(self.node, self._stop))
-
-    def _stop(self) -> None:
-        for stop in self._stops:
-            stop()
-        self._stops.clear()
-
-    def unregister(self) -> None:
-        """Listen no more."""
-        self.node.program.ask(self._stop)
-
-
-class StaticTransformListener(TransformListener):
-    """Fills a buffer from `/tf_static` alone."""
-
-    def __init__(self, buffer: Buffer, node: Node, **kwargs: Any) -> None:
-        super().__init__(buffer, node, static_only=True, **kwargs)
-
-
-class _Stopper:
-    """Ends a listener together with its node."""
-
-    def __init__(self, node: Node, stop: Callable[[], None]) -> None:
-        self.node = node
-        self.callback_group = None
-        self.passes_busy_group = False
-        self.withdraw = stop
-
-    def ready(self) -> bool:
-        """Never: the buffer is filled without the executor."""
-        return False
-
-
-class TransformBroadcaster:
-    """Sends moving transforms."""
-
-    _static = False
-
-    def __init__(self, node: Node, qos: Any = None) -> None:
-        self.node = node
-        owner = node.program
-        owner.broadcasts = True
-
-    def sendTransform(self, transform: Any) -> None:  # noqa: N802
-        """Send one transform, or several."""
-        several = transform if isinstance(transform, Iterable) else [transform]
-        kind = INTERFACES.message("geometry_msgs/TransformStamped")
-        sent = []
-        for one in several:
-            if not isinstance(one, kind):
-                raise TypeError(f"expected a TransformStamped, got {type(one).__name__}")
-            sent.append(values.pack_transform(one))
-        node, static = self.node, self._static
-        node.program.ask(lambda: node.world.broadcast(sent, node.authority, static=static))
-
-
-class StaticTransformBroadcaster(TransformBroadcaster):
-    """Sends transforms that hold for all time; late listeners get them too."""
-
-    _static = True

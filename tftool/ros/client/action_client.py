@@ -1,0 +1,227 @@
+"""rclpy.action's client: sends goals, hears of them, gives them up."""
+
+import asyncio
+from collections import deque
+from collections.abc import Callable
+from typing import Any
+
+from tftool.errors import TftoolError
+from tftool.ros import values
+from tftool.ros.client.action_goals import STATUS, GoalStatus, new_id
+from tftool.ros.client.entities import Entity, Work
+from tftool.ros.client.futures import Future
+from tftool.ros.client.node import Node
+from tftool.ros.interfaces.classes import INTERFACES, duplicate
+from tftool.runtime.topics import GoalHandle as WorldGoal
+
+
+class _Result:
+    """What get_result answers: a status number and the result message."""
+
+    def __init__(self, status: int, result: Any) -> None:
+        self.status = status
+        self.result = result
+
+
+class _Feedback:
+    """What a feedback callback is given."""
+
+    def __init__(self, goal_id: Any, feedback: Any) -> None:
+        self.goal_id = goal_id
+        self.feedback = feedback
+
+
+class _Cancelled:
+    """What cancel_goal answers."""
+
+    def __init__(self, goals: list[Any]) -> None:
+        self.return_code = 0
+        self.goals_canceling = goals
+
+
+class ClientGoalHandle:
+    """A goal, as the one who sent it holds it."""
+
+    def __init__(self, client: "ActionClient", goal_id: Any, goal: WorldGoal | None) -> None:
+        self._client = client
+        self._goal = goal
+        self.goal_id = goal_id
+        self.accepted = goal is not None
+        self.status = int(GoalStatus.STATUS_EXECUTING if goal else GoalStatus.STATUS_UNKNOWN)
+        self._result: Future | None = None
+
+    def get_result_async(self) -> Future:
+        """A future of the result: `.status` and `.result`."""
+        if self._result is None:
+            self._result = self._client.watch(self, self._goal)
+        return self._result
+
+    def get_result(self) -> Any:
+        """Block until the result is there."""
+        future = self.get_result_async()
+        self._client.node.wait_for(future, None)
+        return future.result()
+
+    def cancel_goal_async(self) -> Future:
+        """Ask the server to stop; a future of its answer."""
+        return self._client.cancel(self, self._goal)
+
+    def cancel_goal(self) -> Any:
+        """Ask the server to stop, and block until it has answered."""
+        future = self.cancel_goal_async()
+        self._client.node.wait_for(future, None)
+        return future.result()
+
+
+class ActionClient(Entity):
+    """Sends goals to an action's server."""
+
+    passes_busy_group = True
+
+    def __init__(
+        self,
+        node: Node,
+        action_type: Any,
+        action_name: str,
+        *,
+        callback_group: Any = None,
+        **profiles: Any,
+    ) -> None:
+        super().__init__(node, callback_group or node.default_callback_group)
+        self._type = action_type
+        self._name = action_name
+        self.full = node._full(action_name)
+        self._arrived: deque[Work] = deque()
+        self._tasks: set[asyncio.Task[None]] = set()
+        node.program.ask(lambda: node.add_entity(self))
+
+    def server_is_ready(self) -> bool:
+        """Whether somebody serves the action."""
+        world = self.node.world
+        ready = bool(self.node.program.ask(lambda: self.full in world.actions()))
+        if not ready:
+            self.node.program.looked_in_vain()
+        return ready
+
+    def wait_for_server(self, timeout_sec: float | None = None) -> bool:
+        """Block until somebody serves it; whether somebody does."""
+        return self.node.wait_until(lambda: self.full in self.node.world.actions(), timeout_sec)
+
+    def send_goal_async(
+        self,
+        goal: Any,
+        feedback_callback: Callable[[Any], Any] | None = None,
+        goal_uuid: Any = None,
+    ) -> Future:
+        """Send a goal; a future of its `ClientGoalHandle`.
+
+        Raises:
+            TypeError: If the goal is of another type.
+        """
+        if not isinstance(goal, self._type.Goal):
+            raise TypeError(f"Expected {self._type.Goal}, got {type(goal)}")
+        future = Future(executor=self.node.executor)
+        goal_id = goal_uuid or new_id()
+        copy = duplicate(goal)
+
+        def on_feedback(value: Any) -> None:
+            if feedback_callback is None:
+                return
+            message = values.unpack_part(self._type, "Feedback", value)
+            told = feedback_callback
+            self._put(lambda: told(_Feedback(goal_id, message)))
+
+        async def send() -> None:
+            world = self.node.world
+            acceptor = world.actions().get(self.full)
+            if acceptor is None:
+                return
+            served_here = getattr(acceptor, "serves_ros", False)
+            value = copy if served_here else values.pack_part(self._type, "Goal", copy)
+            try:
+                handle = await world.send_goal(self.full, value, on_feedback)
+            except TftoolError as error:
+                refused = error
+                self._put(lambda: future.set_exception(refused))
+                return
+            decided = getattr(handle, "decided", None)
+            accepted = True if decided is None else await decided
+            held = ClientGoalHandle(self, goal_id, handle if accepted else None)
+            self._put(lambda: future.set_result(held))
+
+        self._start(send())
+        return future
+
+    def send_goal(self, goal: Any, **kwargs: Any) -> Any:
+        """Send a goal, and block until its result is there."""
+        future = self.send_goal_async(goal, **kwargs)
+        self.node.wait_for(future, None)
+        handle = future.result()
+        return None if handle is None or not handle.accepted else handle.get_result()
+
+    def watch(self, handle: ClientGoalHandle, goal: WorldGoal | None) -> Future:
+        """A future of a goal's end."""
+        future = Future(executor=self.node.executor)
+
+        async def wait() -> None:
+            if goal is None:
+                return
+            end = await goal.result()
+            status = STATUS[end.status]
+            result = values.unpack_part(self._type, "Result", end.value)
+
+            def arrive() -> None:
+                handle.status = int(status)
+                future.set_result(_Result(int(status), result))
+
+            self._put(arrive)
+
+        self._start(wait())
+        return future
+
+    def cancel(self, handle: ClientGoalHandle, goal: WorldGoal | None) -> Future:
+        """A future of the answer to a cancellation."""
+        future = Future(executor=self.node.executor)
+
+        def ask() -> None:
+            going = goal is not None and not goal.done
+            if goal is not None:
+                goal.cancel()
+                changed = getattr(goal, "on_cancel", None)
+                if changed is not None and going:
+                    changed()
+            info: Any = INTERFACES.message("action_msgs/GoalInfo")(goal_id=handle.goal_id)
+            self._put(lambda: future.set_result(_Cancelled([info] if going else [])))
+
+        self.node.program.ask(ask)
+        return future
+
+    def destroy(self) -> None:
+        """Send no more."""
+        self.node.forget(self)
+
+    def _start(self, coroutine: Any) -> None:
+        def start() -> None:
+            task = asyncio.get_running_loop().create_task(coroutine)
+            self._tasks.add(task)
+            task.add_done_callback(self._tasks.discard)
+
+        self.node.program.ask(start)
+
+    def _put(self, work: Work) -> None:
+        self._arrived.append(work)
+        self.node.wake()
+
+    def ready(self) -> bool:
+        """Whether something arrived."""
+        return bool(self._arrived)
+
+    def take(self) -> Work:
+        """What arrived first."""
+        return self._arrived.popleft()
+
+    def withdraw(self) -> None:
+        """Wait for nothing any more."""
+        super().withdraw()
+        for task in list(self._tasks):
+            task.cancel()

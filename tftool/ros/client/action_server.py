@@ -1,0 +1,240 @@
+"""rclpy.action's server: takes goals and works on them."""
+
+import asyncio
+import inspect
+from collections import deque
+from collections.abc import Callable
+from enum import IntEnum
+from typing import Any
+
+from tftool.errors import TftoolError
+from tftool.ros import values
+from tftool.ros.client.action_goals import STATUS, GoalStatus, new_id
+from tftool.ros.client.entities import Entity, Work
+from tftool.ros.client.node import Node
+from tftool.ros.interfaces.classes import duplicate
+from tftool.runtime.topics import GoalHandle as WorldGoal
+from tftool.runtime.topics import Status
+
+
+class GoalResponse(IntEnum):
+    """What a server says to a goal."""
+
+    REJECT = 1
+    ACCEPT = 2
+
+
+class CancelResponse(IntEnum):
+    """What a server says to a cancellation."""
+
+    REJECT = 1
+    ACCEPT = 2
+
+
+class ServerGoalHandle:
+    """A goal, as its server holds it."""
+
+    def __init__(self, server: "ActionServer", goal: WorldGoal, request: Any) -> None:
+        self._server = server
+        self._goal = goal
+        self._request = request
+        self._status: Status | None = None
+        self._canceling = False
+        self.goal_id = new_id()
+
+    @property
+    def request(self) -> Any:
+        """The goal message."""
+        return self._request
+
+    @property
+    def is_active(self) -> bool:
+        """Whether it has not ended."""
+        return self._status is None and not self._goal.done
+
+    @property
+    def is_cancel_requested(self) -> bool:
+        """Whether a cancellation was asked for and accepted."""
+        return self._canceling
+
+    @property
+    def status(self) -> int:
+        """How far it is, as a number of GoalStatus."""
+        if self._status is not None:
+            return int(STATUS[self._status])
+        return int(GoalStatus.STATUS_CANCELING if self._canceling else GoalStatus.STATUS_EXECUTING)
+
+    def publish_feedback(self, feedback: Any) -> None:
+        """Tell the client how far it is.
+
+        Raises:
+            TypeError: If the feedback is of another type.
+        """
+        kind = self._server.type_.Feedback
+        if not isinstance(feedback, kind):
+            raise TypeError(f"Expected {kind}, got {type(feedback)}")
+        copy = duplicate(feedback)
+        self._server.node.program.ask(lambda: self._goal.publish_feedback(copy))
+
+    def succeed(self, response: Any = None) -> None:
+        """It was reached."""
+        self._end("succeeded")
+
+    def abort(self, response: Any = None) -> None:
+        """It was given up by the server."""
+        self._end("aborted")
+
+    def canceled(self, response: Any = None) -> None:
+        """It was given up because the client said so."""
+        self._end("canceled")
+
+    def execute(self, execute_callback: Any = None) -> None:
+        """Start working on it."""
+        self._server.execute(self, execute_callback)
+
+    def destroy(self) -> None:
+        """Nothing to do."""
+
+    def _end(self, status: Status) -> None:
+        self._status = status
+
+    def finish(self, result: Any) -> None:
+        """Hand the result over."""
+        status = self._status or "aborted"
+        copy = duplicate(result)
+        self._server.node.program.ask(lambda: self._goal.finish(status, copy))
+
+    def request_cancel(self) -> None:
+        """Note that the client wants it stopped."""
+        self._canceling = True
+
+
+class _Acceptor:
+    """What the world hands goals to."""
+
+    serves_ros = True
+
+    def __init__(self, server: "ActionServer") -> None:
+        self._server = server
+
+    def __call__(self, goal: WorldGoal) -> None:
+        self._server.arrived(goal)
+
+
+class ActionServer(Entity):
+    """Works on goals."""
+
+    def __init__(
+        self,
+        node: Node,
+        action_type: Any,
+        action_name: str,
+        execute_callback: Callable[[ServerGoalHandle], Any],
+        *,
+        callback_group: Any = None,
+        goal_callback: Callable[[Any], Any] | None = None,
+        handle_accepted_callback: Callable[[ServerGoalHandle], Any] | None = None,
+        cancel_callback: Callable[[ServerGoalHandle], Any] | None = None,
+        **profiles: Any,
+    ) -> None:
+        super().__init__(node, callback_group or node.default_callback_group)
+        if not callable(execute_callback):
+            raise TypeError("an action server needs an execute_callback")
+        self.type_ = action_type
+        self._execute = execute_callback
+        self._on_goal = goal_callback or (lambda request: GoalResponse.ACCEPT)
+        self._on_accepted = handle_accepted_callback or (lambda handle: handle.execute())
+        self._on_cancel = cancel_callback or (lambda handle: CancelResponse.REJECT)
+        self.full = node._full(action_name)
+        self._arrived: deque[Work] = deque()
+        self._stop: Callable[[], None] = lambda: None
+
+        def serve() -> None:
+            self._stop = node.world.serve_action(self.full, _Acceptor(self))
+            node.add_entity(self)
+
+        node.program.ask(serve)
+
+    def register_goal_callback(self, callback: Callable[[Any], Any]) -> None:
+        """Have `callback` decide about goals."""
+        self._on_goal = callback
+
+    def register_cancel_callback(self, callback: Callable[[ServerGoalHandle], Any]) -> None:
+        """Have `callback` decide about cancellations."""
+        self._on_cancel = callback
+
+    def register_handle_accepted_callback(
+        self, callback: Callable[[ServerGoalHandle], Any]
+    ) -> None:
+        """Have `callback` take accepted goals."""
+        self._on_accepted = callback
+
+    def register_execute_callback(self, callback: Callable[[ServerGoalHandle], Any]) -> None:
+        """Have `callback` do the work."""
+        self._execute = callback
+
+    # On the loop's thread
+
+    def arrived(self, goal: WorldGoal) -> None:
+        """Keep a goal until an executor takes it."""
+        held: Any = goal
+        held.decided = asyncio.get_running_loop().create_future()
+        request = values.unpack_part(self.type_, "Goal", goal.request)
+        handle = ServerGoalHandle(self, goal, request)
+        held.on_cancel = lambda: self._put(lambda: self._consider_cancel(handle))
+        self._put(lambda: self._consider(handle, goal))
+
+    def _put(self, work: Work) -> None:
+        self._arrived.append(work)
+        self.node.wake()
+
+    def ready(self) -> bool:
+        """Whether a goal or a cancellation waits."""
+        return bool(self._arrived)
+
+    def take(self) -> Work:
+        """What arrived first."""
+        return self._arrived.popleft()
+
+    def withdraw(self) -> None:
+        """Take no more goals."""
+        super().withdraw()
+        self._stop()
+
+    # On the fiber
+
+    def _consider(self, handle: ServerGoalHandle, goal: WorldGoal) -> None:
+        accepted = self._on_goal(handle.request) == GoalResponse.ACCEPT
+
+        def answer() -> None:
+            held: Any = goal
+            held.decided.set_result(accepted)
+            if not accepted:
+                goal.finish("aborted", self.type_.Result())
+
+        self.node.program.ask(answer)
+        if accepted:
+            self._on_accepted(handle)
+
+    def _consider_cancel(self, handle: ServerGoalHandle) -> None:
+        if handle.is_active and self._on_cancel(handle) == CancelResponse.ACCEPT:
+            handle.request_cancel()
+
+    def execute(self, handle: ServerGoalHandle, callback: Any = None) -> None:
+        """Work on a goal, on the executor of the node."""
+        chosen = callback or self._execute
+
+        async def work() -> None:
+            result = chosen(handle)
+            if inspect.isawaitable(result):
+                result = await result
+            if not isinstance(result, self.type_.Result):
+                text = f"an execute_callback must return {self.type_.__name__}.Result"
+                self.node.get_logger().warning(f"{text}, not {type(result).__name__}")
+                result = self.type_.Result()
+            handle.finish(result)
+
+        executor = self.node.executor
+        if executor is None:
+            raise TftoolError("an action is executed by the executor that spins its node")
+        executor.create_task(work())
