@@ -2,9 +2,16 @@
 
 import platform
 
-from tests.benchmarks import batch, link, scalar, start_up, turtle_world
+from tests.benchmarks import batch, link, scalar, start_up, turtle_world, waits
 
-REPORTS = (scalar.report, batch.report, start_up.report, turtle_world.report, link.report)
+REPORTS = (
+    scalar.report,
+    batch.report,
+    waits.report,
+    start_up.report,
+    turtle_world.report,
+    link.report,
+)
 """What is measured; add yours."""
 
 if __name__ == "__main__":

@@ -1,0 +1,54 @@
+"""What those who wait for other frames cost one set."""
+
+import statistics
+import time
+
+from tftool.frames.buffer import Buffer
+from tftool.frames.sample import TransformStamped
+from tftool.geometry.rigid import Transform
+
+WAITING = 10_000
+"""How many requests are pending."""
+
+WANTED = 50.0
+"""Microseconds that all of them together may add to a set."""
+
+ROUNDS = 500
+
+
+def microseconds(waiting: int, name: str) -> float:
+    """The median time of a set while so many wait for sisters of the child.
+
+    Args:
+        waiting: How many requests are pending, each for a frame of its own.
+        name: Who is set; with a number put in, a new child each time.
+    """
+    buffer = Buffer()
+    buffer.set_transform(TransformStamped(1, "world", "known", Transform()), "benchmark")
+    for number in range(waiting):
+        sister = TransformStamped(1, "world", f"sister{number}", Transform())
+        buffer.set_transform(sister, "benchmark")
+        buffer.request(lambda handle, available: None, "world", f"sister{number}", 10**9)
+    taken = []
+    for stamp in range(2, 2 + ROUNDS):
+        sample = TransformStamped(stamp, "world", name.format(stamp), Transform())
+        started = time.perf_counter_ns()
+        buffer.set_transform(sample, "benchmark")
+        taken.append(time.perf_counter_ns() - started)
+    return statistics.median(taken) / 1e3
+
+
+def report() -> str:
+    """Measure, and say it in a few lines."""
+    lines = [f"one set while {WAITING} requests wait for other frames, microseconds (median)"]
+    for what, name in (("of a known child", "known"), ("of a new child", "new{}")):
+        alone, beside = microseconds(0, name), microseconds(WAITING, name)
+        lines.append(
+            f"  {what:<20}{beside:7.1f}   {beside - alone:+.1f} against none that wait "
+            f"(wanted: +{WANTED:g} at most)"
+        )
+    return "\n".join(lines)
+
+
+if __name__ == "__main__":
+    print(report())  # noqa: T201
