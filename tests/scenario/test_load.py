@@ -275,10 +275,16 @@ def test_a_flag_takes_no_other_word():
     "tag", ["!!python/object/apply:os.system [echo]", "!!python/name:os.system", "!local x"]
 )
 def test_a_tag_constructs_nothing(tag):
-    (sentence,) = told(SMALLEST + f"about: {tag}\n")
+    sentence = told(SMALLEST + f"about: {tag}\n")[0]
 
     assert sentence.startswith("tags (")
     assert sentence.endswith("are not used in scenarios")
+
+
+def test_a_tag_hides_no_other_mistake():
+    text = "duration: !!python/name:os.system soon\nnodes: [turtlsim]\n"
+
+    assert [(line, column) for line, column, _ in mistakes(text)] == [(1, 11), (1, 11), (2, 9)]
 
 
 def test_an_alias_stands_for_what_it_names():
@@ -397,7 +403,7 @@ def test_an_argument_that_is_not_declared_is_wrong_usage(text, wrong):
     with pytest.raises(UsageError) as refused:
         load.parse(text + SMALLEST, "s.yaml", {"source": "b"})
 
-    assert str(refused.value) == f"the scenario 's.yaml' has no argument {wrong}"
+    assert str(refused.value) == f"scenario 's' has no argument {wrong}"
 
 
 def test_an_unknown_argument_is_told_which_there_are():

@@ -72,11 +72,15 @@ class Document:
     Args:
         text: The whole text.
         name: What to call it in messages, usually its path.
+
+    Attributes:
+        mistakes: What was wrong with it and still let the rest be read.
     """
 
     def __init__(self, text: str, name: str) -> None:
         self.text = text.removeprefix("\ufeff")
         self.name = name
+        self.mistakes: list[Mistake] = []
         # Not splitlines: YAML's own idea of a line has neither form feed nor \x1c.
         unified = self.text.replace("\r\n", "\n").replace("\r", "\n").replace("\x85", "\n")
         self._lines = unified.replace("\u2028", "\n").replace("\u2029", "\n").split("\n")
@@ -96,7 +100,7 @@ class Document:
 
         Raises:
             ScenarioError: When the text is no YAML, is empty, holds more than one
-                document, uses tags, or is too large, too deep or too much.
+                document, or is too large, too deep or too much.
         """
         if len(self.text) > LARGEST:
             self.refuse(Place(0, 0), f"more than {LARGEST:,} characters are too many")
@@ -119,7 +123,7 @@ class Document:
 
     def refuse(self, place: Place, text: str, cause: Exception | None = None) -> NoReturn:
         """Give up on the whole text because of one place."""
-        raise ScenarioError(self.name, [self.mistake(place, text)]) from cause
+        raise ScenarioError(self.name, [*self.mistakes, self.mistake(place, text)]) from cause
 
 
 class _Reader:
@@ -151,7 +155,9 @@ class _Reader:
         assert isinstance(event, yaml.NodeEvent)
         tag: str | None = getattr(event, "tag", None)
         if tag is not None and tag != "!":
-            self.refuse(event, f"tags ({_showable(tag)}) are not used in scenarios")
+            # Noted, not more: nothing is ever constructed, and the rest can be read.
+            text = f"tags ({_showable(tag)}) are not used in scenarios"
+            self.document.mistakes.append(self.document.mistake(_place(event), text))
         before = self.values
         self.count(event, 1)
         place = _place(event)

@@ -91,7 +91,9 @@ def parse(text: str, name: str, arguments: Mapping[str, str] = NO_ARGUMENTS) -> 
     source = Document(text, name)
     reading = Reading(source)
     try:
-        return _Loader(arguments).scenario(source.read(), reading, name)
+        root = source.read()
+        reading.mistakes.extend(source.mistakes)
+        return _Loader(arguments).scenario(root, reading, name)
     except Unreadable as error:
         raise ScenarioError(name, sorted(reading.mistakes, key=_place)) from error
 
@@ -177,7 +179,7 @@ class _Loader:
             if name not in declared:
                 have = f"; it has {listed(declared)}" if declared else "; it has none"
                 raise UsageError(
-                    f"the scenario {quoted(reading.source.name)} has no argument "
+                    f"scenario {quoted(PurePath(reading.source.name).stem)} has no argument "
                     f"{quoted(name)}{suggest(name, declared) or have}"
                 )
 
