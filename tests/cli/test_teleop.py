@@ -3,7 +3,12 @@ from functools import partial
 import pytest
 
 from tftool.cli import onscreen
+from tftool.cli.pressing import _press_there
+from tftool.errors import UsageError
+from tftool.messages import Pose2D
 from tftool.nodes.teleop import BANNER
+from tftool.runtime.clock import SimClock, run
+from tftool.runtime.world import World
 from tftool.screens import terminal
 
 
@@ -55,6 +60,15 @@ def test_what_cannot_be_pressed_is_refused_with_a_sentence(tftool, words, senten
 
     assert result.status == 2
     assert sentence in result.err
+
+
+def test_a_turtle_that_is_not_in_the_joined_session_is_told_with_those_that_are():
+    world = World(SimClock())
+    world.topic("turtle1/pose", Pose2D)
+    world.topic("turtle2/pose", Pose2D)
+
+    with pytest.raises(UsageError, match="no turtle 'bob' here; there are turtle1, turtle2"):
+        run(world.clock, _press_there(world, "bob", ["up"]))
 
 
 @pytest.fixture

@@ -91,9 +91,9 @@ async def _press_there(world: World, turtle: str, words: list[str]) -> str:
     try:
         await seen(0, lambda pose: True)
         if poses.latest is None:
-            there = ", ".join(
-                name.removesuffix("/pose") for name in sorted(world.topics()) if "/pose" in name
-            )
+            # Our own subscription made a topic of the one that is not there.
+            names = sorted(set(world.topics()) - {poses.name})
+            there = ", ".join(name.removesuffix("/pose") for name in names if "/pose" in name)
             raise UsageError(f"There is no turtle {turtle!r} here; there are {there or 'none'}.")
         driver = driver_of(world, turtle)
         for word in words:
