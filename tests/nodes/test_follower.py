@@ -99,7 +99,7 @@ def test_a_follower_that_is_there_already_will_do():
     Follower(world, "listener")
     play(world, 20.0)
 
-    assert log_texts(world, "listener") == ["Successfully spawned "]
+    assert log_texts(world, "listener") == ["turtle2 is there already, and will do"]
     assert distance(sim) < 0.01
 
 

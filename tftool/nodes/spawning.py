@@ -52,5 +52,8 @@ class Spawning:
             self._node.warn(f"Could not spawn '{self._request.name}', asking again: {refusal}")
             self._call = None
         else:
-            self._node.info(f"Successfully spawned {name}")
+            if name:
+                self._node.info(f"Successfully spawned {name}")
+            else:
+                self._node.warn(f"{self._request.name} is there already, and will do")
             self._confirmed = True
