@@ -65,8 +65,15 @@ def test_a_near_miss_is_told_what_was_meant(tftool):
     ("words", "sentence"),
     [
         (["echo", "turtle1"], "Missing argument 'SOURCE'"),
-        (["echo", "a", "b", "--rate", "often"], "'often' is not a valid float"),
-        (["echo", "a", "b", "--precission", "2"], "No such option: --precission"),
+        (["echo", "a", "b", "--rate", "often"], "'often' is not a number."),
+        (["echo", "a", "b", "--domain", "x"], "'x' is not a whole number."),
+        (["echo", "a", "b", "--domain", "999"], "999 is not between 0 and 232."),
+        (["echo", "a", "b", "--count", "0"], "0 is less than 1."),
+        (
+            ["echo", "a", "b", "--precission", "2"],
+            "No such option: --precission. Did you mean --precision?",
+        ),
+        (["echo", "a", "b", "--zzz"], "No such option: --zzz. Try"),
         (["tree", "--format", "png"], "'png' is not one of"),
     ],
 )

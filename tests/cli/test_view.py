@@ -62,8 +62,8 @@ def test_view_without_its_extra_says_what_to_install(tftool, monkeypatch):
 @pytest.mark.parametrize(
     ("words", "told"),
     [
-        (["--port", "99999"], "not in the range"),
-        (["--port", "-1"], "not in the range"),
+        (["--port", "99999"], "99999 is not between 0 and 65535."),
+        (["--port", "-1"], "-1 is not between 0 and 65535."),
         (["--rate", "0"], "0 is not between 0.1 and 120"),
         (["--rate", "nan"], "nan is not between"),
         (["--for", "-2"], "-2 is not a positive number"),

@@ -218,10 +218,26 @@ def _run(argv: list[str]) -> int:
     return result if isinstance(result, int) else DONE
 
 
+PLAINLY = (
+    (r"is not a valid int( range)?\b", "is not a whole number"),
+    (r"is not a valid float( range)?\b", "is not a number"),
+    (r"is not in the range (\S+)<=x<=(\S+?)\.?$", r"is not between \1 and \2."),
+    (r"is not in the range x>=(\S+?)\.?$", r"is less than \1."),
+    (r" \(Possible options: (.*)\)$", r". Did you mean \1?"),
+    (r"(?<![.?])$", "."),
+)
+"""What click says in a programmer's words, and what we say instead."""
+
+
 def _usage_sentence(error: "Any") -> tuple[str, str]:
     context = getattr(error, "ctx", None)
     command = context.command_path if context is not None else "tftool"
-    return command, f"{error.format_message()} Try '{command} --help'."
+    import re
+
+    sentence = error.format_message()
+    for pattern, words in PLAINLY:
+        sentence = re.sub(pattern, words, sentence)
+    return command, f"{sentence} Try '{command} --help'."
 
 
 def _complain(who: str, sentence: str) -> None:
