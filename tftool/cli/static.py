@@ -68,10 +68,16 @@ def publish(said: "StaticArguments", *, spin: bool) -> None:
     """Publish a static transform, say what it is, and hold on to it.
 
     Raises:
-        UsageError: If no buffer would take it.
+        UsageError: If no buffer would take it, or nothing is to be published.
     """
     from tftool.cli.session import open_empty_session
+    from tftool.cli.sharing import choice
     from tftool.errors import UsageError
+
+    if choice().read_only:
+        raise UsageError("--read-only publishes nothing, and to publish is all static does.")
+    if not any(said.transform.rotation):
+        raise UsageError("A quaternion of four zeros is no rotation: 0 0 0 1 turns nothing.")
 
     if said.parent == said.child:
         raise UsageError(
