@@ -61,6 +61,7 @@ def test_a_scenario_in_a_file_called_by_a_number_is_a_file(tftool, tmp_path, mon
         (["5", "--rate", "5"], 2, "The rate is given twice"),
         (["--count", "0"], 2, "--count"),
         (["--once", "--count", "2"], 2, "contradict"),
+        (["--at", "3", "--count", "2"], 2, "has one answer, not 2."),
         (["--precision", "99"], 2, "--precision"),
         (["--at", "-1"], 2, "-1 is not zero or more."),
         (["--at", "nan"], 2, "nan is not zero or more."),

@@ -92,6 +92,7 @@ def test_a_pdf_goes_down_a_pipe_as_bytes():
     ("words", "status", "sentence"),
     [
         (["-o", "frames.png"], 2, "'frames.png' does not say what to write"),
+        (["-o", "/"], 2, "'/' is a folder: name a file in it."),
         (["-o", "/nowhere/frames.svg"], 3, "'/nowhere/frames.svg' cannot be written: No such"),
         (["--watch"], 2, "--watch needs a terminal"),
         (["--watch", "--format", "json"], 2, "leave out --format"),

@@ -94,6 +94,8 @@ def echo(
     place, rate = _place_or_rate(place, rate)
     if once and count not in (None, 1):
         raise UsageError(f"--once and --count {count} contradict each other.")
+    if at is not None and count not in (None, 1):
+        raise UsageError(f"--at asks about one moment, and has one answer, not {count}.")
     if fixed_frame is not None and offset is None:
         raise UsageError("--fixed-frame needs --offset: it carries SOURCE over that time.")
     if at is not None and offset is not None:

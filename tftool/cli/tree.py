@@ -117,6 +117,8 @@ def _form_of(output: Path | None) -> Format:
 
     known = TEXTS | {suffix: Format(form) for suffix, form in SUFFIXES.items()}
     suffix = output.suffix.lower()
+    if output.is_dir():
+        raise UsageError(f"'{output}' is a folder: name a file in it.")
     if suffix not in known:
         raise UsageError(
             f"'{output}' does not say what to write: end it in {', '.join(sorted(known))}, "
