@@ -118,12 +118,12 @@ def test_a_packages_own_interfaces_can_be_imported(tmp_path):
 def test_two_programs_of_one_module_share_no_globals(tmp_path):
     from tftool.ros import users
 
-    folder = package(tmp_path / "pkg", node__py="import helper\ncount = []\n")
-    (folder / "helper.py").write_text("seen = []\n")
+    folder = package(tmp_path / "pkg", node__py="import aside\ncount = []\n")
+    (folder / "aside.py").write_text("seen = []\n")
     (folder / "node.py").write_text(
-        "import helper\ncount = []\ndef main():\n    count.append(1)\n"
-        "    helper.seen.append(1)\n    import rclpy\n    rclpy.init()\n"
-        "    rclpy.create_node('n').get_logger().info(f'{len(count)} {len(helper.seen)}')\n"
+        "import aside\ncount = []\ndef main():\n    count.append(1)\n"
+        "    aside.seen.append(1)\n    import rclpy\n    rclpy.init()\n"
+        "    rclpy.create_node('n').get_logger().info(f'{len(count)} {len(aside.seen)}')\n"
     )
     with RosRuntime() as runtime:
         for _ in range(2):
