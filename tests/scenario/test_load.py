@@ -531,6 +531,14 @@ LOOKUP = "lookup: {target: a, source: b}"
         ("{at: 1 s, roots: world}", "a list (frames) is wanted here; begin each item with '- '"),
         ("{at: 1 s, rate: a, between: [2, 1]}", "between 2 and 1 lies nothing"),
         ("{at: 1 s, rate: a, above: 1, tolerance: 1}", "a tolerance goes with 'is'"),
+        (
+            "{at: 1 s, lookup: {target: a, source: b}, value: {x: 1}, tolerance: 5 cm}",
+            "one tolerance for metres and radians alike has no unit; write {position: 5 cm}",
+        ),
+        (
+            "{at: 1 s, lookup: {target: a, source: b}, value: {x: 1}, tolerance: 5 deg}",
+            "one tolerance for metres and radians alike has no unit; write {angle: 5 deg}",
+        ),
         ("{at: 1 s, frame: a, exists: no, parent: b}", "a frame that does not exist has nothing"),
         ("{at: 1 s, pose: turtle1, value: {}}", "a value needs one of x, y, theta, linear, "),
         (f"{{at: 1 s, {LOOKUP}, says: x}}", "'says' goes with 'raises'"),

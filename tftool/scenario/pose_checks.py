@@ -15,6 +15,11 @@ from tftool.scenario import document, values
 from tftool.scenario.checks import NEAR, Check, Form, Judged
 from tftool.scenario.document import Node, Place
 from tftool.scenario.reading import Field, Reading, listed
+from tftool.views.escaping import visible
+
+
+SHORT = 30
+"""Up to how many characters a value is repeated inside an advice."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -37,6 +42,14 @@ class Tolerance:
 def _tolerance(node: Node, reading: Reading) -> Tolerance:
     """A number for everything, or a mapping: {position: 1 mm, angle: 0.1 deg}."""
     if not isinstance(node, document.Mapping):
+        text = node.text.strip() if isinstance(node, document.Scalar) else ""
+        for part, unit in (("position", values.LENGTH), ("angle", values.ANGLE)):
+            if len(text) <= SHORT and text.endswith(tuple(unit.factors)):
+                raise reading.refuse(
+                    node,
+                    "one tolerance for metres and radians alike has no unit; "
+                    f"write {{{part}: {visible(text)}}}",
+                )
         both = values.quantity(values.NUMBER, least=0.0)(node, reading)
         return Tolerance(both, both)
     known = {
