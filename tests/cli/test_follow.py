@@ -39,6 +39,18 @@ def test_a_delay_looks_into_the_past_which_is_not_there_at_first(tftool, simulat
     assert result.err.count("Could not transform") < 5
 
 
+def test_a_delay_beyond_what_is_remembered_is_told_with_what_helps(tftool, simulated):
+    sentence = "The buffer remembers 10 s, so where turtle1 was 10 s ago is forgotten: "
+
+    assert (
+        f"{sentence}--cache-time 11 remembers it.\n"
+        in tftool("follow", "--delay", "10", "--for", "1").err
+    )
+    assert (
+        "remembers" not in tftool("follow", "--delay", "10", "--cache-time", "11", "--for", "1").err
+    )
+
+
 @pytest.mark.parametrize(
     ("words", "sentence"),
     [
@@ -48,6 +60,7 @@ def test_a_delay_looks_into_the_past_which_is_not_there_at_first(tftool, simulat
         (["--max-speed", "-2"], "-2 is not a positive number."),
         (["turtle1", "turtle1"], "'turtle1' cannot follow itself"),
         (["turtle1", "a turtle"], "a turtle"),
+        (["base_link", "bob", "robot"], "scenario 'robot' has no turtles"),
     ],
 )
 def test_what_cannot_be_followed_is_wrong_usage(tftool, simulated, words, sentence):

@@ -101,11 +101,13 @@ def follow(
     tftool follow turtle1 turtle3
     tftool follow turtle1 turtle2 --delay 5        where turtle1 was 5 s ago
     """
+    from tftool.cli.onscreen import simulator_of
     from tftool.cli.session import notice, open_session
+    from tftool.errors import UsageError
     from tftool.motion.pid import Gains
     from tftool.nodes.broadcasters import Broadcaster
     from tftool.nodes.follower import Follower
-    from tftool.stamps import NANOSECONDS
+    from tftool.stamps import NANOSECONDS, as_seconds
     from tftool.views.escaping import visible, visible_lines
 
     session = open_session(
@@ -116,6 +118,14 @@ def follow(
         needs_turtles=True,
     )
     world = session.world
+    if session.is_hosted and simulator_of(world) is None:
+        raise UsageError(f"{session.name} has no turtles: nobody there can spawn {follower!r}.")
+    if delay and seconds(delay) >= world.buffer.cache_time:
+        notice(
+            f"The buffer remembers {as_seconds(world.buffer.cache_time):g} s, so where "
+            f"{visible(leader)} was {delay:g} s ago is forgotten: --cache-time "
+            f"{delay + period:g} remembers it."
+        )
 
     def tell(record: "LogRecord") -> None:
         # What the link has to say the session tells.
