@@ -17,7 +17,6 @@ from tftool.scenario.document import Node, Place
 from tftool.scenario.reading import Field, Reading, listed
 from tftool.views.escaping import visible
 
-
 SHORT = 30
 """Up to how many characters a value is repeated inside an advice."""
 
