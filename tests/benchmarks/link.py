@@ -14,7 +14,8 @@ import time
 
 from tftool.frames.sample import TransformStamped
 from tftool.geometry.rigid import Transform
-from tftool.link.session import Link, Options
+from tftool.link.membership import Options
+from tftool.link.session import Link
 from tftool.runtime.clock import WallClock, run
 from tftool.runtime.world import World
 from tftool.stamps import seconds

@@ -14,7 +14,8 @@ from tests.link.conftest import new_world, until
 from tests.link.definitions import SERVICES
 from tftool.frames.sample import TransformStamped
 from tftool.geometry.rigid import Transform
-from tftool.link.session import Link, Options
+from tftool.link.membership import Options
+from tftool.link.session import Link
 from tftool.link.transport import Reach
 from tftool.nodes.turtlesim import Turtlesim
 from tftool.runtime.clock import WallClock, run

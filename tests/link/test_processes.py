@@ -15,7 +15,8 @@ import pytest
 
 from tests.link.conftest import new_world, until
 from tests.link.processes import PAUSE, ROOT, TRIES, Process, run
-from tftool.link.session import Link, Options
+from tftool.link.membership import Options
+from tftool.link.session import Link
 from tftool.runtime import clock as clocks
 from tftool.runtime.clock import WallClock
 

@@ -11,7 +11,8 @@ from tftool.errors import LinkError, TftoolError
 from tftool.frames.sample import TransformStamped
 from tftool.geometry.rigid import Transform
 from tftool.link.graph import hosts
-from tftool.link.session import Link, Options
+from tftool.link.membership import Options
+from tftool.link.session import Link
 from tftool.link.transport import Certificates, Reach
 from tftool.messages import (
     Clear,

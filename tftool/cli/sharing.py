@@ -15,7 +15,8 @@ import typer
 from tftool.errors import UsageError
 
 if TYPE_CHECKING:
-    from tftool.link.session import Link, Options
+    from tftool.link.membership import Options
+    from tftool.link.session import Link
 
 LARGEST_DOMAIN = 232
 """ROS 2's own limit."""
@@ -66,7 +67,7 @@ class Choice:
 
     def options(self) -> "Options":
         """The same as the link takes it."""
-        from tftool.link.session import Options
+        from tftool.link.membership import Options
         from tftool.link.transport import Certificates, Reach
 
         certificates = None if self.tls is None else Certificates(*self.tls)

@@ -1,19 +1,17 @@
 """The rotate action: three services and two topics on the wire, one action in a world."""
 
 import secrets
-from typing import TYPE_CHECKING, Any, Final, cast
+from typing import Any, Final, cast
 
 from tftool.errors import LinkError, MalformedMessage
 from tftool.link import keys, types
 from tftool.link.keys import Entity
+from tftool.link.membership import Membership
 from tftool.link.services import Asking, Endpoint, Tasks
 from tftool.link.topics import Sender
 from tftool.link.transport import Arrived
 from tftool.messages import RotateAbsolute, Rotated, Rotating
 from tftool.runtime.topics import GoalHandle, Status
-
-if TYPE_CHECKING:
-    from tftool.link.session import Link
 
 KEPT: Final = 100
 """Goals whose ends are remembered, for who asks late."""
@@ -28,7 +26,7 @@ _NO_ERROR, _UNKNOWN_GOAL, _ENDED = 0, 2, 3
 class ActionServer:
     """An action of our world, for everybody."""
 
-    def __init__(self, link: "Link", name: str) -> None:
+    def __init__(self, link: Membership, name: str) -> None:
         self._link = link
         self._name = name
         self._goals: dict[bytes, tuple[GoalHandle, int]] = {}
@@ -112,7 +110,7 @@ class ActionServer:
 class ActionClient:
     """An action of another process, as one of our world."""
 
-    def __init__(self, link: "Link", name: str, server: Entity) -> None:
+    def __init__(self, link: Membership, name: str, server: Entity) -> None:
         self._link = link
         self._name = name
         self._goals: dict[bytes, GoalHandle] = {}

@@ -2,16 +2,14 @@
 
 import asyncio
 from collections.abc import Callable, Coroutine
-from typing import TYPE_CHECKING, Any, Final
+from typing import Any, Final
 
 from tftool.errors import LinkError, MalformedMessage, TftoolError
 from tftool.link import keys
 from tftool.link.keys import Attachment, Entity
+from tftool.link.membership import Membership
 from tftool.link.transport import Question
 from tftool.link.types import ServiceType
-
-if TYPE_CHECKING:
-    from tftool.link.session import Link
 
 DEPTH: Final = 10
 """ROS 2's depth of a service's queue."""
@@ -43,7 +41,7 @@ class Endpoint:
 
     def __init__(
         self,
-        link: "Link",
+        link: Membership,
         node: str,
         name: str,
         ros_type: str,
@@ -87,7 +85,7 @@ class Endpoint:
 class Asking:
     """The asking end of one service on the wire."""
 
-    def __init__(self, link: "Link", name: str, server: Entity) -> None:
+    def __init__(self, link: Membership, name: str, server: Entity) -> None:
         self._link = link
         self._name = name
         # Under the server's own hash: it may be of another release.
@@ -124,7 +122,7 @@ class Asking:
 class ServiceServer:
     """A service of our world, for everybody."""
 
-    def __init__(self, link: "Link", name: str, kind: ServiceType) -> None:
+    def __init__(self, link: Membership, name: str, kind: ServiceType) -> None:
         self._link = link
         self._name = name
         self._kind = kind
@@ -142,7 +140,7 @@ class ServiceServer:
 class ServiceClient:
     """A service of another process, as one of our world."""
 
-    def __init__(self, link: "Link", name: str, kind: ServiceType, server: Entity) -> None:
+    def __init__(self, link: Membership, name: str, kind: ServiceType, server: Entity) -> None:
         self._kind = kind
         self._asking = Asking(link, name, server)
         self._withdraw = link.world.serve(name, self._call)

@@ -11,24 +11,21 @@ import os
 import re
 import threading
 from collections.abc import Callable
-from dataclasses import dataclass, field
 from typing import Final
 
-from tftool.errors import LinkError, MalformedMessage
+from tftool.errors import LinkError
 from tftool.link import keys
 from tftool.link.actions import ActionClient, ActionServer
-from tftool.link.graph import Graph, Process
-from tftool.link.keys import Attachment, Entity
+from tftool.link.graph import Process
+from tftool.link.keys import Entity
+from tftool.link.membership import NAME, Membership, Options, plain
 from tftool.link.rendezvous import Rendezvous
 from tftool.link.services import ServiceClient, ServiceServer
 from tftool.link.topics import StaticBridge, TopicBridge, TransformBridge
-from tftool.link.transport import Outlet, Reach, Wire
+from tftool.link.transport import Wire
 from tftool.link.types import BY_ROS_TYPE, MESSAGES, SEND_GOAL, service_type
 from tftool.runtime.clock import WallClock
 from tftool.runtime.world import TransformMessage, World
-
-NAME: Final = "link"
-"""Who speaks in a world's log when the link has something to say."""
 
 REACHING: Final = 3.0
 """Seconds to wait for somebody at the other end of `connect`."""
@@ -43,32 +40,8 @@ _STEP = 0.005
 _PLAIN = re.compile(r"[A-Za-z_][A-Za-z0-9_]*(/[A-Za-z_][A-Za-z0-9_]*)*", re.ASCII)
 
 
-@dataclass(frozen=True, slots=True)
-class Options:
-    """How a process takes part.
-
-    Attributes:
-        command: What it is called for: "demo", "echo".
-        domain: Number of the ROS domain.
-        reach: What to open beyond this machine's own processes.
-        read_only: Only look: declare no publisher, no service and no token.
-    """
-
-    command: str = "tftool"
-    domain: int = 0
-    reach: Reach = field(default_factory=Reach)
-    read_only: bool = False
-
-
-class Link:
-    """A process's place in a session.
-
-    Attributes:
-        options: How it takes part.
-        graph: Who else is there; up to date once `attach` was called.
-        refused: Messages that came in and were not what they should be.
-        received: Messages that were taken in.
-    """
+class Link(Membership):
+    """A process's place in a session: it joins, and carries its world's traffic."""
 
     def __init__(self, options: Options) -> None:
         """Join the others of this machine, and those `options` reach out to.
@@ -80,9 +53,6 @@ class Link:
         Raises:
             LinkError: If there is no place to meet, or zenoh is missing or refuses.
         """
-        self.options = options
-        self.refused = 0
-        self.received = 0
         self._place: Rendezvous | None = None
         endpoint = ""
         others: tuple[str, ...] = ()
@@ -91,23 +61,18 @@ class Link:
             self._place.enter()
             endpoint, others = self._place.endpoint, self._place.others
         try:
-            self.wire = Wire(options.reach, endpoint, others)
+            wire = Wire(options.reach, endpoint, others)
         except LinkError:
             if self._place is not None:
                 self._place.leave()
             raise
-        self.graph = Graph(self.wire.zid, options.domain)
+        super().__init__(options, wire)
         self._reach_out(len(others))
         self._take_in_tokens(len(others))
-        self._world: World | None = None
         self._stops: list[Callable[[], None]] = []
         self._bridges: dict[str, TopicBridge | TransformBridge] = {}
         self._servers: dict[str, ServiceServer | ActionServer] = {}
         self._clients: dict[str, ServiceClient | ActionClient] = {}
-        self._nodes: dict[str, tuple[int, Callable[[], None]]] = {}
-        self._entity_ids = 0
-        self._said: set[str] = set()
-        self._authorities: dict[bytes, str] = {}
         self._closed = False
         self._settling = False
         self._reconciling = False
@@ -167,75 +132,6 @@ class Link:
 
     def __exit__(self, *error: object) -> None:
         self.close()
-
-    # What bridges, servers and clients ask for
-
-    @property
-    def world(self) -> World:
-        """The world that is attached."""
-        if self._world is None:
-            raise LinkError("no world is attached to this link yet")
-        return self._world
-
-    @property
-    def main_node(self) -> str:
-        """The node that what cannot be told apart is said to be of: the first of the world."""
-        shown = (node.name for node in self.world.nodes if node.is_shown)
-        return next(shown, f"tftool_{self.options.command}")
-
-    def entity(
-        self, kind: str, node: str, name: str, ros_type: str, *, depth: int, latched: bool = False
-    ) -> Entity:
-        """Describe something new of ours."""
-        self._entity_ids += 1
-        durability = keys.TRANSIENT_LOCAL if latched else keys.VOLATILE
-        return Entity(
-            self.options.domain,
-            self.wire.zid,
-            self._node_id(node),
-            self._entity_ids,
-            kind,  # type: ignore[arg-type]
-            plain(node),
-            name,
-            ros_type,
-            quality=keys.quality(depth=depth, durability=durability),
-        )
-
-    def show(self, entity: Entity) -> Callable[[], None]:
-        """Show a token of ours until told to stop."""
-        if self.options.read_only:
-            return _nothing
-        return self.wire.token(entity.token())
-
-    def publisher(self, name: str, ros_type: str, *, latched: bool = False) -> Outlet:
-        """Declare that messages of a topic go out."""
-        return self.wire.publisher(
-            keys.data_key(self.options.domain, name, ros_type), latched=latched
-        )
-
-    def attachment(self, sequence: int, gid: bytes) -> bytes:
-        """What travels beside a message of ours."""
-        return Attachment(sequence, self.world.clock.now(), gid).encode()
-
-    def authority(self, gid: bytes, topic: str) -> str:
-        """The node that sent a message, by what stood beside it."""
-        found = self._authorities.get(gid)
-        if found is None:
-            if len(self._authorities) > 1000:
-                self._authorities.clear()
-            found = self._authorities[gid] = self.graph.publisher(gid, topic)
-        return found
-
-    def refuse(self, topic: str, refusal: MalformedMessage) -> None:
-        """Count a message that is not what it should be, and say the first of each topic."""
-        self.refused += 1
-        self.say_once(f"refused {topic}", f"On '{topic}': {refusal}. Others like it are counted.")
-
-    def say_once(self, what: str, sentence: str) -> None:
-        """Warn in the world's log, unless this was said before."""
-        if what not in self._said and len(self._said) < 1000:
-            self._said.add(what)
-            self.world.log.warn(NAME, sentence)
 
     # Keeping up with the world
 
@@ -429,22 +325,7 @@ class Link:
                 return
             pause.wait(_STEP)
 
-    def _node_id(self, node: str) -> int:
-        found = self._nodes.get(node)
-        return 0 if found is None else found[0]
-
 
 def is_plain(name: str) -> bool:
     """Whether a name can be a ROS topic's; others do not travel."""
     return len(name) < 250 and _PLAIN.fullmatch(name) is not None
-
-
-def plain(name: str) -> str:
-    """A node's name as ROS would have it: letters, digits and underscores."""
-    name = re.sub(r"[^A-Za-z0-9_/]", "_", name.strip("/"))[:200]
-    name = re.sub(r"/+", "/", name)
-    return name if name and not name[0].isdigit() else f"_{name}"
-
-
-def _nothing() -> None:
-    """Stop nothing."""

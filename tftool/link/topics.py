@@ -1,21 +1,19 @@
 """One topic of a world and the same topic of everybody else, joined."""
 
 from collections.abc import Callable
-from typing import TYPE_CHECKING, Any, Final
+from typing import Any, Final
 
 from tftool.errors import MalformedMessage
 from tftool.frames.sample import TransformStamped
 from tftool.link import keys
 from tftool.link.cdr import decode_transforms, encode_transforms
+from tftool.link.membership import Membership
 from tftool.link.transport import Arrived, Outlet
 from tftool.link.types import TRANSFORMS, MessageType
 from tftool.messages import Color
 from tftool.runtime.topics import Topic
 from tftool.runtime.world import TransformMessage
 from tftool.stamps import as_seconds, seconds
-
-if TYPE_CHECKING:
-    from tftool.link.session import Link
 
 DEPTH: Final = 7
 """turtlesim's depth of its topics."""
@@ -32,7 +30,7 @@ class Sender:
     """Who publishes one topic under one name: an outlet, a token, a running number."""
 
     def __init__(
-        self, link: "Link", node: str, name: str, ros_type: str, depth: int, *, latched: bool
+        self, link: Membership, node: str, name: str, ros_type: str, depth: int, *, latched: bool
     ) -> None:
         entity = link.entity(keys.PUBLISHER, node, name, ros_type, depth=depth, latched=latched)
         self.gid = keys.gid_of(entity.token())
@@ -56,7 +54,7 @@ class Sender:
 class TopicBridge:
     """A topic whose values are messages of their own: poses, commands, colours."""
 
-    def __init__(self, link: "Link", topic: Topic[Any], kind: MessageType) -> None:
+    def __init__(self, link: Membership, topic: Topic[Any], kind: MessageType) -> None:
         self._link = link
         self._topic = topic
         self._kind = kind
@@ -149,7 +147,7 @@ class TransformBridge:
     latched = False
     depth = TF_DEPTH
 
-    def __init__(self, link: "Link", topic: Topic[TransformMessage]) -> None:
+    def __init__(self, link: Membership, topic: Topic[TransformMessage]) -> None:
         self._link = link
         self._topic = topic
         self._senders: dict[str, Sender] = {}
