@@ -1,5 +1,6 @@
 import errno
 import gc
+import inspect
 import io
 import os
 import signal
@@ -18,6 +19,7 @@ from tftool.errors import (
     TftoolError,
     UsageError,
 )
+from tftool.frames import chains
 
 ROOT = Path(__file__).parents[2]
 COMMANDS = app.COMMANDS
@@ -47,8 +49,10 @@ def test_without_a_word_it_shows_its_help(tftool):
     assert "Start with 'tftool demo'" in result.out
 
 
-def test_version(tftool):
-    assert tftool("--version").out == f"tftool {package.__version__}\n"
+def test_the_version_says_which_build_runs(tftool):
+    build = "interpreted" if inspect.isfunction(chains.chained) else "compiled"
+
+    assert tftool("--version").out == f"tftool {package.__version__} ({build})\n"
 
 
 def test_a_near_miss_is_told_what_was_meant(tftool):

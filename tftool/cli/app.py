@@ -82,7 +82,7 @@ def build(only: str | None = None) -> "typer.Typer":
         if version:
             from tftool import __version__
 
-            sys.stdout.write(f"tftool {__version__}\n")
+            sys.stdout.write(f"tftool {__version__} ({_build()})\n")
             raise typer.Exit
         if context.invoked_subcommand is None:
             sys.stdout.write(context.get_help() + "\n")
@@ -96,6 +96,15 @@ def build(only: str | None = None) -> "typer.Typer":
         offered = command if name == "check" else shares(command)
         app.command(help=_laid_out(command), context_settings=SETTINGS.get(name))(offered)
     return app
+
+
+def _build() -> str:
+    """Which of the two builds this is: its source is the same."""
+    from importlib.util import find_spec
+
+    spec = find_spec("tftool.frames.chains")
+    source = "" if spec is None else spec.origin or ""
+    return "interpreted" if source.endswith(".py") else "compiled"
 
 
 def _laid_out(command: "Callable[..., Any]") -> str:

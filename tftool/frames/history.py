@@ -8,7 +8,7 @@ array.
 import struct
 from array import array
 from bisect import bisect_left, bisect_right
-from typing import Final, TypeAlias
+from typing import Any, Final, TypeAlias
 
 from tftool.frames.chains import chained
 from tftool.frames.links import (
@@ -64,7 +64,7 @@ class History(Link):
 
     # Remembering
 
-    def insert(self, stamp: Stamp, parent: int, sample: Sample) -> int:
+    def insert(self, stamp: Stamp, parent: int, sample: Any) -> int:
         """Forget what is too old by now, then remember a sample.
 
         Returns:
@@ -75,6 +75,7 @@ class History(Link):
         Raises:
             OverflowError: If the stamp does not fit 64 bits.
         """
+        # A `Sample`; but declared as one, compiled code would take it apart and make it anew.
         newest = self.newest_stamp
         if stamp <= newest or self.newest is None:
             return self._insert_late(stamp, parent, sample)

@@ -2,16 +2,17 @@
 
 from array import array
 from math import nan
-from typing import Final, TypeAlias
+from typing import Any, Final, TypeAlias
 
 from tftool.stamps import Stamp
 
 Sample: TypeAlias = tuple[float, float, float, float, float, float, float]
 """A pose: x, y, z in metres and a unit quaternion x, y, z, w of tf2's sign."""
 
-IDENTITY: Final[Sample] = (0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 1.0)
+# Not Final: compiled, a tuple that is takes itself for missing in other modules.
+IDENTITY: Sample = (0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 1.0)
 
-NOWHERE: Final[Sample] = (nan, nan, nan, nan, nan, nan, nan)
+NOWHERE: Sample = (nan, nan, nan, nan, nan, nan, nan)
 """In place of a pose: none. A tuple of floats like any other, so compiled code need not box it."""
 
 Refusal: TypeAlias = tuple[int, Stamp]
@@ -91,7 +92,7 @@ class Link:
         """Why there is no pose at that moment; only asked when there is none."""
         raise NotImplementedError
 
-    def insert(self, stamp: Stamp, parent: int, sample: Sample) -> int:
+    def insert(self, stamp: Stamp, parent: int, sample: Any) -> int:
         """Remember a sample; says TOO_OLD, KNOWN, STORED, or RESHAPED when the parent changed."""
         raise NotImplementedError
 
@@ -139,7 +140,7 @@ class Constant(Link):
         """Never asked for: a constant refuses nothing."""
         return NO_DATA, 0
 
-    def insert(self, stamp: Stamp, parent: int, sample: Sample) -> int:
+    def insert(self, stamp: Stamp, parent: int, sample: Any) -> int:
         """Put the sample in place of the one that was there."""
         if parent == self.parent and sample == self.newest:
             return KNOWN
