@@ -26,7 +26,7 @@ def test_a_simulated_clock_must_not_start_at_the_moment_that_means_latest():
         SimClock(0)
 
 
-@pytest.mark.parametrize("rate", [0, -1, float("nan"), float("inf")])
+@pytest.mark.parametrize("rate", [0, -1, float("nan"), float("inf"), 1e308, 1e-320])
 def test_a_wall_clock_wants_a_rate_that_moves(rate):
     with pytest.raises(ValueError, match="positive"):
         WallClock(rate)
@@ -280,3 +280,17 @@ def test_a_moment_that_is_not_whole_nanoseconds_is_refused(make_clock, moment):
     with pytest.raises(TypeError, match=r"seconds\(2.5\) makes one"):
         run(clock, clock.sleep_until(moment))
     assert isinstance(clock.now(), int)
+
+
+@pytest.mark.parametrize("make_clock", [SimClock, WallClock])
+def test_a_moment_beyond_all_floats_can_be_waited_for_and_given_up(make_clock):
+    clock = make_clock()
+
+    async def main():
+        forever = asyncio.get_running_loop().create_task(clock.sleep(10**400))
+        await clock.sleep(1)
+        forever.cancel()
+        await asyncio.gather(forever, return_exceptions=True)
+        return forever.cancelled()
+
+    assert run(clock, main())

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 from tftool.cli.onscreen import Ascii, Light
-from tftool.cli.options import ForPrograms, positive
+from tftool.cli.options import ForPrograms, positive, within
 from tftool.errors import UsageError
 
 if TYPE_CHECKING:
@@ -29,7 +29,10 @@ def demo(
         typer.Option(metavar="FRAME", help="Whom turtle2 follows: turtle1, carrot1, ..."),
     ] = None,
     rate: Annotated[
-        float, typer.Option(metavar="TIMES", callback=positive, help="How many times real time.")
+        float,
+        typer.Option(
+            metavar="TIMES", callback=within(0.001, 1000), help="How many times real time."
+        ),
     ] = 1.0,
     lasting: Annotated[
         float | None,

@@ -6,15 +6,24 @@ from typing import Annotated
 
 import typer
 
+MOST = 9e9
+"""The largest number an option takes: as seconds, about what a stamp of 64 bits can hold."""
+
 
 def finite(value: float | None) -> float | None:
     """Let a finite number pass.
 
     Raises:
-        typer.BadParameter: If it is NaN or infinite.
+        typer.BadParameter: If it is NaN or infinite, or beyond `MOST`.
     """
     if value is not None and not math.isfinite(value):
         raise typer.BadParameter(f"{value} is not a finite number.")
+    return _bounded(value)
+
+
+def _bounded(value: float | None) -> float | None:
+    if value is not None and abs(value) > MOST:
+        raise typer.BadParameter(f"{value:g} is too large: beyond {MOST:g}.")
     return value
 
 
@@ -22,22 +31,22 @@ def positive(value: float | None) -> float | None:
     """Let a finite number above zero pass.
 
     Raises:
-        typer.BadParameter: If it is zero, negative, NaN or infinite.
+        typer.BadParameter: If it is zero, negative, NaN or infinite, or beyond `MOST`.
     """
     if value is not None and not (math.isfinite(value) and value > 0):
         raise typer.BadParameter(f"{value:g} is not a positive number.")
-    return value
+    return _bounded(value)
 
 
 def not_negative(value: float | None) -> float | None:
     """Let a finite number from zero on pass.
 
     Raises:
-        typer.BadParameter: If it is negative, NaN or infinite.
+        typer.BadParameter: If it is negative, NaN or infinite, or beyond `MOST`.
     """
     if value is not None and not (math.isfinite(value) and value >= 0):
         raise typer.BadParameter(f"{value:g} is not zero or more.")
-    return value
+    return _bounded(value)
 
 
 def within(least: float, most: float) -> Callable[[float | None], float | None]:

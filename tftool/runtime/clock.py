@@ -171,10 +171,12 @@ class WallClock(Clock):
                 simulated, so that a world is already under way when somebody looks.
 
         Raises:
-            ValueError: If `rate` is not a positive finite number, or the head start negative.
+            ValueError: If `rate` is not a positive number between a billionth and a
+                billion, or the head start negative.
         """
-        if not (math.isfinite(rate) and rate > 0):
-            raise ValueError(f"a rate must be a positive number, not {rate!r}")
+        # Beyond, a moment would not be a finite number of real seconds away.
+        if not 1e-9 <= rate <= 1e9:
+            raise ValueError(f"a rate must be a positive number from 1e-9 to 1e9, not {rate!r}")
         if head_start < 0:
             raise ValueError(f"a head start cannot be negative: {head_start} ns")
         super().__init__(time.time_ns() - head_start, rate)
@@ -212,7 +214,8 @@ class WallClock(Clock):
         if self._simulated is not None:
             self._alarm = asyncio.get_running_loop().call_later(0, self._wake)
         elif due is not None:
-            delay = max(0, due - self.now()) / (NANOSECONDS * self.rate)
+            # Whoever waits for longer than any stamp lasts is woken once in between.
+            delay = max(0, min(due - self.now(), 2**63)) / (NANOSECONDS * self.rate)
             self._alarm = asyncio.get_running_loop().call_later(delay, self._wake)
 
     def _wake(self) -> None:
