@@ -76,6 +76,10 @@ class Page:
         driver.get("about:blank")
         driver.get(f"{stage.url}#{state}")
 
+    def said(self, expression):
+        """The value of an expression in the page."""
+        return self.driver.execute_script(f"return {expression}")
+
     def until(self, condition):
         """Wait until `condition()` holds; return what it gave."""
         return WebDriverWait(self.driver, PATIENCE, poll_frequency=0.02).until(
@@ -314,7 +318,7 @@ def test_the_chosen_frame_is_told_absolute_and_relative(chromium, stage):
         *("0.00", "0.00", "90.00"),
     ]
     assert page.texts("#relative dd span")[:3] == ["0.5000", "0.0000", "0.0000"]
-    assert page.texts("#link-facts dd") == ["turtle", "mount", "static"]
+    assert page.texts("#link-facts dd") == ["Transform OK", "turtle", "mount", "static"]
 
 
 @pytest.mark.parametrize(("width", "height"), [(1920, 1080), (1280, 800), (900, 600), (640, 480)])
@@ -471,7 +475,7 @@ def test_the_end_of_the_session_is_shown_and_the_page_finds_the_next_one(chromiu
 def test_before_any_frame_the_page_says_what_it_waits_for(chromium, stage):
     page = Page(chromium, stage)
 
-    page.until(lambda: page.text("#empty").startswith("No tf data yet"))
+    page.until(lambda: page.text("#empty").startswith("No tf data.  Actual error: "))
     stage.put(1.0)
     page.until(lambda: "turtle" in page.drawn() and not page.find("#empty").is_displayed())
 
@@ -495,6 +499,120 @@ def test_the_address_carries_the_view(chromium, stage):
     again.until(lambda: again.text("#sentence") == "turtle in world")
     assert again.find("#orbit").get_attribute("aria-pressed") == "true"
     assert again.find("#grid").get_attribute("aria-pressed") == "false"
+
+
+def test_a_link_put_into_an_open_page_shows_its_view_and_makes_no_loop(chromium, stage):
+    stage.put(1.0)
+    page = Page(chromium, stage)
+    page.until(lambda: "turtle" in page.drawn())
+    page.said("location.hash = 'view=orbit&chosen=turtle&speed=0.25&hidden=world&timeout=7'")
+
+    page.until(lambda: page.said("globalThis.tftool && tftool.drawn().length") == 1)
+    page.until(lambda: page.text("#chosen") == "turtle")
+    assert page.find("#orbit").get_attribute("aria-pressed") == "true"
+    assert page.find("#speed").get_attribute("value") == "0.25"
+    assert page.find("#timeout").get_attribute("value") == "7"
+
+
+def test_a_fixed_frame_that_does_not_exist_is_said_and_shown_once_it_comes(chromium, stage):
+    stage.put(1.0)
+    page = Page(chromium, stage, "fixed=map&chosen=turtle")
+
+    page.until(lambda: page.text("#empty").startswith("Frame [map] does not exist"))
+    page.until(lambda: page.text("#trouble").startswith("No transform from [turtle] to [map]"))
+    page.until(lambda: page.texts("#link-facts dd")[0] == "Warning")
+    assert page.drawn() == {}
+    stage.mount(("map", "world"), x=5.0)
+    page.until(lambda: page.x_of("turtle") == 6.0)
+    page.until(lambda: page.texts("#link-facts dd")[0] == "Transform OK")
+
+
+def test_a_frame_leaves_a_trail_when_asked_to(chromium, stage):
+    for second in (1.0, 2.0, 3.0):
+        stage.put(second, at=second)
+        stage.put(0.0, second, at=second, child="other")
+    page = Page(chromium, stage, "chosen=turtle")
+    page.until(lambda: page.said("tftool.remembered()") > 100)
+    assert page.said("tftool.trails()") == []
+
+    page.find("#with-trail").click()
+    page.until(lambda: len(page.said("tftool.trails()")) == 1)
+    page.until(lambda: page.said("tftool.trails()")[0] > 100)
+    page.find("#trails").click()
+    page.until(lambda: len(page.said("tftool.trails()")) == 2)
+
+
+PAINTED = """
+    const sheet = tftool.picture();
+    const { data } = sheet.getContext("2d").getImageData(0, 0, sheet.width, sheet.height);
+    let seen = 0;
+    for (let at = 0; at < data.length; at += 4) {
+      const [red, green, blue] = data.subarray(at, at + 3);
+      // The accent of the dark theme.
+      if (red > 240 && Math.abs(green - 184) < 15 && Math.abs(blue - 77) < 15) seen++;
+    }
+    return seen;
+"""
+
+
+def test_the_chain_of_the_pair_is_drawn(chromium, stage):
+    stage.put(1.0, 2.0)
+    stage.put(-3.0, 1.0, child="other")
+    page = Page(chromium, stage, "names=0&axes=0&arrows=0&grid=0&theme=dark&target=other")
+    page.until(lambda: {"turtle", "other"} <= page.drawn().keys())
+    assert chromium.execute_script(PAINTED) == 0
+
+    Select(page.find("#source")).select_by_visible_text("turtle")
+    page.until(lambda: page.text("#sentence") == "turtle in other")
+    page.until(lambda: chromium.execute_script(PAINTED) > 100)
+
+
+def test_the_screenshot_button_saves_a_picture(chromium, stage):
+    stage.put(1.0)
+    page = Page(chromium, stage)
+    page.until(lambda: "turtle" in page.drawn())
+    # What the browser would put into its downloads.
+    page.driver.execute_script(
+        """
+        URL.createObjectURL = blob => { window.picture = blob; return "#"; };
+        HTMLAnchorElement.prototype.click = function () { window.saved = this.download; };
+        """
+    )
+    page.find("#shot").click()
+    page.until(lambda: page.said("globalThis.saved"))
+
+    told = chromium.execute_async_script(
+        """
+        const done = arguments[0];
+        picture.arrayBuffer().then(buffer =>
+          done([saved, [...new Uint8Array(buffer.slice(0, 4))], buffer.byteLength]));
+        """
+    )
+    assert told[:2] == ["tftool-view.png", [0x89, 0x50, 0x4E, 0x47]]
+    assert told[2] > 1000
+
+
+def test_a_crowd_of_frames_is_painted_in_its_colours(chromium, stage):
+    # Where no graphics card draws, many frames are drawn in another way than few.
+    links = [("world", f"f{index}") for index in range(100)]
+    stage.mount(*links, x=2.0)
+    page = Page(chromium, stage, "names=0&grid=0&theme=dark&scale=3")
+    page.until(lambda: len(page.drawn()) == 101)
+
+    colours = page.driver.execute_script(
+        """
+        const sheet = tftool.picture();
+        const { data } = sheet.getContext("2d").getImageData(0, 0, sheet.width, sheet.height);
+        const seen = [0, 0];
+        for (let at = 0; at < data.length; at += 4) {
+          const [r, g, b] = data.subarray(at, at + 3);
+          if (r > 120 && g < 100 && b < 100) seen[0]++;
+          if (g > 100 && r < 100 && b < 120) seen[1]++;
+        }
+        return seen;
+        """
+    )
+    assert min(colours) > 20
 
 
 def test_thousands_of_frames_are_answered_and_what_is_left_out_is_said(chromium, stage):

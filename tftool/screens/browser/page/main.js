@@ -23,6 +23,7 @@ const state = {
   interval: 0,
   timeout: 15,
   length: 10,
+  speed: 1,
   only: "",
   not: "",
   ...given,
@@ -154,7 +155,7 @@ function scrub(moment) {
 
 function playOn(passed) {
   if (at === null || !playing || asked) return;
-  const next = Math.max(at, reach.oldest) + passed * model.rate * Number($("speed").value);
+  const next = Math.max(at, reach.oldest) + passed * model.rate * state.speed;
   if (next >= reach.newest) goLive();
   else goTo(next);
 }
@@ -208,10 +209,11 @@ function solve() {
 
 function trouble(index) {
   const name = model.names[index];
-  if (!model.index.has(state.fixed)) return `Frame [${state.fixed}] does not exist`;
-  if (model.looped.includes(index)) return `[${name}] hangs from itself: its chain is a loop`;
-  if (at !== null) return `No data for [${name}] at the moment shown`;
-  return `No transform from [${name}] to [${state.fixed}]`;
+  // rviz's words, and the reason where there is one to tell.
+  const refusal = `No transform from [${name}] to [${state.fixed}]`;
+  if (!model.index.has(state.fixed)) return `${refusal}: frame [${state.fixed}] does not exist`;
+  if (model.looped.includes(index)) return `${refusal}: its chain is a loop`;
+  return at === null ? refusal : `${refusal} at the moment shown`;
 }
 
 /** The root of the tree with the most frames: where a stranger's picture starts. */
@@ -318,7 +320,7 @@ function words() {
   $("empty").textContent =
     connection === "wait" ? "Connecting to the session…"
     : missing ? `Frame [${state.fixed}] does not exist.\nChoose another fixed frame.`
-    : "No tf data yet.\nFrames appear here as soon as somebody broadcasts a transform.";
+    : "No tf data.  Actual error: no frame exists yet.\nFrames appear here as soon as somebody broadcasts a transform.";
 
   const index = model.index.get(state.chosen);
   $("facts").hidden = index === undefined;
@@ -480,13 +482,13 @@ function toast(text) {
 
 // ---- the address
 
-function address() {
+function address(moment = playing ? null : at) {
   return write({
     ...state,
     hidden: [...state.hidden],
     closed: [...state.closed],
     trailed: [...state.trailed],
-    at: at !== null && !playing ? at : undefined,
+    at: moment ?? undefined,
     camera: ours ? undefined : stage.cameraState(),
   });
 }
@@ -497,7 +499,8 @@ function remember() {
 }
 
 async function share() {
-  history.replaceState(null, "", address());
+  // What is asked for by hand shows the very moment, even if it is being played through.
+  history.replaceState(null, "", address(at));
   try {
     await navigator.clipboard.writeText(location.href);
     toast("Link to this view copied");
@@ -583,6 +586,14 @@ $("play").onclick = () => {
   listsAt = 0;
 };
 $("live").onclick = goLive;
+$("speed").value = String(state.speed);
+if (!$("speed").value) $("speed").value = String((state.speed = 1));
+$("speed").onchange = () => {
+  state.speed = Number($("speed").value);
+  changed();
+};
+// A link to another view, put into this very window.
+addEventListener("hashchange", () => location.reload());
 
 const keys = {
   t: "top", o: "orbit", f: "fit", n: "names", a: "axes", r: "arrows", g: "grid", m: "trails",
@@ -652,6 +663,7 @@ globalThis.tftool = {
   moment: () => model.poses?.at ?? null,
   pair: () => pair,
   reach: () => reach,
+  trails: () => lines.map(({ points }) => points.length),
   remembered: () => model.history.length,
   picture() {
     picture();

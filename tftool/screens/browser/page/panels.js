@@ -45,7 +45,7 @@ export function showFrame(model, index, fixed, trouble) {
   $("chosen").textContent = model.names[index];
   $("trouble").hidden = !trouble;
   $("trouble").textContent = trouble;
-  const facts = [["Parent", parent < 0 ? "none, a root" : model.names[parent]]];
+  const facts = [["Status", trouble ? "Warning" : "Transform OK"], ["Parent", parent < 0 ? "none, a root" : model.names[parent]]];
   if (parent >= 0) {
     facts.push(["Broadcaster", model.authorities[index]]);
     if (model.statics[index]) facts.push(["Kind", "static"]);

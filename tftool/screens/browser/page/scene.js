@@ -3,25 +3,25 @@ import {
   Color,
   ConeGeometry,
   CylinderGeometry,
-  DirectionalLight,
   DynamicDrawUsage,
   GridHelper,
-  HemisphereLight,
   InstancedBufferAttribute,
   InstancedMesh,
   Matrix4,
-  MeshLambertMaterial,
+  MeshBasicMaterial,
   MOUSE,
   OctahedronGeometry,
   OrthographicCamera,
   PerspectiveCamera,
   Quaternion,
   Scene,
+  TetrahedronGeometry,
   TOUCH,
   Vector3,
   WebGLRenderer,
 } from "three";
 import { OrbitControls } from "three/addons/controls/OrbitControls.js";
+import { Crowd } from "./crowd.js";
 
 export const THEMES = {
   dark: {
@@ -42,18 +42,32 @@ export const THEMES = {
 const AXES = ["#f0454b", "#3fc45c", "#3d84ff"];
 const SHAFT = "#cfbf57";
 const HEAD = "#ff3d94";
+const FEW = 60; // frames that are drawn in full even without a graphics card
 const GREY = new Color(0.7, 0.7, 0.7).convertSRGBToLinear().r; // what stale frames turn into
 
+/** Whether pictures are made by the processor, where every pixel and corner is dear. */
+function drawsInSoftware() {
+  const gl = document.createElement("canvas").getContext("webgl2");
+  const known = gl?.getExtension("WEBGL_debug_renderer_info");
+  const name = String(known ? gl.getParameter(known.UNMASKED_RENDERER_WEBGL) : gl?.getParameter(gl.RENDERER));
+  gl?.getExtension("WEBGL_lose_context")?.loseContext();
+  return /swiftshader|llvmpipe|softpipe|software|basic render/i.test(name);
+}
+
 function fading(mesh) {
-  // three has no opacity per instance; one number more per instance gives it.
+  // three has no opacity per instance; one number more per instance gives it. Light comes from
+  // where one looks from and is worked out per corner: lamps, per pixel, cost several times that.
   mesh.material.onBeforeCompile = (shader) => {
-    shader.vertexShader = `attribute float fade;\nvarying float vFade;\n${shader.vertexShader.replace(
+    shader.vertexShader = `attribute float fade;\nvarying float vFade;\nvarying float vShade;\n${shader.vertexShader.replace(
       "#include <begin_vertex>",
-      "#include <begin_vertex>\nvFade = fade;",
+      `#include <begin_vertex>
+      vFade = fade;
+      vec3 outward = mat3(viewMatrix) * normalize(mat3(instanceMatrix) * normal);
+      vShade = 0.62 + 0.38 * max(0.0, dot(outward, vec3(-0.28, 0.34, 0.9)));`,
     )}`;
-    shader.fragmentShader = `varying float vFade;\n${shader.fragmentShader.replace(
+    shader.fragmentShader = `varying float vFade;\nvarying float vShade;\n${shader.fragmentShader.replace(
       "#include <opaque_fragment>",
-      "diffuseColor.a *= vFade;\nif (diffuseColor.a < 0.01) discard;\n#include <opaque_fragment>",
+      "diffuseColor.a *= vFade;\nif (diffuseColor.a < 0.01) discard;\noutgoingLight *= vShade;\n#include <opaque_fragment>",
     )}`;
   };
   return mesh;
@@ -64,11 +78,12 @@ export class Stage {
     this.under = under;
     this.over = over;
     this.main = main;
-    this.renderer = new WebGLRenderer({ canvas: main, antialias: true, alpha: true });
+    this.plain = drawsInSoftware();
+    this.renderer = new WebGLRenderer({ canvas: main, antialias: !this.plain, alpha: true });
     this.renderer.setClearAlpha(0);
     this.scene = new Scene();
-    this.sun = new DirectionalLight("#ffffff", 1.6);
-    this.scene.add(new HemisphereLight("#ffffff", "#8590a0", 1.9), this.sun, this.sun.target);
+    this.crowd = new Crowd();
+    this.scene.add(this.crowd.mesh);
 
     const top = new OrthographicCamera(-1, 1, 1, -1, -1e5, 1e5);
     top.up.set(0, 1, 0);
@@ -118,7 +133,7 @@ export class Stage {
 
   resize() {
     const { clientWidth: width, clientHeight: height } = this.over;
-    const ratio = Math.min(2, devicePixelRatio || 1);
+    const ratio = this.plain ? 1 : Math.min(2, devicePixelRatio || 1);
     if (this.width === width && this.height === height && this.ratio === ratio) return;
     Object.assign(this, { width, height, ratio });
     this.renderer.setPixelRatio(ratio);
@@ -199,7 +214,7 @@ export class Stage {
     }
     const rod = () => new CylinderGeometry(1, 1, 1, 8).translate(0, 0.5, 0);
     const make = (geometry, color) => {
-      const material = new MeshLambertMaterial({ transparent: true });
+      const material = new MeshBasicMaterial({ transparent: true });
       const mesh = fading(new InstancedMesh(geometry, material, this.capacity));
       geometry.setAttribute("fade", new InstancedBufferAttribute(new Float32Array(this.capacity), 1).setUsage(DynamicDrawUsage));
       mesh.instanceColor = new InstancedBufferAttribute(new Float32Array(3 * this.capacity), 3).setUsage(DynamicDrawUsage);
@@ -217,6 +232,19 @@ export class Stage {
       make(new CylinderGeometry(1, 1, 1, 6, 1, true).translate(0, 0.5, 0), SHAFT),
       make(new ConeGeometry(1, 1, 10).translate(0, 0.5, 0), HEAD),
     ];
+    const spike = () => new ConeGeometry(1.4, 1, 3, 1, true).translate(0, 0.5, 0);
+    const simple = [
+      spike().rotateZ(-Math.PI / 2),
+      spike(),
+      spike().rotateX(Math.PI / 2),
+      new TetrahedronGeometry(1),
+      new CylinderGeometry(1, 1, 1, 3, 1, true).translate(0, 0.5, 0),
+      new ConeGeometry(1, 1, 4, 1, true).translate(0, 0.5, 0),
+    ];
+    this.meshes.forEach((mesh, at) => {
+      const flat = simple[at].index ? simple[at].toNonIndexed() : simple[at];
+      mesh.userData.corners = flat.attributes.position.array;
+    });
   }
 
   /** Draw. `frames`: [{pose, parent pose or null, grey, alpha}, …]; `look`: what is switched on. */
@@ -235,10 +263,16 @@ export class Stage {
     const size = new Vector3();
     const up = new Vector3(0, 1, 0);
     const way = new Vector3();
+    const together = this.plain && frames.length > FEW;
+    this.crowd.begin();
     const put = (mesh, index, frame) => {
-      mesh.setMatrixAt(index, matrix);
-      const { color } = mesh.userData;
+      const { color, corners } = mesh.userData;
       const blend = (own) => own + (GREY - own) * frame.grey;
+      if (together) {
+        this.crowd.add(corners, matrix, [blend(color.r), blend(color.g), blend(color.b)], frame.alpha);
+        return;
+      }
+      mesh.setMatrixAt(index, matrix);
       mesh.instanceColor.setXYZ(index, blend(color.r), blend(color.g), blend(color.b));
       mesh.geometry.attributes.fade.setX(index, frame.alpha);
     };
@@ -269,14 +303,15 @@ export class Stage {
         }
       }
     }
+    this.crowd.end();
     for (const mesh of this.meshes) {
+      mesh.visible = !together;
+      if (together) continue;
       mesh.count = mesh === shafts || mesh === heads ? arrows : axes;
       mesh.instanceMatrix.needsUpdate = true;
       mesh.instanceColor.needsUpdate = true;
       mesh.geometry.attributes.fade.needsUpdate = true;
     }
-    this.sun.position.copy(this.camera.position).add(new Vector3(-3, 2, 8));
-    this.sun.target.position.copy(this.controls[this.view].target);
     this.camera.updateMatrixWorld();
     this.renderer.render(this.scene, this.camera);
   }

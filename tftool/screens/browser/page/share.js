@@ -1,6 +1,6 @@
 // The view as part of the page's address, so that a link shows just this.
 
-const NUMBERS = ["scale", "interval", "timeout", "length", "at"];
+const NUMBERS = ["scale", "interval", "timeout", "length", "speed", "at"];
 const WORDS = ["fixed", "target", "source", "chosen", "only", "not", "view", "theme"];
 const SWITCHES = ["names", "axes", "arrows", "grid", "trails"];
 const LISTS = ["hidden", "closed", "trailed"];
