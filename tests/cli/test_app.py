@@ -49,6 +49,14 @@ def test_without_a_word_it_shows_its_help(tftool):
     assert "Start with 'tftool demo'" in result.out
 
 
+def test_the_list_of_commands_cuts_no_sentence_short(tftool, monkeypatch):
+    monkeypatch.setenv("COLUMNS", "80")
+
+    listed = tftool("--help").out.partition("Commands:\n")[2]
+
+    assert all(line.endswith(".") and "..." not in line for line in listed.splitlines())
+
+
 def test_the_version_says_which_build_runs(tftool):
     build = "interpreted" if inspect.isfunction(chains.chained) else "compiled"
 

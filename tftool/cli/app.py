@@ -94,7 +94,11 @@ def build(only: str | None = None) -> "typer.Typer":
         module = "members" if name == "session" else name
         command = getattr(import_module(f"tftool.cli.{module}"), name)
         offered = command if name == "check" else shares(command)
-        app.command(help=_laid_out(command), context_settings=SETTINGS.get(name))(offered)
+        app.command(
+            help=_laid_out(command),
+            short_help=_in_short(command),
+            context_settings=SETTINGS.get(name),
+        )(offered)
     return app
 
 
@@ -107,6 +111,10 @@ def _build() -> str:
     return "interpreted" if source.endswith(".py") else "compiled"
 
 
+SHORT = 66
+"""Characters a line of the list of commands has, on a terminal of 80 columns."""
+
+
 def _laid_out(command: "Callable[..., Any]") -> str:
     """The docstring of a command as its help; examples keep their lines."""
     from inspect import cleandoc
@@ -114,6 +122,13 @@ def _laid_out(command: "Callable[..., Any]") -> str:
     paragraphs = cleandoc(command.__doc__ or "").split("\n\n")
     # The mark by which click leaves a paragraph as it is.
     return "\n\n".join(f"\b\n{one}" if one.startswith("tftool ") else one for one in paragraphs)
+
+
+def _in_short(command: "Callable[..., Any]") -> str:
+    """The first sentence of a docstring, for the list of commands at 80 columns."""
+    first = " ".join((command.__doc__ or "").split("\n\n")[0].split())
+    # ROS's own name for it is the part that can be done without.
+    return first if len(first) <= SHORT else first.partition(" (")[0].rstrip(".") + "."
 
 
 def main(argv: "Sequence[str] | None" = None) -> int:

@@ -34,10 +34,10 @@ def launch(
         bool, typer.Option("--simulated", help="On simulated time: at once, the same every time.")
     ] = False,
 ) -> int:
-    """Launch what a ROS 2 launch file says, in Python, XML or YAML, without ROS (ros2 launch).
+    """Launch what a ROS 2 launch file says, without ROS (ros2 launch).
 
-    Packages are looked for below this folder, or in the src it belongs to; nothing is
-    built. turtlesim and turtle_tf2_py are tftool's own.
+    The file may be Python, XML or YAML. Packages are looked for below this folder, or in
+    the src it belongs to; nothing is built. turtlesim and turtle_tf2_py are tftool's own.
 
     tftool launch pkg_tf turtle_following.launch.py source_frame:=carrot1
     tftool launch turtle_tf2_py turtle_tf2_demo.launch.py --for 10
