@@ -2,7 +2,7 @@
 
 import platform
 
-from tests.benchmarks import batch, link, scalar, start_up, turtle_world, waits
+from tests.benchmarks import batch, demo, link, scalar, start_up, turtle_world, waits
 
 REPORTS = (
     scalar.report,
@@ -10,6 +10,7 @@ REPORTS = (
     waits.report,
     start_up.report,
     turtle_world.report,
+    demo.report,
     link.report,
 )
 """What is measured; add yours."""
