@@ -7,8 +7,9 @@ from pathlib import Path
 
 import tftool
 
-BROWSER = Path(tftool.__file__).parent / "screens" / "browser"
-PAGE, BUNDLE = BROWSER / "page", BROWSER / "bundle"
+# A wheel carries the bundle and not its sources.
+PAGE = Path(__file__).parents[3] / "tftool" / "screens" / "browser" / "page"
+BUNDLE = Path(tftool.__file__).parent / "screens" / "browser" / "bundle"
 REBUILD = "run `npm install --no-package-lock && npm run build` in tftool/screens/browser/page"
 
 
