@@ -3,7 +3,7 @@ import math
 from itertools import pairwise
 
 import pytest
-from hypothesis import given
+from hypothesis import example, given
 from hypothesis import strategies as st
 from rich.cells import cell_len
 from rich.console import Console
@@ -58,6 +58,7 @@ def test_the_field_is_square_on_cells_twice_as_high_as_wide(width, height):
     assert columns + 2 > width or rows + 1 > height
 
 
+@example(7, 2, [("\U000101fd0", 5.0, 0.0, 0.0), ("\u0301", 0.0, 0.0, 0.0)], [], False)
 @given(
     st.integers(0, 40),
     st.integers(0, 20),

@@ -266,13 +266,15 @@ def _cells(text: str) -> Iterator[tuple[int, str]]:
     shown: list[tuple[int, str]] = []
     for sign in text:
         width = cell_len(sign)
-        if width == 0 and shown:
-            start, before = shown[-1]
-            shown[-1] = start, before + sign
+        if width == 0:
+            # A mark stands on the sign before it; one with nothing to stand on has no cell.
+            if shown:
+                start, before = shown[-1]
+                shown[-1] = start, before + sign
             continue
         shown.append((offset, sign))
         shown.extend((offset + more, "") for more in range(1, width))
-        offset += max(1, width)
+        offset += width
     yield from shown
 
 
