@@ -144,16 +144,18 @@ def test_who_is_interrupted_leaves_nothing_behind(session_dir):
 def test_a_stopped_process_keeps_nobody_from_joining():
     import signal
 
-    with host() as first, Process("static", "--frame-id", "A", "--child-frame-id", "B") as static:
+    with host() as first:
+        # Who comes first hosts: the world has to be there before anybody else starts.
         first.says('"translation"')
-        static.says("Spinning")
-        static.started.send_signal(signal.SIGSTOP)
-        try:
-            joined = run("echo", "turtle2", "turtle1", "--once")
-            assert joined.returncode == 0
-            assert "Joined" in joined.stderr
-        finally:
-            static.started.send_signal(signal.SIGCONT)
+        with Process("static", "--frame-id", "A", "--child-frame-id", "B") as static:
+            static.says("Spinning")
+            static.started.send_signal(signal.SIGSTOP)
+            try:
+                joined = run("echo", "turtle2", "turtle1", "--once")
+                assert joined.returncode == 0
+                assert "Joined" in joined.stderr
+            finally:
+                static.started.send_signal(signal.SIGCONT)
 
 
 ROLES = {
