@@ -68,6 +68,23 @@ def stage():
         yield stage
 
 
+# What a page learns of the graphics card, where this machine has none: 0x9246 asks its name.
+CARD = """
+    const told = WebGL2RenderingContext.prototype.getParameter;
+    WebGL2RenderingContext.prototype.getParameter = function (what) {
+      return what === 0x9246 ? "a graphics card" : told.call(this, what);
+    };
+"""
+
+
+@pytest.fixture
+def card(chromium):
+    """Let the page draw as it does on a machine with a graphics card: slower here, and finer."""
+    script = chromium.execute_cdp_cmd("Page.addScriptToEvaluateOnNewDocument", {"source": CARD})
+    yield
+    chromium.execute_cdp_cmd("Page.removeScriptToEvaluateOnNewDocument", script)
+
+
 class Page:
     """The page as a person uses it."""
 
@@ -592,12 +609,16 @@ def test_the_screenshot_button_saves_a_picture(chromium, stage):
     assert told[2] > 1000
 
 
-def test_a_crowd_of_frames_is_painted_in_its_colours(chromium, stage):
+@pytest.mark.parametrize("drawn_by", ["processor", "card"])
+def test_a_crowd_of_frames_is_painted_in_its_colours(chromium, stage, drawn_by, request):
     # Where no graphics card draws, many frames are drawn in another way than few.
+    if drawn_by == "card":
+        request.getfixturevalue("card")
     links = [("world", f"f{index}") for index in range(100)]
     stage.mount(*links, x=2.0)
     page = Page(chromium, stage, "names=0&grid=0&theme=dark&scale=3")
     page.until(lambda: len(page.drawn()) == 101)
+    assert page.said("tftool.plain()") == (drawn_by == "processor")
 
     colours = page.driver.execute_script(
         """
@@ -627,9 +648,9 @@ def test_thousands_of_frames_are_answered_and_what_is_left_out_is_said(chromium,
     PICTURE.exists() and not os.environ.get("TFTOOL_PICTURES"),
     reason="the README's picture is there; TFTOOL_PICTURES=1 makes it anew",
 )
-def test_the_readmes_picture_is_made_from_the_page_as_it_is(chromium):
+def test_the_readmes_picture_is_made_from_the_page_as_it_is(chromium, card):
     chromium.set_window_size(1280, 984)
-    with Stage(scenario="robot", lived=20.0) as stage:
+    with Stage(scenario="robot", lived=17.0) as stage:
         page = Page(
             chromium,
             stage,
@@ -638,7 +659,7 @@ def test_the_readmes_picture_is_made_from_the_page_as_it_is(chromium):
         )
         page.until(lambda: page.text("#sentence") == "laser_point in map")
         page.until(lambda: page.text("#chosen") == "laser_link")
-        page.until(lambda: chromium.execute_script("return tftool.remembered()") >= 100)
+        page.until(lambda: chromium.execute_script("return tftool.remembered()") >= 240)
         PICTURE.parent.mkdir(exist_ok=True)
         assert chromium.save_screenshot(str(PICTURE))
 

@@ -90,8 +90,9 @@ const wire = new Wire({
     tree.build(model, state);
     fillChoices();
     // Trails start with what the buffer remembers; once the tree has come to rest.
-    clearTimeout(askPast.timer);
-    askPast.timer = setTimeout(askPast, 300);
+    // Once more later: what came while the page was busy starting has gaps.
+    askPast.timers?.forEach(clearTimeout);
+    askPast.timers = [300, 3000].map((wait) => setTimeout(askPast, wait));
     $("left-out").hidden = model.total <= model.names.length;
     $("left-out").textContent =
       `${model.names.length} of ${model.total} frames shown; those farthest from their root are left out.`;
@@ -405,7 +406,7 @@ function fillChoices() {
     const options = model.names.map((name) => new Option(name, name));
     // What is asked for stays choosable while it does not exist.
     if (value !== undefined && !model.index.has(value)) options.unshift(new Option(value, value));
-    if (id !== "fixed") options.unshift(new Option("choose a frame", ""));
+    if (id !== "fixed") options.unshift(new Option("choose…", ""));
     $(id).replaceChildren(...options);
     $(id).value = value ?? "";
   }
@@ -663,6 +664,7 @@ globalThis.tftool = {
   moment: () => model.poses?.at ?? null,
   pair: () => pair,
   reach: () => reach,
+  plain: () => stage.plain,
   trails: () => lines.map(({ points }) => points.length),
   remembered: () => model.history.length,
   picture() {
