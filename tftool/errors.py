@@ -296,5 +296,5 @@ class MalformedMessage(InputError):
         self.reason = reason
 
 
-class LinkError(TftoolError):
+class LinkError(InputError):
     """A session with other processes cannot be opened, or one of them does not answer."""

@@ -74,7 +74,7 @@ def test_a_named_world_cannot_be_joined(tftool):
 def test_a_zenoh_configuration_that_is_none_is_a_sentence(tftool):
     result = tftool("echo", "a", "b", "--zenoh-config", "README.md")
 
-    assert result.status == 1
+    assert result.status == 3
     assert "the link cannot be opened (README.md)" in result.err
 
 

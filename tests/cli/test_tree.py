@@ -31,6 +31,13 @@ def test_without_a_source_it_shows_the_hosted_turtles(tftool):
     assert "turtle2" in result.out
 
 
+def test_a_chosen_moment_is_simulated_whatever_runs_here(tftool):
+    result = tftool("tree", "--at", "0.5")
+
+    assert result.err == "A chosen moment is always simulated: hosting scenario 'turtles'.\n"
+    assert result.out.startswith("Recorded at time: 1000.500000\n")
+
+
 def test_the_moment_can_be_chosen(tftool):
     result = tftool("tree", "turtles", "--at", "0.5")
 

@@ -105,7 +105,10 @@ def echo(
 
     clock = None if at is None else SimClock()
     session = open_session(
-        place, clock=clock, cache_time=None if cache_time is None else seconds(cache_time)
+        place,
+        clock=clock,
+        cache_time=None if cache_time is None else seconds(cache_time),
+        at_a_moment=at is not None,
     )
     heading = in_words(target, source)
     moment = patience = 0

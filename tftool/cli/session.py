@@ -138,6 +138,7 @@ def open_session(
     cache_time: Duration | None = None,
     without: Callable[["NodeEntry"], bool] | None = None,
     needs_turtles: bool = False,
+    at_a_moment: bool = False,
 ) -> Session:
     """Give the world a command works in, and say so on stderr when it had to be made.
 
@@ -148,6 +149,8 @@ def open_session(
         cache_time: How far back the world's buffer remembers, in place of the scenario's own.
         without: Says which of a hosted scenario's nodes to leave out.
         needs_turtles: Whether only a session with a turtle simulator will do.
+        at_a_moment: Whether the question is about a moment of the scenario, which no
+            session answers.
 
     Raises:
         InputError: If there is no such scenario, or it cannot be read.
@@ -159,7 +162,7 @@ def open_session(
         if joined is not None:
             return joined
     try:
-        return _hosted(source, clock, head_start, cache_time, without, link)
+        return _hosted(source, clock, head_start, cache_time, without, link, at_a_moment)
     except BaseException:
         if link is not None:
             link.close()
@@ -233,6 +236,7 @@ def _hosted(
     cache_time: Duration | None,
     without: Callable[["NodeEntry"], bool] | None,
     link: "Link | None",
+    at_a_moment: bool,
 ) -> Session:
     from tftool.scenario.builtin import find
     from tftool.scenario.load import load
@@ -240,7 +244,8 @@ def _hosted(
 
     scenario = _lived_in(load(find(source or HOME)), cache_time, without)
     if source is None:
-        notice(f"No session is running here: hosting scenario '{HOME}'.")
+        why = "A chosen moment is always simulated" if at_a_moment else "No session is running here"
+        notice(f"{why}: hosting scenario '{HOME}'.")
     if clock is None:
         clock = WallClock(head_start=head_start)
     else:
