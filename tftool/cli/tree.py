@@ -105,9 +105,7 @@ def tree(
         _write(joined.world.buffer.snapshot(joined.world.clock.now()), form, output)
         return
     clock = SimClock()
-    session = open_session(
-        place, clock=clock, cache_time=cache, at_a_moment=at is not None
-    )
+    session = open_session(place, clock=clock, cache_time=cache, at_a_moment=at is not None)
     session.live_until(session.moment(seconds(LISTEN if at is None else at)))
     _write(session.world.buffer.snapshot(clock.now()), form, output)
 

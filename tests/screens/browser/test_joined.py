@@ -88,5 +88,5 @@ def test_a_view_that_joined_goes_on_with_the_next_session():
 def test_view_asked_to_join_where_nothing_runs_says_what_to_do():
     with Process("view", "--port", "0", "--join") as view:
         view.says("No session is running in domain 0: start one with 'tftool demo'")
-        assert view.end() == 1
+        assert view.end() == 3
     assert "Traceback" not in view.text
