@@ -395,6 +395,32 @@ def test_markup_in_a_name_is_text(chromium, stage):
     assert chromium.title == "tftool view"
 
 
+def test_a_name_of_five_hundred_letters_keeps_inside_its_panel(chromium, stage):
+    long = "long_" * 100
+    stage.put(1.0, child=long)
+    page = Page(chromium, stage)
+    page.until(lambda: long in page.drawn())
+
+    page.row(long).find_element(By.CLASS_NAME, "name").click()
+    page.until(lambda: page.text("#chosen") == long)
+
+    width = chromium.execute_script("return document.documentElement.scrollWidth")
+    assert width <= chromium.execute_script("return window.innerWidth")
+
+
+def test_a_frame_infinitely_far_away_leaves_the_others_where_they_are(chromium, stage):
+    # The buffer refuses NaN, but takes infinity as tf2 does: seen from there, all is NaN.
+    stage.put(math.inf, child="beyond")
+    stage.put(2.0, child="here")
+    page = Page(chromium, stage)
+    page.until(lambda: "here" in page.drawn())
+
+    Select(page.find("#fixed")).select_by_visible_text("beyond")
+    Select(page.find("#fixed")).select_by_visible_text("world")
+
+    page.until(lambda: page.x_of("here") == pytest.approx(2.0))
+
+
 def test_a_stale_frame_fades_away_and_comes_back_and_statics_never_fade(chromium, stage):
     stage.put(1.0)
     stage.mount(("world", "camera"))
