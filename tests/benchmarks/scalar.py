@@ -9,6 +9,7 @@ from pathlib import Path
 from tests.differential.compare import PYTHON, missing
 
 SIDE = Path(__file__).with_name("scalar_side.py")
+ROOT = Path(__file__).parents[2]
 TURNS = 15
 
 # Workload, and how many times faster than Debian's ours is meant to be in the interpreter.
@@ -30,8 +31,7 @@ WORKLOADS = {
 class Process:
     """One side, kept alive; asked in turn with the other."""
 
-    def __init__(self, side: str) -> None:
-        root = Path(__file__).parents[2]
+    def __init__(self, side: str, root: Path) -> None:
         self.process = subprocess.Popen(
             [PYTHON, str(SIDE), side],
             stdin=subprocess.PIPE,
@@ -61,24 +61,42 @@ def agree(one: list[float], other: list[float]) -> bool:
 
 
 def report() -> str:
-    """Measure, and say it in a few lines."""
+    """Measure, and say it in a few lines.
+
+    With TFTOOL_COMPILED naming a folder the compiled build was installed into
+    (`TFTOOL_COMPILE=1 pip install --target FOLDER .`), that build is measured in the same turns.
+    """
     if reason := missing():
         return f"scalar path: nothing to compare with, {reason}"
+    roots = {"ours": ROOT}
+    if folder := os.environ.get("TFTOOL_COMPILED"):
+        roots["compiled"] = Path(folder)
+    sides = {name: Process("ours", root) for name, root in roots.items()}
+    sides["tf2_py"] = Process("debian", ROOT)
     lines = [
         f"scalar path, nanoseconds (median of {TURNS} turns each, {PYTHON})",
-        f"  {'':<40}{'ours':>8}{'tf2_py':>8}{'ratio':>7}",
+        f"  {'':<40}" + "".join(f"{name:>10}" for name in sides) + "   times as fast",
     ]
-    ours, debian = Process("ours"), Process("debian")
     for workload, wanted in WORKLOADS.items():
-        first, second = ours.run(workload)[1], debian.run(workload)[1]
-        if not agree(first, second):
-            lines.append(f"  {workload:<40} answers differ: {first} and {second}")
+        *answers, theirs = [side.run(workload)[1] for side in sides.values()]
+        if not all(agree(answer, theirs) for answer in answers):
+            lines.append(f"  {workload:<40} answers differ: {answers} and {theirs}")
             continue
-        taken = [(ours.run(workload)[0], debian.run(workload)[0]) for _ in range(TURNS)]
-        mine, theirs = (statistics.median(side) for side in zip(*taken, strict=True))
-        ratio = theirs / mine
-        goal = "" if wanted is None else f"   meant: {wanted}" + (" missed" * (ratio < wanted))
-        lines.append(f"  {workload:<40}{mine:8.0f}{theirs:8.0f}{ratio:7.2f}{goal}")
-    ours.end()
-    debian.end()
+        turns = [[side.run(workload)[0] for side in sides.values()] for _ in range(TURNS)]
+        taken = [statistics.median(side) for side in zip(*turns, strict=True)]
+        ratios = [taken[-1] / mine for mine in taken[:-1]]
+        goal = "" if wanted is None else f"   meant: {wanted}" + (" missed" * (ratios[0] < wanted))
+        lines.append(
+            f"  {workload:<40}"
+            + "".join(f"{one:10.0f}" for one in taken)
+            + "   "
+            + " ".join(f"{ratio:6.2f}" for ratio in ratios)
+            + goal
+        )
+    for side in sides.values():
+        side.end()
     return "\n".join(lines)
+
+
+if __name__ == "__main__":
+    print(report())  # noqa: T201
