@@ -57,6 +57,15 @@ def test_the_list_of_commands_cuts_no_sentence_short(tftool, monkeypatch):
     assert all(line.endswith(".") and "..." not in line for line in listed.splitlines())
 
 
+@pytest.mark.parametrize("command", COMMANDS)
+def test_the_list_says_of_a_command_what_its_own_help_begins_with(tftool, command):
+    summary = COMMANDS[command].partition(" (")[0].rstrip(".")
+
+    own = tftool(command, "--help").out.partition("\n\n")[2]
+
+    assert " ".join(own.split()).startswith(summary)
+
+
 def test_the_version_says_which_build_runs(tftool):
     build = "interpreted" if inspect.isfunction(chains.chained) else "compiled"
 

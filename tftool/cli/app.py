@@ -8,27 +8,28 @@ import sys
 TYPE_CHECKING = False
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Sequence
+    from collections.abc import Callable, Collection, Sequence
     from types import FrameType
     from typing import Any
 
     import typer
 
-# In the order of the help. Each is a function of its own name in a module of its own name.
-COMMANDS = (
-    "demo",
-    "teleop",
-    "echo",
-    "static",
-    "tree",
-    "follow",
-    "monitor",
-    "view",
-    "session",
-    "check",
-    "run",
-    "launch",
-)
+# In the order of the help, with what the help says of each: reading that from the commands
+# themselves would import them all. Each is a function of its own name in a module of that name.
+COMMANDS = {
+    "demo": "Show turtle2 following turtle1.",
+    "teleop": "Drive a turtle with the arrow keys.",
+    "echo": "Print where SOURCE is in TARGET (ros2 run tf2_ros tf2_echo).",
+    "static": "Publish where CHILD is in PARENT (static_transform_publisher).",
+    "tree": "Show which frame hangs from which (rqt_tf_tree, view_frames).",
+    "follow": "Let FOLLOWER follow LEADER (the tutorial's turtle_following).",
+    "monitor": "Show how often and how late transforms arrive (tf2_monitor).",
+    "view": "Show the frames in 3-D, in a browser (rviz2 with its TF display).",
+    "session": "Show who shares the session that runs here.",
+    "check": "Play scenarios on simulated time and judge what they expect.",
+    "run": "Run a node written for ROS 2, unmodified, without ROS (ros2 run).",
+    "launch": "Launch what a ROS 2 launch file says, without ROS (ros2 launch).",
+}
 
 # What differs from click's reading of a command line.
 SETTINGS = {
@@ -46,14 +47,13 @@ NO_TRANSFORM = 4
 INTERRUPTED = 130
 
 
-def build(only: str | None = None) -> "typer.Typer":
+def build(words: "Collection[str]" = COMMANDS) -> "typer.Typer":
     """Give the app; what a command needs is imported when it runs.
 
     Args:
-        only: The one command that will be asked for, where that is known: describing the
-            others to typer takes longer than to start Python.
+        words: What the command line says. A command that is not among them is listed, but
+            not described: that takes longer, for all of them, than to start Python twice.
     """
-    from importlib import import_module
     from typing import Annotated
 
     import typer
@@ -87,19 +87,31 @@ def build(only: str | None = None) -> "typer.Typer":
         if context.invoked_subcommand is None:
             sys.stdout.write(context.get_help() + "\n")
 
+    for name, summary in COMMANDS.items():
+        command = _load(name) if name in words else _unasked
+        app.command(
+            name,
+            help=_laid_out(command),
+            short_help=summary,
+            context_settings=SETTINGS.get(name),
+        )(command)
+    return app
+
+
+def _load(name: str) -> "Callable[..., Any]":
+    """A command with all its options."""
+    from importlib import import_module
+
     from tftool.cli.sharing import shares
 
-    for name in (only,) if only in COMMANDS else COMMANDS:
-        # The module that decides who joins and who hosts has the name already.
-        module = "members" if name == "session" else name
-        command = getattr(import_module(f"tftool.cli.{module}"), name)
-        offered = command if name == "check" else shares(command)
-        app.command(
-            help=_laid_out(command),
-            short_help=_in_short(command),
-            context_settings=SETTINGS.get(name),
-        )(offered)
-    return app
+    # The module that decides who joins and who hosts has the name already.
+    module = "members" if name == "session" else name
+    command: Callable[..., Any] = getattr(import_module(f"tftool.cli.{module}"), name)
+    return command if name == "check" else shares(command)
+
+
+def _unasked() -> None:
+    """Stand for a command that is only listed."""
 
 
 def _build() -> str:
@@ -111,10 +123,6 @@ def _build() -> str:
     return "interpreted" if source.endswith(".py") else "compiled"
 
 
-SHORT = 66
-"""Characters a line of the list of commands has, on a terminal of 80 columns."""
-
-
 def _laid_out(command: "Callable[..., Any]") -> str:
     """The docstring of a command as its help; examples keep their lines."""
     from inspect import cleandoc
@@ -122,13 +130,6 @@ def _laid_out(command: "Callable[..., Any]") -> str:
     paragraphs = cleandoc(command.__doc__ or "").split("\n\n")
     # The mark by which click leaves a paragraph as it is.
     return "\n\n".join(f"\b\n{one}" if one.startswith("tftool ") else one for one in paragraphs)
-
-
-def _in_short(command: "Callable[..., Any]") -> str:
-    """The first sentence of a docstring, for the list of commands at 80 columns."""
-    first = " ".join((command.__doc__ or "").split("\n\n")[0].split())
-    # ROS's own name for it is the part that can be done without.
-    return first if len(first) <= SHORT else first.partition(" (")[0].rstrip(".") + "."
 
 
 def main(argv: "Sequence[str] | None" = None) -> int:
@@ -216,7 +217,7 @@ def _run(argv: list[str]) -> int:
     # exports, so that either kind is caught.
     wrong_usage = cast(type[Exception], typer.BadParameter.__mro__[1])
     try:
-        command = get_command(build(argv[0] if argv else None))
+        command = get_command(build(argv))
         with command.make_context("tftool", argv) as context:
             gc.enable()
             result = command.invoke(context)
