@@ -560,7 +560,7 @@ def test_loggers_speak_under_their_names_from_their_level_on(node, ros_runtime):
         ("probe", "INFO", "one"),
         ("probe", "WARN", "two"),
         ("probe.part", "ERROR", "three"),
-        ("free", "ERROR", "four"),
+        ("free", "FATAL", "four"),
         ("probe", "DEBUG", "five"),
     ]
     assert logger.is_enabled_for(LoggingSeverity.DEBUG)
@@ -577,6 +577,21 @@ def test_a_line_can_be_said_once_or_seldom(node, ros_runtime):
         ros_runtime.sleep(1.0)
 
     assert ros_runtime.log("probe") == ["once", "seldom", "not first", "seldom", "not first"]
+
+
+def test_two_filters_of_a_line_hold_together(node, ros_runtime):
+    logger = node.get_logger()
+    for turn in range(4):
+        logger.info(f"second {turn}", once=True, skip_first=True)
+        logger.info(f"later {turn}", throttle_duration_sec=1.5, skip_first=True)
+        logger.info("a", once=True), logger.info("b", once=True)
+        ros_runtime.sleep(1.0)
+    logger.log("named", 20, name="other")
+    with pytest.raises(TypeError, match="thrice"):
+        logger.info("a", thrice=True)
+
+    assert ros_runtime.log("probe") == ["a", "b", "second 1", "later 2"]
+    assert ros_runtime.log("other") == ["named"]
 
 
 # Times

@@ -3,11 +3,17 @@
 from collections import deque
 from collections.abc import Callable
 from dataclasses import dataclass
-from typing import Literal
+from typing import Literal, get_args
 
-from tftool.stamps import Stamp
+from tftool.stamps import NANOSECONDS, Stamp
 
-Level = Literal["DEBUG", "INFO", "WARN", "ERROR"]
+Level = Literal["DEBUG", "INFO", "WARN", "ERROR", "FATAL"]
+
+LEVELS: tuple[Level, ...] = get_args(Level)
+"""From what hardly matters to what ends everything."""
+
+PROBLEMS: tuple[Level, ...] = ("WARN", "ERROR", "FATAL")
+"""The levels of what a user should hear of, whoever says it."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -25,6 +31,11 @@ class LogRecord:
     level: Level
     node: str
     text: str
+
+    def __str__(self) -> str:
+        """The line as ROS 2's console shows it."""
+        second, rest = divmod(self.stamp, NANOSECONDS)
+        return f"[{self.level}] [{second}.{rest:09d}] [{self.node}]: {self.text}"
 
 
 class Log:

@@ -6,6 +6,7 @@ from typing import Any
 
 from tftool.ros import fibers, program
 from tftool.runtime.log import Level
+from tftool.stamps import Duration, Stamp, seconds
 
 
 class LoggingSeverity(IntEnum):
@@ -19,7 +20,7 @@ class LoggingSeverity(IntEnum):
     FATAL = 50
 
 
-_LEVELS: dict[int, Level] = {10: "DEBUG", 20: "INFO", 30: "WARN", 40: "ERROR", 50: "ERROR"}
+_LEVELS: dict[int, Level] = {10: "DEBUG", 20: "INFO", 30: "WARN", 40: "ERROR", 50: "FATAL"}
 
 
 class RcutilsLogger:
@@ -27,7 +28,7 @@ class RcutilsLogger:
 
     def __init__(self, name: str = "") -> None:
         self.name = name
-        self._seen: dict[tuple[str, int], int] = {}
+        self._filters: dict[tuple[str, int, int], _Filter] = {}
 
     def get_child(self, name: str) -> "RcutilsLogger":
         """A logger named below this one.
@@ -66,30 +67,26 @@ class RcutilsLogger:
         skip_first: bool = False,
         throttle_duration_sec: float | None = None,
         throttle_time_source_type: Any = None,
+        name: str = "",
     ) -> bool:
         """Say a line; whether it was said.
 
-        `once`, `skip_first` and `throttle_duration_sec` count per line of code.
+        `once`, `skip_first` and `throttle_duration_sec` count per call in the code, and hold
+        together: with two of them a line must pass both.
         """
         if fibers.current() is None or not self.is_enabled_for(severity):
             return False
         owner = program.current()
-        if once or skip_first or throttle_duration_sec is not None:
+        if once or skip_first or throttle_duration_sec:
             place = _caller()
-            last = self._seen.get(place)
-            now = owner.clock.now()
-            if last is None:
-                self._seen[place] = now
-                if skip_first:
-                    return False
-            elif once:
+            if place not in self._filters:
+                wait = 0 if throttle_duration_sec is None else seconds(throttle_duration_sec)
+                self._filters[place] = _Filter(once, skip_first, wait)
+            if not self._filters[place].passes(owner.clock.now()):
                 return False
-            elif throttle_duration_sec is not None:
-                if now - last < throttle_duration_sec * 1e9:
-                    return False
-                self._seen[place] = now
         level = _LEVELS[int(severity)]
-        owner.ask(lambda: owner.world.log.add(level, self.name, str(message)))
+        speaker = name or self.name
+        owner.ask(lambda: owner.world.log.add(level, speaker, str(message)))
         return True
 
     def debug(self, message: object, **kwargs: Any) -> bool:
@@ -115,11 +112,38 @@ class RcutilsLogger:
         return self.log(message, LoggingSeverity.FATAL, **kwargs)
 
 
-def _caller() -> tuple[str, int]:
+class _Filter:
+    """What one call in the code has let through so far."""
+
+    def __init__(self, once: bool, skip_first: bool, throttle: Duration) -> None:
+        self._left = 1 if once else None
+        self._skip = skip_first
+        self._throttle = throttle
+        self._last: Stamp | None = None
+
+    def passes(self, now: Stamp) -> bool:
+        """Whether a line may be said now; asked in ROS 2's order, so it counts as there."""
+        if self._throttle:
+            if self._last is not None and now < self._last + self._throttle:
+                return False
+            self._last = now
+        if self._skip:
+            self._skip = False
+            return False
+        if self._left is not None:
+            self._left -= 1
+            return self._left >= 0
+        return True
+
+
+def _caller() -> tuple[str, int, int]:
     frame = inspect.currentframe()
     while frame is not None and frame.f_code.co_filename == __file__:
         frame = frame.f_back
-    return ("", 0) if frame is None else (frame.f_code.co_filename, frame.f_lineno)
+    if frame is None:
+        return "", 0, 0
+    # The last tells two calls on one line apart.
+    return frame.f_code.co_filename, frame.f_lineno, frame.f_lasti
 
 
 _root = RcutilsLogger()
