@@ -277,6 +277,15 @@ def test_a_warning_that_repeats_is_one_line_with_a_count():
     assert log(journal, until=99, width=60, look=ASCII)[0].endswith("x63")
 
 
+def test_what_is_fatal_is_as_red_as_an_error_and_counted_as_one():
+    lines = Journal([record(n, f"engine {n} is gone", "FATAL") for n in range(3)]).lines(
+        seconds(1060), seconds(1000), 40, 5, PLAIN
+    )
+
+    assert words(lines) == ["   2.0 sim: engine 2 is gone ×3"]
+    assert PLAIN.ink(PLAIN.palette.error) in [span.style for span in lines[0].spans]
+
+
 def test_two_turtles_that_spawn_are_two_lines():
     journal = Journal(
         [record(0, "Spawning turtle [turtle1]"), record(1, "Spawning turtle [turtle2]")]

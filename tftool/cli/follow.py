@@ -101,14 +101,16 @@ def follow(
     tftool follow turtle1 turtle3
     tftool follow turtle1 turtle2 --delay 5        where turtle1 was 5 s ago
     """
+    from tftool.cli import console_log
     from tftool.cli.onscreen import simulator_of
     from tftool.cli.session import notice, open_session
     from tftool.errors import UsageError
     from tftool.motion.pid import Gains
     from tftool.nodes.broadcasters import Broadcaster
     from tftool.nodes.follower import Follower
-    from tftool.stamps import NANOSECONDS, as_seconds
-    from tftool.views.escaping import visible, visible_lines
+    from tftool.runtime.log import PROBLEMS
+    from tftool.stamps import as_seconds
+    from tftool.views.escaping import visible
 
     session = open_session(
         place,
@@ -129,10 +131,8 @@ def follow(
 
     def tell(record: "LogRecord") -> None:
         # What the link has to say the session tells.
-        if record.node == NAME or (record.level in ("WARN", "ERROR") and record.node != "link"):
-            second, rest = divmod(record.stamp, NANOSECONDS)
-            text = visible_lines(record.text.rstrip())
-            notice(f"[{record.level}] [{second}.{rest:09d}] [{record.node}]: {text}")
+        if record.node == NAME or (record.level in PROBLEMS and record.node != "link"):
+            console_log.tell(record)
 
     world.log.listen(tell)
     Follower(

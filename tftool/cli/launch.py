@@ -46,6 +46,7 @@ def launch(
     import sys
     from pathlib import Path
 
+    from tftool.cli import console_log
     from tftool.cli.session import notice, open_empty_session, open_session
     from tftool.cli.sharing import Mode, choice
     from tftool.errors import NodeFailed, TftoolError, UsageError
@@ -79,8 +80,7 @@ def launch(
         def tell(record: "LogRecord") -> None:
             # What the link has to say the session tells.
             if record.node != "link":
-                label = started.label_of(record.node)
-                notice(visible_lines(f"[{label}] {hosting.log_line(record)}"))
+                console_log.tell(record, label=started.label_of(record.node))
 
         world.log.listen(tell)
         try:

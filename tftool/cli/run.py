@@ -51,11 +51,11 @@ def run(
     """
     from pathlib import Path
 
-    from tftool.cli.session import notice, open_empty_session, open_session
+    from tftool.cli import console_log
+    from tftool.cli.session import open_empty_session, open_session
     from tftool.errors import UsageError
     from tftool.ros import hosting
     from tftool.runtime.clock import SimClock
-    from tftool.views.escaping import visible_lines
 
     if simulated and run_for is None:
         raise UsageError("on simulated time a run needs an end: --for SECONDS")
@@ -75,7 +75,7 @@ def run(
         def tell(record: "LogRecord") -> None:
             # What the link has to say the session tells.
             if record.node != "link":
-                notice(visible_lines(hosting.log_line(record)))
+                console_log.tell(record)
 
         world.log.listen(tell)
         ending: list[hosting.Ending] = []

@@ -14,17 +14,10 @@ from tftool.ros.launching.engine import Launch, declared, shown_arguments
 from tftool.ros.program import Program
 from tftool.ros.workspace import Workspace
 from tftool.runtime.clock import Phase
-from tftool.runtime.log import LogRecord
 from tftool.runtime.world import World
-from tftool.stamps import NANOSECONDS, Duration
+from tftool.stamps import Duration
 
 FILES = (".py", ".xml", ".yaml", ".yml")
-
-
-def log_line(record: LogRecord) -> str:
-    """A line of the log as ROS 2 writes it."""
-    second, rest = divmod(record.stamp, NANOSECONDS)
-    return f"[{record.level}] [{second}.{rest:09d}] [{record.node}]: {record.text}"
 
 
 def is_file(word: str) -> bool:

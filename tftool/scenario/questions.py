@@ -6,6 +6,7 @@ Each field names the reader of its value. `expectations` answers them.
 from dataclasses import dataclass
 from typing import ClassVar
 
+from tftool.runtime.log import LEVELS
 from tftool.scenario import values
 from tftool.scenario.reading import reads
 from tftool.scenario.values import Moment
@@ -237,7 +238,7 @@ class Logged:
     short: ClassVar[str] = "text"
     text: str = reads(values.text)
     node: str | None = reads(values.name("a node"), None)
-    level: str | None = reads(values.choice(("DEBUG", "INFO", "WARN", "ERROR"), "a level"), None)
+    level: str | None = reads(values.choice(LEVELS, "a level"), None)
 
     def __str__(self) -> str:
         by = f" by {self.node}" if self.node else ""

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 from rich.text import Text
 
-from tftool.runtime.log import LogRecord
+from tftool.runtime.log import PROBLEMS, LogRecord
 from tftool.screens.look import Look, wrapped
 from tftool.stamps import Stamp, as_seconds
 
@@ -36,7 +36,7 @@ class Journal:
     def add(self, record: LogRecord) -> None:
         """Take in a line of the world's log."""
         self.revision += 1
-        warns = record.level in {"WARN", "ERROR"}
+        warns = record.level in PROBLEMS
         text = self._NUMBERS.sub("#", record.text) if warns else record.text
         kind = f"{record.level}\n{record.node}\n{text}"
         # Those that repeat themselves take turns: the last few lines are looked at.
@@ -74,9 +74,8 @@ class Journal:
 
     def _entry(self, entry: _Entry, start: Stamp, width: int, look: Look) -> list[Text]:
         palette = look.palette
-        color = {"WARN": palette.warning, "ERROR": palette.error}.get(
-            entry.last.level, palette.text
-        )
+        colors = {"WARN": palette.warning, "ERROR": palette.error, "FATAL": palette.error}
+        color = colors.get(entry.last.level, palette.text)
         when = f"{as_seconds(entry.last.stamp - start):.1f} "
         indent = 2 if width < 40 else 7
         when = when.rjust(indent)
