@@ -4,7 +4,7 @@ from functools import partial
 import pytest
 
 from tftool.cli import onscreen
-from tftool.screens import terminal
+from tftool.screens import showing, terminal
 
 BAD = """\
 about: Nothing holds.
@@ -20,7 +20,7 @@ expect:
 def on_terminal(monkeypatch):
     """A terminal that everything is drawn for, but not on."""
     monkeypatch.setattr(onscreen, "has_terminal", lambda: True)
-    monkeypatch.setattr(terminal, "show", partial(terminal.show, headless=True))
+    monkeypatch.setattr(showing, "show", partial(showing.show, headless=True))
     apps = []
     started = terminal.TurtleApp.on_mount
 

@@ -9,7 +9,7 @@ from tftool.messages import Pose2D
 from tftool.nodes.teleop import BANNER
 from tftool.runtime.clock import SimClock, run
 from tftool.runtime.world import World
-from tftool.screens import terminal
+from tftool.screens import showing
 
 
 def test_without_a_terminal_teleop_asks_for_keys(tftool):
@@ -89,9 +89,9 @@ def pressing(monkeypatch):
             app.run_async = partial(app.run_async, auto_pilot=pilot)
             await shown(app, life, headless=True)
 
-        shown = terminal.show
+        shown = showing.show
         monkeypatch.setattr(onscreen, "has_terminal", lambda: True)
-        monkeypatch.setattr(terminal, "show", see)
+        monkeypatch.setattr(showing, "show", see)
         return apps
 
     return press

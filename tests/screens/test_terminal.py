@@ -13,7 +13,8 @@ from tftool.runtime.world import World
 from tftool.screens.panel import Panel
 from tftool.screens.scene import Scene
 from tftool.screens.setting import Setting, setting_from
-from tftool.screens.terminal import TurtleApp, show
+from tftool.screens.showing import show
+from tftool.screens.terminal import TurtleApp
 from tftool.stamps import seconds
 from tftool.views import theme
 

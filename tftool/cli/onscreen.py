@@ -78,7 +78,8 @@ def run_app(
     from tftool.runtime.clock import run
     from tftool.screens.scene import Scene
     from tftool.screens.setting import setting_from
-    from tftool.screens.terminal import TurtleApp, show
+    from tftool.screens.showing import show
+    from tftool.screens.terminal import TurtleApp
 
     setting = setting_from(os.environ, sys.stdout.encoding or "ascii", setting)
     scene = Scene(world, simulator_of(world))

@@ -6,9 +6,8 @@ Time in it is the world's; how often it looks is real time, so that a world at
 """
 
 import asyncio
-from collections.abc import Callable, Coroutine
-from dataclasses import replace
-from typing import Any, ClassVar
+from collections.abc import Callable
+from typing import ClassVar
 
 from rich.segment import Segment
 from rich.text import Text
@@ -23,17 +22,15 @@ from tftool.screens.journal import Journal
 from tftool.screens.layout import SMALLEST, arranged
 from tftool.screens.look import Look, wrapped
 from tftool.screens.panel import Panel, themes
+from tftool.screens.question import Question
 from tftool.screens.scene import Moment, Scene
 from tftool.screens.setting import Setting
-from tftool.stamps import Duration, Stamp, seconds
+from tftool.stamps import Duration, seconds
 from tftool.views import canvas, theme
 
 LOOKS_PER_SECOND = 20
 PANELS_EVERY = 3
 """Of that many looks, the text beside the field is written anew in one."""
-
-PATIENCE = seconds(4.0)
-"""For how long after the start the frames of the first pair are waited for."""
 
 REST = 4.0
 """For how many times as long as a look took there is no other one."""
@@ -112,10 +109,7 @@ class TurtleApp(App[None]):
         self.ready = asyncio.Event()
         self._press = press
         self._light = self.setting.light
-        self._target, self._source = self.setting.pair
-        self._picked = False
-        self._at: Stamp | None = None
-        self._moment: Moment | None = None
+        self._question = Question(scene, self.setting.pair)
         self._stale = True
         self._painted: object = None
         self._count = 0
@@ -175,7 +169,8 @@ class TurtleApp(App[None]):
 
     def _arrange(self, width: int, height: int) -> None:
         banner = self._banner(width) if height >= 24 else []
-        frames = 3 if self._moment is None else len(self._moment.snapshot.frames)
+        moment = self._question.moment
+        frames = 3 if moment is None else len(moment.snapshot.frames)
         layout = arranged(width, height, len(banner), frames)
         for name in ("header", "footer"):
             self.panel(name).display = not layout.small
@@ -234,45 +229,24 @@ class TurtleApp(App[None]):
             words = f"This terminal is {width}x{height}; tftool needs {least} or more."
             self.panel("small").show(wrapped(words, width))
             return
-        moment = self._moment
-        if self._at is None or self._stale or moment is None:
+        question = self._question
+        moment = question.moment
+        if question.at is None or self._stale or moment is None:
             frames = 0 if moment is None else len(moment.snapshot.frames)
             simulator = self.scene.simulator
             painted = None if simulator is None else simulator.revision
             if not (panels_too or painted != self._painted or painted is None):
                 return
             self._painted = painted
-            moment = self._moment = self._current()
+            moment = question.ask()
             if len(moment.snapshot.frames) != frames:
                 self._arrange(width, height)
         else:
-            now = self.scene.world.clock.now()
-            moment = self._moment = replace(moment, behind=now - moment.stamp)
+            moment = question.wait(moment)
         self._stale = False
         self._draw_field(moment)
         if panels_too:
             self._draw_panels(moment)
-
-    def _current(self) -> Moment:
-        kept = self._moment
-        if self._at is not None and kept is not None and kept.stamp == self._at:
-            return self.scene.again(kept, self._target, self._source)
-        found = self.scene.moment(self._at, self._target, self._source)
-        pair = self._other_pair(found)
-        if pair != (self._target, self._source):
-            self._target, self._source = pair
-            return self.scene.moment(self._at, *pair)
-        return found
-
-    def _other_pair(self, moment: Moment) -> tuple[str, str]:
-        """The pair asked for, until its frames are overdue and nobody picked another."""
-        asked, snapshot = (self._target, self._source), moment.snapshot
-        names = [info.frame for info in snapshot.frames if info.parent is not None]
-        soon = self.scene.simulator is not None and moment.elapsed < PATIENCE
-        if self._picked or soon or not names or all(name in snapshot for name in asked):
-            return asked
-        source = self._source if self._source in snapshot else names[-1]
-        return snapshot.frame(source).root or names[0], source
 
     def _draw_field(self, moment: Moment) -> None:
         field = self.panel("field")
@@ -302,7 +276,7 @@ class TurtleApp(App[None]):
         hints = keys.hints(
             (self.focused.id or "") if self.focused else "",
             drives=self._press is not None,
-            past=self._at is not None,
+            past=self._question.at is not None,
             ascii_only=look.ascii_only,
         )
         self.panel("footer").show([panels.footer(hints, width, look)])
@@ -311,7 +285,7 @@ class TurtleApp(App[None]):
             return
         tree, pair, log = (self.panel(name) for name in ("tree", "pair", "log"))
         listed = panels.rows(moment.snapshot, ascii_only=look.ascii_only)
-        tree.show(panels.tree(moment, listed, self._source, *tree.size, look))
+        tree.show(panels.tree(moment, listed, self._question.source, *tree.size, look))
         pair.show(panels.pair(moment, *pair.size, look))
         log.show(
             self._journal.lines(moment.stamp, self.scene.start, *log.size, look, back=self._back)
@@ -350,37 +324,28 @@ class TurtleApp(App[None]):
 
     def action_pick(self, step: int) -> None:
         """Move through the tree: the frame under the cursor is the pair's source."""
-        if self._moment is None:
-            return
-        names = [row.info.frame for row in panels.rows(self._moment.snapshot)]
-        if not names:
-            return
-        at = names.index(self._source) if self._source in names else -1
-        self._source = names[max(0, min(len(names) - 1, at + step))]
-        self._picked = True
-        self.redraw()
+        if self._question.pick(step):
+            self.redraw()
 
     def action_measure(self) -> None:
         """Make the frame under the cursor the one that is measured in."""
-        self._target, self._picked = self._source, True
+        self._question.measure()
         self.redraw()
 
     def action_swap(self) -> None:
         """Ask the other way round."""
-        self._target, self._source, self._picked = self._source, self._target, True
+        self._question.swap()
         self.redraw()
 
     def action_travel(self, step: Duration) -> None:
         """Show an earlier moment, or a later one; past now is live."""
-        now = self.scene.world.clock.now()
-        there = (now if self._at is None else self._at) + step
-        self._at = None if there >= now else max(there, self.scene.oldest())
+        self._question.travel(step)
         self.redraw()
 
     def action_live(self) -> None:
         """Show the present again, and hide the key help."""
         self.panel("keys").display = False
-        self._at = None
+        self._question.at = None
         self._back = 0
         self.redraw()
 
@@ -411,47 +376,3 @@ class TurtleApp(App[None]):
         """End as an interrupt does: in raw mode Ctrl-C comes as a key."""
         self.interrupted = True
         self.exit()
-
-
-async def show(app: TurtleApp, life: Coroutine[Any, Any, None], *, headless: bool = False) -> None:
-    """Put the app on the terminal while its world lives, until one of them ends.
-
-    Whatever ends it, the terminal is restored before this returns or raises.
-
-    Args:
-        app: What to show.
-        life: Lives the app's world through; cancelled when the user quits.
-        headless: Do all of it but draw on a terminal.
-
-    Raises:
-        NodeFailed: If a node raised.
-        TftoolError: If the screen itself failed.
-        KeyboardInterrupt: If the user pressed Ctrl-C.
-    """
-    screen = asyncio.ensure_future(app.run_async(headless=headless))
-
-    async def lived() -> None:
-        # Making the panels takes a while in which no node would get its turn.
-        await app.ready.wait()
-        app.scene.start = app.scene.world.clock.now()
-        await life
-
-    living = asyncio.ensure_future(lived())
-    try:
-        await asyncio.wait({living, screen}, return_when=asyncio.FIRST_COMPLETED)
-    finally:
-        if not screen.done():
-            app.exit()
-            await asyncio.wait({screen})
-        living.cancel()
-        await asyncio.wait({living})
-        life.close()
-    if not living.cancelled():
-        living.result()
-    if app.failure is not None:
-        raise TftoolError(
-            f"the screen failed: {type(app.failure).__name__}: {app.failure}"
-        ) from app.failure
-    screen.result()
-    if app.interrupted:
-        raise KeyboardInterrupt

@@ -1,0 +1,90 @@
+"""What a screen asks of its scene: which pair of frames, at which moment."""
+
+from dataclasses import replace
+
+from tftool.screens import panels
+from tftool.screens.scene import Moment, Scene
+from tftool.stamps import Duration, Stamp, seconds
+
+PATIENCE = seconds(4.0)
+"""For how long after the start the frames of the first pair are waited for."""
+
+
+class Question:
+    """Keeps what is asked while the user moves through frames and time.
+
+    Args:
+        scene: Who is asked.
+        pair: Target and source to begin with.
+
+    Attributes:
+        target: The frame that is measured in.
+        source: The frame that is measured; the one under the cursor.
+        at: The moment asked for, or None for the present.
+        moment: The last answer, if there was one.
+    """
+
+    def __init__(self, scene: Scene, pair: tuple[str, str]) -> None:
+        self.scene = scene
+        self.target, self.source = pair
+        self.at: Stamp | None = None
+        self.moment: Moment | None = None
+        self._picked = False
+
+    def ask(self) -> Moment:
+        """Look anew."""
+        self.moment = self._answer()
+        return self.moment
+
+    def wait(self, moment: Moment) -> Moment:
+        """Let time go by before a kept moment: it lies farther behind, nothing else changes."""
+        now = self.scene.world.clock.now()
+        self.moment = replace(moment, behind=now - moment.stamp)
+        return self.moment
+
+    def pick(self, step: int) -> bool:
+        """Move the cursor through the tree by `step` rows; whether there is one to move."""
+        if self.moment is None:
+            return False
+        names = [row.info.frame for row in panels.rows(self.moment.snapshot)]
+        if not names:
+            return False
+        at = names.index(self.source) if self.source in names else -1
+        self.source = names[max(0, min(len(names) - 1, at + step))]
+        self._picked = True
+        return True
+
+    def measure(self) -> None:
+        """Make the frame under the cursor the one that is measured in."""
+        self.target, self._picked = self.source, True
+
+    def swap(self) -> None:
+        """Ask the other way round."""
+        self.target, self.source, self._picked = self.source, self.target, True
+
+    def travel(self, step: Duration) -> None:
+        """Go to an earlier moment, or a later one; past now is live."""
+        now = self.scene.world.clock.now()
+        there = (now if self.at is None else self.at) + step
+        self.at = None if there >= now else max(there, self.scene.oldest())
+
+    def _answer(self) -> Moment:
+        kept = self.moment
+        if self.at is not None and kept is not None and kept.stamp == self.at:
+            return self.scene.again(kept, self.target, self.source)
+        found = self.scene.moment(self.at, self.target, self.source)
+        pair = self._other_pair(found)
+        if pair != (self.target, self.source):
+            self.target, self.source = pair
+            return self.scene.moment(self.at, *pair)
+        return found
+
+    def _other_pair(self, moment: Moment) -> tuple[str, str]:
+        """The pair asked for, until its frames are overdue and nobody picked another."""
+        asked, snapshot = (self.target, self.source), moment.snapshot
+        names = [info.frame for info in snapshot.frames if info.parent is not None]
+        soon = self.scene.simulator is not None and moment.elapsed < PATIENCE
+        if self._picked or soon or not names or all(name in snapshot for name in asked):
+            return asked
+        source = self.source if self.source in snapshot else names[-1]
+        return snapshot.frame(source).root or names[0], source
