@@ -1,7 +1,7 @@
 import pytest
 
 from tftool.errors import InputError, UsageError
-from tftool.ros.interfaces.classes import INTERFACES
+from tftool.interfaces.classes import INTERFACES
 from tftool.ros.testing import RosRuntime
 from tftool.ros.workspace import Workspace
 

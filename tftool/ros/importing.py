@@ -17,8 +17,8 @@ from types import ModuleType
 from typing import Any
 
 from tftool.errors import UsageError
+from tftool.interfaces.classes import INTERFACES
 from tftool.ros import faces, fibers
-from tftool.ros.interfaces.classes import INTERFACES
 
 WHERE_TO_LOOK = (
     "the table 'The tutorial, line by line' in tftool's README says what runs without ROS; "

@@ -11,7 +11,7 @@ from typing import Any
 from tftool import messages
 from tftool.frames.sample import TransformStamped
 from tftool.geometry.rigid import Transform
-from tftool.ros.interfaces.classes import INTERFACES, Message, as_float32, duplicate
+from tftool.interfaces.classes import INTERFACES, Message, as_float32, duplicate
 from tftool.runtime.world import TransformMessage
 from tftool.stamps import NANOSECONDS, Stamp
 

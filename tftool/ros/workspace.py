@@ -10,7 +10,7 @@ from pathlib import Path
 from typing import Any
 
 from tftool.errors import InputError, UsageError
-from tftool.ros.interfaces.classes import INTERFACES
+from tftool.interfaces.classes import INTERFACES
 
 SHARE = Path(__file__).resolve().parent / "share"
 """Launch files of the packages we stand in for."""

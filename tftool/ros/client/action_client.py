@@ -6,12 +6,12 @@ from collections.abc import Callable
 from typing import Any
 
 from tftool.errors import TftoolError
+from tftool.interfaces.classes import INTERFACES, duplicate
 from tftool.ros import values
 from tftool.ros.client.action_goals import STATUS, GoalStatus, new_id
 from tftool.ros.client.entities import Entity, Work
 from tftool.ros.client.futures import Future
 from tftool.ros.client.node import Node
-from tftool.ros.interfaces.classes import INTERFACES, duplicate
 from tftool.runtime.topics import GoalHandle as WorldGoal
 
 

@@ -4,7 +4,7 @@ import itertools
 from enum import IntEnum
 from typing import Any
 
-from tftool.ros.interfaces.classes import INTERFACES
+from tftool.interfaces.classes import INTERFACES
 
 _numbers = itertools.count(1)
 

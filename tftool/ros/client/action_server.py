@@ -8,11 +8,11 @@ from enum import IntEnum
 from typing import Any
 
 from tftool.errors import TftoolError
+from tftool.interfaces.classes import duplicate
 from tftool.ros import values
 from tftool.ros.client.action_goals import STATUS, GoalStatus, new_id
 from tftool.ros.client.entities import Entity, Work
 from tftool.ros.client.node import Node
-from tftool.ros.interfaces.classes import duplicate
 from tftool.runtime.topics import GoalHandle as WorldGoal
 from tftool.runtime.topics import Status
 

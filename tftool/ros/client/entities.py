@@ -9,10 +9,10 @@ from collections import deque
 from collections.abc import Callable
 from typing import TYPE_CHECKING, Any
 
+from tftool.interfaces.classes import Message
 from tftool.ros import values
 from tftool.ros.client.qos import DurabilityPolicy, HistoryPolicy, QoSProfile
 from tftool.ros.client.time import Duration, Time
-from tftool.ros.interfaces.classes import Message
 from tftool.runtime.world import TransformMessage
 
 if TYPE_CHECKING:

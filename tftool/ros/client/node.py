@@ -5,6 +5,7 @@ from collections.abc import Callable, Iterable, Sequence
 from typing import Any, TypeVar
 from weakref import WeakKeyDictionary
 
+from tftool.interfaces.classes import Message
 from tftool.ros import names, program
 from tftool.ros.client.context import Context, context_of
 from tftool.ros.client.entities import (
@@ -23,7 +24,6 @@ from tftool.ros.client.node_parameters import NodeParameters
 from tftool.ros.client.qos import QoSProfile, profile_of
 from tftool.ros.client.services import Client, Service
 from tftool.ros.client.time import Clock, Rate, ROSClock
-from tftool.ros.interfaces.classes import Message
 from tftool.ros.program import Program, ProgramNode
 from tftool.runtime.clock import Phase
 from tftool.runtime.world import TransformMessage, World

@@ -4,6 +4,7 @@ from collections.abc import Callable, Iterable, Mapping, Sequence
 from difflib import get_close_matches
 from typing import Any
 
+from tftool.interfaces.classes import INTERFACES
 from tftool.ros.client.exceptions import (
     InvalidParameterTypeException,
     InvalidParameterValueException,
@@ -14,7 +15,6 @@ from tftool.ros.client.exceptions import (
 )
 from tftool.ros.client.parameters import Parameter
 from tftool.ros.client.parameters import ParameterType as Type
-from tftool.ros.interfaces.classes import INTERFACES
 
 Setter = Callable[[list[Parameter]], Any]
 

@@ -4,7 +4,7 @@ import array
 from enum import IntEnum
 from typing import Any
 
-from tftool.ros.interfaces.classes import INTERFACES
+from tftool.interfaces.classes import INTERFACES
 
 _FIELDS = (
     None, "bool_value", "integer_value", "double_value", "string_value", "byte_array_value",

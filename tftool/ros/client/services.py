@@ -10,10 +10,10 @@ from collections.abc import Callable
 from typing import TYPE_CHECKING, Any
 
 from tftool.errors import TftoolError
+from tftool.interfaces.classes import Message, duplicate
 from tftool.ros import values
 from tftool.ros.client.entities import Entity, Work
 from tftool.ros.client.futures import Future
-from tftool.ros.interfaces.classes import Message, duplicate
 
 if TYPE_CHECKING:
     from tftool.ros.client.node import Node

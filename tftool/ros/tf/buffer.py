@@ -11,11 +11,11 @@ from typing import Any
 from tftool.errors import TransformException
 from tftool.frames.buffer import Buffer as Frames
 from tftool.frames.sample import TransformStamped
+from tftool.interfaces.classes import INTERFACES
 from tftool.ros import program, values
 from tftool.ros.client.futures import Future
 from tftool.ros.client.node import Node
 from tftool.ros.client.time import Duration, Time
-from tftool.ros.interfaces.classes import INTERFACES
 from tftool.ros.tf.registry import Registration, convert
 from tftool.runtime import waiting
 from tftool.runtime.clock import Phase

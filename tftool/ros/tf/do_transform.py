@@ -9,7 +9,7 @@ import struct
 from typing import Any
 
 from tftool.geometry.rigid import Quaternion, Transform, Vector3
-from tftool.ros.interfaces.classes import INTERFACES, duplicate
+from tftool.interfaces.classes import INTERFACES, duplicate
 from tftool.ros.tf.registry import ConvertRegistration, TransformRegistration
 
 

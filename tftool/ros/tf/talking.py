@@ -6,9 +6,9 @@ A listener's transforms go straight into its buffer, whoever spins.
 from collections.abc import Callable, Iterable
 from typing import Any
 
+from tftool.interfaces.classes import INTERFACES
 from tftool.ros import values
 from tftool.ros.client.node import Node
-from tftool.ros.interfaces.classes import INTERFACES
 from tftool.ros.tf.buffer import Buffer
 from tftool.runtime.world import TransformMessage
 

@@ -5,7 +5,7 @@ import math
 import pytest
 
 from tftool.errors import InputError
-from tftool.ros.interfaces.classes import INTERFACES, Interfaces, duplicate
+from tftool.interfaces.classes import INTERFACES, Interfaces, duplicate
 
 
 def message(name, **fields):

@@ -2,7 +2,7 @@
 
 One block an interface: its full name, then its fields as a .msg, .srv or .action
 file lists them, `;` for a line break. The parts of a service or an action are set
-apart by `---`. Classes are made from these in `interfaces.classes`.
+apart by `---`. Classes are made from these in `classes`.
 """
 
 from functools import cache
@@ -93,7 +93,9 @@ nav_msgs/msg/Path = std_msgs/Header header; geometry_msgs/PoseStamped[] poses
 nav_msgs/msg/MapMetaData = builtin_interfaces/Time map_load_time; float32 resolution; uint32 width; uint32 height; geometry_msgs/Pose origin
 nav_msgs/msg/OccupancyGrid = std_msgs/Header header; MapMetaData info; int8[] data
 
-visualization_msgs/msg/Marker = int32 ARROW=0; int32 CUBE=1; int32 SPHERE=2; int32 CYLINDER=3; int32 LINE_STRIP=4; int32 LINE_LIST=5; int32 CUBE_LIST=6; int32 SPHERE_LIST=7; int32 POINTS=8; int32 TEXT_VIEW_FACING=9; int32 MESH_RESOURCE=10; int32 TRIANGLE_LIST=11; int32 ADD=0; int32 MODIFY=0; int32 DELETE=2; int32 DELETEALL=3; std_msgs/Header header; string ns; int32 id; int32 type; int32 action; geometry_msgs/Pose pose; geometry_msgs/Vector3 scale; std_msgs/ColorRGBA color; builtin_interfaces/Duration lifetime; bool frame_locked; geometry_msgs/Point[] points; std_msgs/ColorRGBA[] colors; string text; string mesh_resource; bool mesh_use_embedded_materials
+visualization_msgs/msg/Marker = int32 ARROW=0; int32 CUBE=1; int32 SPHERE=2; int32 CYLINDER=3; int32 LINE_STRIP=4; int32 LINE_LIST=5; int32 CUBE_LIST=6; int32 SPHERE_LIST=7; int32 POINTS=8; int32 TEXT_VIEW_FACING=9; int32 MESH_RESOURCE=10; int32 TRIANGLE_LIST=11; int32 ARROW_STRIP=12; int32 ADD=0; int32 MODIFY=0; int32 DELETE=2; int32 DELETEALL=3; std_msgs/Header header; string ns; int32 id; int32 type; int32 action; geometry_msgs/Pose pose; geometry_msgs/Vector3 scale; std_msgs/ColorRGBA color; builtin_interfaces/Duration lifetime; bool frame_locked; geometry_msgs/Point[] points; std_msgs/ColorRGBA[] colors; string texture_resource; sensor_msgs/CompressedImage texture; UVCoordinate[] uv_coordinates; string text; string mesh_resource; MeshFile mesh_file; bool mesh_use_embedded_materials
+visualization_msgs/msg/UVCoordinate = float32 u; float32 v
+visualization_msgs/msg/MeshFile = string filename; uint8[] data
 visualization_msgs/msg/MarkerArray = Marker[] markers
 
 rosgraph_msgs/msg/Clock = builtin_interfaces/Time clock
@@ -125,6 +127,8 @@ example_interfaces/srv/SetBool = bool data; ---; bool success; string message
 example_interfaces/srv/Trigger = ---; bool success; string message
 example_interfaces/action/Fibonacci = int32 order; ---; int32[] sequence; ---; int32[] sequence
 action_tutorials_interfaces/action/Fibonacci = int32 order; ---; int32[] sequence; ---; int32[] partial_sequence
+
+service_msgs/msg/ServiceEventInfo = uint8 REQUEST_SENT=0; uint8 REQUEST_RECEIVED=1; uint8 RESPONSE_SENT=2; uint8 RESPONSE_RECEIVED=3; uint8 event_type; builtin_interfaces/Time stamp; char[16] client_gid; int64 sequence_number
 
 action_msgs/msg/GoalInfo = unique_identifier_msgs/UUID goal_id; builtin_interfaces/Time stamp
 action_msgs/msg/GoalStatus = int8 STATUS_UNKNOWN=0; int8 STATUS_ACCEPTED=1; int8 STATUS_EXECUTING=2; int8 STATUS_CANCELING=3; int8 STATUS_SUCCEEDED=4; int8 STATUS_CANCELED=5; int8 STATUS_ABORTED=6; GoalInfo goal_info; int8 status
