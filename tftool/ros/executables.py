@@ -288,11 +288,7 @@ def _start_ours(
     default, make = ours
     name = options.name or default
     namespace = (options.namespace or "").strip("/")
-    full = join(namespace, name)
-    taken, number = {node.name for node in world.nodes}, 1
-    while full in taken:
-        number += 1
-        full = f"{join(namespace, name)}_{number}"
+    full = world.free_name(join(namespace, name))
     parameters = options.parameters_for(name, namespace)
     declared = dict(parameters)
     node = make(Asked(world, full, namespace, arguments, parameters, options))

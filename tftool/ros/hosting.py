@@ -32,6 +32,7 @@ def start_program(
     rest: Sequence[str],
     *,
     on_exit: Callable[[Program], object],
+    name: str = "",
 ) -> str:
     """Start a node's file, or a package's executable, in a world.
 
@@ -41,6 +42,8 @@ def start_program(
         target: The file, or the package.
         rest: What follows; for a package, the executable first.
         on_exit: Called once a program of a user's has ended.
+        name: What it and its node are called, unless `--ros-args` names the node; when
+            empty, what the file or the executable is called.
 
     Returns:
         What it is called.
@@ -52,10 +55,12 @@ def start_program(
     if is_file(target):
         path = Path(target)
         options, _ = names.parse(rest)
+        options.name = options.name or name or None
         body = users.whole(users.file_body(path))
+        label = world.free_name(name or path.stem)
         argv = [target, *rest]
-        Program(world, path.stem, body, argv=argv, options=options, on_exit=on_exit)
-        return path.stem
+        Program(world, label, body, argv=argv, options=options, on_exit=on_exit)
+        return label
     if not rest or rest[0].startswith("-"):
         found = workspace.packages.get(target)
         known = ", ".join(sorted(found.scripts)) if found is not None else ""
@@ -63,18 +68,20 @@ def start_program(
         raise UsageError(f"which executable of package '{target}'?{hint} For a file, give its path")
     executable, *words = rest
     options, arguments = names.parse(words)
+    options.name = options.name or name or None
+    label = world.free_name(name or executable)
     executables.start(
         world,
         workspace,
         target,
         executable,
-        label=executable,
+        label=label,
         argv=[executable, *words],
         arguments=arguments,
         options=options,
         on_exit=on_exit,
     )
-    return executable
+    return label
 
 
 def find_launch_file(workspace: Workspace, words: Sequence[str]) -> tuple[Path, list[str]]:
@@ -157,14 +164,22 @@ class Ending:
         Raises:
             NodeFailed: If a node raised.
         """
-        program = self.program
-        # One that was ended by us has done what it was asked to.
-        if program is None or not program.status or program.interrupted:
-            return 0
-        failure = program.failure
-        if failure is None or isinstance(failure, SystemExit):
-            return program.status
-        raise ProgramFailed(program.name, failure)
+        return 0 if self.program is None else status_of(self.program)
+
+
+def status_of(program: Program) -> int:
+    """The exit status of a program that has ended.
+
+    Raises:
+        NodeFailed: If it raised.
+    """
+    # One that was ended by us has done what it was asked to.
+    if not program.status or program.interrupted:
+        return 0
+    failure = program.failure
+    if failure is None or isinstance(failure, SystemExit):
+        return program.status
+    raise ProgramFailed(program.label, failure)
 
 
 class ProgramFailed(NodeFailed):

@@ -43,6 +43,7 @@ class Program(Node):
     """One executable.
 
     Attributes:
+        label: What it was started as; its node may take that name over in the world.
         argv: What its `sys.argv` is.
         options: What `--ros-args` said.
         strict: Whether time stands still while it runs: on the simulated clock.
@@ -77,6 +78,7 @@ class Program(Node):
             on_exit: Called on the loop's thread once it has ended; without one a program
                 that fails ends the run.
         """
+        self.label = name
         self.argv = list(argv)
         self.options = options or RosOptions()
         self.strict = isinstance(world.clock, SimClock)

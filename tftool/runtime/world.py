@@ -251,6 +251,15 @@ class World:
         if self._supervisor is not None:
             self._supervisor.start(node)
 
+    def free_name(self, wanted: str) -> str:
+        """A name no node has: the wanted one, or that with a number behind it."""
+        taken = {node.name for node in self.nodes}
+        name, number = wanted, 1
+        while name in taken:
+            number += 1
+            name = f"{wanted}_{number}"
+        return name
+
     def remove(self, node: Resident) -> None:
         """Stop a node and let it leave."""
         if node in self.nodes:

@@ -1,7 +1,9 @@
 """The one way a world is built and lived through, on simulated and on real time alike."""
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from contextlib import suppress
+from types import MappingProxyType
+from typing import TypeAlias
 
 from tftool.errors import NodeFailed
 from tftool.runtime.clock import Clock, SimClock, run
@@ -17,6 +19,11 @@ from tftool.scenario.script import Script
 from tftool.scenario.verdict import Outcome, Verdict
 from tftool.stamps import Stamp
 
+StandIn: TypeAlias = Callable[[World], object]
+"""Starts in a world what takes the place of one of a scenario's nodes."""
+
+NO_STAND_INS: Mapping[str, StandIn] = MappingProxyType({})
+
 TELEOP = "teleop"
 """Name of the node that is added when a script presses keys and nothing takes them."""
 
@@ -31,7 +38,14 @@ class Play:
         failure: Why it ended early, in words; empty as long as it did not.
     """
 
-    def __init__(self, scenario: Scenario, clock: Clock, *, script: bool = True) -> None:
+    def __init__(
+        self,
+        scenario: Scenario,
+        clock: Clock,
+        *,
+        script: bool = True,
+        stand_ins: Mapping[str, StandIn] = NO_STAND_INS,
+    ) -> None:
         """Build the world; nothing moves before `live`.
 
         Args:
@@ -39,13 +53,18 @@ class Play:
             clock: On whose time.
             script: Whether all of the scenario's own script is played. Without it a person
                 drives: keys and drives are left out, what happens to the world still does.
+            stand_ins: What is started in place of some of its nodes, by their names.
         """
         self.scenario = scenario
         self.world = World(clock, cache_time=scenario.cache_time)
         self.start: Stamp = clock.now()
         self.failure = ""
         for entry in scenario.nodes:
-            KINDS[entry.kind].build(self.world, entry.name, entry.parameters)
+            stand_in = stand_ins.get(entry.name)
+            if stand_in is None:
+                KINDS[entry.kind].build(self.world, entry.name, entry.parameters)
+            else:
+                stand_in(self.world)
         steps = scenario.script
         if not script:
             steps = tuple(step for step in steps if not isinstance(step.action, Press | Drive))

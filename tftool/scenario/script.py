@@ -25,6 +25,7 @@ from tftool.messages import (
     TeleportRelative,
     Twist2D,
 )
+from tftool.ros.program import ProgramNode
 from tftool.runtime.node import Node
 from tftool.runtime.world import World
 from tftool.scenario import actions
@@ -147,7 +148,8 @@ async def _stop(action: actions.StopNode, script: Script) -> None:
     # It may be gone already: stopped before, or left out by whoever hosts this world.
     gone = [node for node in script.world.nodes if node.name == action.node]
     for node in gone:
-        script.world.remove(node)
+        # A program of the user's ends with its node.
+        script.world.remove(node.program if isinstance(node, ProgramNode) else node)
     if not gone:
         script.warn(f"No node is named '{action.node}' (any more); nothing is stopped")
 

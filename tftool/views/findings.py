@@ -31,7 +31,7 @@ def render(reports: Sequence[Report]) -> "Table":
                 table.add_row("", "", Text(f"{where}{visible(finding.subject)}"))
                 table.add_row("", "", Padding(Text(found), (0, 0, 0, 2)))
         if report.failure and report.findings:
-            table.add_row("", "", Text(_lines(report.failure)[0]))
+            table.add_row("", "", Text("\n".join(_lines(report.failure))))
     return table
 
 

@@ -1,0 +1,121 @@
+"""Programs of the user's in a scenario, judged by what it expects.
+
+A scenario itself never names code to run: the one who calls does. A program takes the
+place and the name of one of the scenario's nodes, or lives beside them all; a launch
+file takes the place of all of them.
+"""
+
+import sys
+from collections.abc import Callable, Sequence
+from contextlib import redirect_stdout, suppress
+from dataclasses import dataclass, replace
+from difflib import get_close_matches
+
+from tftool.errors import NodeFailed, UsageError
+from tftool.ros import hosting
+from tftool.ros.launching.engine import Launch
+from tftool.ros.program import Program
+from tftool.ros.workspace import Workspace
+from tftool.runtime.clock import SimClock, run
+from tftool.runtime.log import LogRecord
+from tftool.runtime.world import World
+from tftool.scenario.play import Play, StandIn
+from tftool.scenario.schema import Scenario
+from tftool.scenario.verdict import Verdict
+from tftool.views.escaping import visible
+
+
+@dataclass(frozen=True, slots=True)
+class Entrant:
+    """A program of the user's.
+
+    Attributes:
+        words: What follows `tftool run`: a file, or a package and its executable, then arguments.
+        node: The node of the scenario whose place it takes; empty when it lives beside them.
+    """
+
+    words: tuple[str, ...]
+    node: str = ""
+
+
+@dataclass(frozen=True, slots=True)
+class Exercise:
+    """What the user brings to a scenario.
+
+    Attributes:
+        workspace: Where packages are looked for.
+        programs: Programs.
+        launch: What follows `tftool launch`; empty without a launch file.
+        tell: Is told each line of the log.
+    """
+
+    workspace: Workspace
+    programs: Sequence[Entrant] = ()
+    launch: Sequence[str] = ()
+    tell: Callable[[LogRecord], object] = lambda record: None
+
+    def judge(self, scenario: Scenario) -> Verdict:
+        """Play a scenario with these programs on simulated time, to its end, and judge it.
+
+        A program that fails is part of the verdict; the others go on, as processes do.
+
+        Raises:
+            UsageError: If there is no such node, package or executable.
+            InputError: If a file cannot be read or is no Python.
+        """
+        failures: list[str] = []
+        clock = SimClock()
+        self._refuse_unknown(scenario)
+        if self.launch:
+            scenario = replace(scenario, nodes=())
+        stand_ins = {one.node: self._starter(one, failures) for one in self.programs if one.node}
+        play = Play(scenario, clock, stand_ins=stand_ins)
+        play.world.log.listen(self.tell)
+        if self.launch:
+            self._start_launch(play.world, failures)
+        for one in self.programs:
+            if not one.node:
+                self._starter(one, failures)(play.world)
+        # What is on stdout is the verdict's, not what programs print.
+        with redirect_stdout(sys.stderr), suppress(NodeFailed):
+            run(clock, play.live())
+        if failures:
+            play.failure = "\n".join([*failures, *filter(None, [play.failure])])
+        return play.verdict()
+
+    def _refuse_unknown(self, scenario: Scenario) -> None:
+        names = [] if self.launch else [entry.name for entry in scenario.nodes]
+        for one in self.programs:
+            if one.node and one.node not in names:
+                near = get_close_matches(one.node, names, n=1)
+                hint = f"; did you mean '{near[0]}'?" if near else ""
+                there = ", ".join(names) or "none left to take the place of"
+                raise UsageError(
+                    f"scenario '{visible(scenario.name)}' has no node "
+                    f"'{visible(one.node)}'{hint} (it has {visible(there)})"
+                )
+
+    def _starter(self, one: Entrant, failures: list[str]) -> StandIn:
+        def ended(program: Program) -> None:
+            try:
+                status = hosting.status_of(program)
+            except NodeFailed as error:
+                failures.append(str(error))
+            else:
+                if status:
+                    failures.append(f"'{program.label}' ended with exit status {status}")
+
+        def start(world: World) -> None:
+            target, *rest = one.words
+            hosting.start_program(world, self.workspace, target, rest, on_exit=ended, name=one.node)
+
+        return start
+
+    def _start_launch(self, world: World, failures: list[str]) -> None:
+        def say(level: str, who: str, text: str) -> None:
+            if level == "ERROR":
+                failures.append(f"{who}: {text}")
+
+        path, rest = hosting.find_launch_file(self.workspace, self.launch)
+        arguments = hosting.arguments_of(rest)
+        Launch(world, path, workspace=self.workspace, arguments=arguments, say=say)
