@@ -55,6 +55,7 @@ def test_a_scenario_is_one_line_and_only_what_failed_is_told_in_full():
         "                 line 5: at 50 s: number of trees is 1",
         "                   found: not reached",
         "                 node 'script' failed: TftoolError: no node serves 'clear'",
+        "                 and more",
         "empty    ok      nothing is expected",
         "",
     ]
