@@ -93,29 +93,26 @@ def test_an_endless_play_ends_when_the_world_is_stopped():
     assert clock.elapsed() == seconds(5)
 
 
+TWO_SIMULATORS = (
+    "duration: 5 s\nnodes:\n  - turtlesim: {name: first}\n  - turtlesim: {name: second}\n"
+    "expect:\n  - {at: 1 s, turtles: [turtle1]}\n"
+)
+
+
 def test_a_node_that_fails_is_part_of_the_verdict():
-    scenario = parse(
-        "duration: 5 s\nscript:\n  - {at: 2 s, clear: }\nexpect:\n"
-        "  - {at: 1 s, trees: 0}\n  - {at: 3 s, trees: 0}\n",
-        "s.yaml",
-    )
+    verdict = run_scenario(parse(TWO_SIMULATORS, "s.yaml"))
 
-    verdict = run_scenario(scenario)
-
-    assert (
-        verdict.failure
-        == "node 'script' failed: TftoolError: in line 3 of the scenario: no node serves 'clear'"
-    )
-    assert verdict.lasted == seconds(2)
-    assert [one.reached for one in verdict.outcomes] == [True, False]
+    assert verdict.failure.startswith("node 'second' failed: TftoolError: ")
+    assert verdict.lasted == 0
+    assert [one.reached for one in verdict.outcomes] == [False]
     assert not verdict.ok
 
 
 def test_a_node_that_fails_ends_the_play_with_its_name():
     clock = SimClock()
-    played = build(parse("duration: 5 s\nscript: [{at: 2 s, reset: }]\n", "s.yaml"), clock)
+    played = build(parse(TWO_SIMULATORS, "s.yaml"), clock)
 
-    with pytest.raises(NodeFailed, match="node 'script' failed"):
+    with pytest.raises(NodeFailed, match="node 'second' failed"):
         run(clock, played.live())
 
 
@@ -217,6 +214,49 @@ def test_services_are_called():
     assert pose(played, "bob").x == pytest.approx(2.0, abs=1e-6)
     assert pose(played, "bob").y == pytest.approx(2.0, abs=1e-6)
     assert turtles["turtle1"].width == 9
+
+
+@pytest.mark.parametrize(
+    ("step", "found"),
+    [
+        ("spawn: turtle1", "the simulator refused a turtle named 'turtle1'"),
+        ("kill: bob", "there is no turtle 'bob'"),
+        ("teleport: {turtle: bob, x: 1, y: 1}", "no node serves 'bob/teleport_absolute'"),
+        ("rotate: {turtle: bob, theta: 1}", "no node serves the action 'bob/rotate_absolute'"),
+        ("drive: {turtle: bob, linear: 1}, for: 1 s", "nobody listens to 'bob/cmd_vel'"),
+        ("broadcast: {parent: a, child: a}", "the buffer refused it; the log says why"),
+        ("static: {parent: a, child: a}", "the buffer refused it; the log says why"),
+    ],
+)
+def test_a_refused_step_fails_the_scenario_unless_it_is_to_fail(step, found):
+    played = play(FIELD + f"  - {{at: 1 s, {step}}}\n  - {{at: 2 s, say: on it goes}}\n")
+    expected = play(FIELD + f"  - {{at: 1 s, {step}, fails: yes}}\n")
+    kind = step.partition(":")[0]
+
+    (outcome,) = played.verdict().outcomes
+    assert not played.verdict().ok
+    assert (outcome.line, outcome.found) == (6, f"refused: {found}")
+    assert f"{outcome.when}: {outcome.expectation}" == f"at 1 s: step '{kind}'"
+    assert ("script", f"Step '{kind}' in line 6 failed: {found}") in logged(played)
+    assert ("script", "on it goes") in logged(played)
+    assert expected.verdict().ok
+    assert len(expected.verdict().outcomes) == 1
+
+
+def test_a_step_that_is_to_fail_and_does_not_fails_the_scenario():
+    (outcome,) = play(FIELD + "  - {at: 1 s, spawn: bob, fails: yes}\n").verdict().outcomes
+
+    assert (outcome.expected, outcome.found, outcome.ok) == ("fails", "done", False)
+
+
+def test_a_drive_of_a_turtle_that_comes_while_it_lasts_is_done():
+    played = play(
+        FIELD
+        + "  - {at: 1 s, drive: {turtle: bob, linear: 1}, for: 3 s}\n  - {at: 2 s, spawn: bob}\n"
+    )
+
+    assert played.verdict().outcomes == ()
+    assert pose(played, "bob").x > 6
 
 
 def test_clear_and_reset_are_called():

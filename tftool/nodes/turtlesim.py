@@ -5,7 +5,7 @@ from types import MappingProxyType
 from typing import ClassVar
 
 from tftool.errors import UsageError
-from tftool.messages import Clear, Color, Kill, Reset, Spawn, Spawned
+from tftool.messages import Clear, Color, Kill, Killed, Reset, Spawn, Spawned
 from tftool.motion.unicycle import CENTRE, TICK, Placement
 from tftool.nodes.inbox import Inbox
 from tftool.nodes.outlet import Outlet, requested_placement, require_byte
@@ -230,14 +230,15 @@ class Turtlesim(Node):
         place = requested_placement(request)
         return await self._inbox.ask(lambda tick: Spawned(self._spawn(place, request.name, tick)))
 
-    async def _on_kill(self, request: Kill) -> None:
-        def kill(_: Stamp) -> None:
+    async def _on_kill(self, request: Kill) -> Killed:
+        def kill(_: Stamp) -> Killed:
             if request.name in self._turtles:
                 self._remove(request.name)
-            else:
-                self.error(f"Tried to kill turtle [{shown(request.name)}], which does not exist")
+                return Killed(True)
+            self.error(f"Tried to kill turtle [{shown(request.name)}], which does not exist")
+            return Killed(False)
 
-        await self._inbox.ask(kill)
+        return await self._inbox.ask(kill)
 
     async def _on_clear(self, _: Clear) -> None:
         def clear(_: Stamp) -> None:

@@ -119,13 +119,13 @@ class Node(Resident):
         """Ask a service and wait for its answer."""
         return await self.world.call(service, request)
 
-    def broadcast(self, *transforms: TransformStamped) -> None:
-        """Put transforms into the buffer, under this node's name."""
-        self.world.broadcast(transforms, self.name)
+    def broadcast(self, *transforms: TransformStamped) -> bool:
+        """Put transforms into the buffer, under this node's name; whether it took them all."""
+        return self.world.broadcast(transforms, self.name)
 
-    def broadcast_static(self, *transforms: TransformStamped) -> None:
-        """Put transforms that hold for all time into the buffer, under this node's name."""
-        self.world.broadcast(transforms, self.name, static=True)
+    def broadcast_static(self, *transforms: TransformStamped) -> bool:
+        """Put transforms that hold for all time into the buffer; whether it took them all."""
+        return self.world.broadcast(transforms, self.name, static=True)
 
     def info(self, text: str) -> None:
         """Log what happens."""

@@ -175,24 +175,29 @@ class World:
 
     def broadcast(
         self, transforms: Iterable[TransformStamped], authority: str, *, static: bool = False
-    ) -> None:
+    ) -> bool:
         """Put transforms into the buffer and tell whoever listens to `tf` or `tf_static`.
 
         What the buffer refuses (and says why) goes no further. A static message always
         holds all statics of its sender, the newest of each child, as a late listener
         sees nothing but a sender's last message.
+
+        Returns:
+            Whether the buffer took them all.
         """
         sent = tuple(transforms)
         if static:
             held = self._statics.setdefault(authority, {})
-            for transform in sent:
-                if self.buffer.set_transform_static(transform, authority):
-                    held[transform.child_frame_id] = transform
+            accepted = tuple(
+                one for one in sent if self.buffer.set_transform_static(one, authority)
+            )
+            held.update((one.child_frame_id, one) for one in accepted)
             self.tf_static.publish(TransformMessage(tuple(held.values()), authority))
-            return
-        accepted = tuple(one for one in sent if self.buffer.set_transform(one, authority))
-        if accepted:
-            self.tf.publish(TransformMessage(accepted, authority))
+        else:
+            accepted = tuple(one for one in sent if self.buffer.set_transform(one, authority))
+            if accepted:
+                self.tf.publish(TransformMessage(accepted, authority))
+        return len(accepted) == len(sent)
 
     def static_transforms(self, authority: str | None = None) -> tuple[TransformStamped, ...]:
         """The static transforms of one sender, or of all, in the order of their children."""

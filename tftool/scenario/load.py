@@ -289,14 +289,14 @@ class _Loader:
     def step(self, node: Node, reading: Reading) -> Step:
         """One action and its time."""
         kinds = {name: kind for name, (kind, _) in ACTIONS.items()}
-        common = {"at": Field(self.moment)}
-        _, action, given = tagged(node, reading, "an action", kinds, common, {})
+        common = {"at": Field(self.moment), "fails": Field(values.flag, False)}
+        name, action, given = tagged(node, reading, "an action", kinds, common, {})
         if isinstance(action, StopNode) and self.names is not None:
             known = (*self.names, "teleop")
             if action.node not in known:
                 near = suggest(action.node, known) or f"; there are {listed(known)}"
                 raise reading.refuse(node, f"no node is named {quoted(action.node)}{near}")
-        return Step(given["at"], action, node.place.line + 1)
+        return Step(given["at"], action, node.place.line + 1, name, given["fails"])
 
     def expect(self, node: Node, reading: Reading) -> tuple[Expectation, ...]:
         """What must hold."""

@@ -71,8 +71,7 @@ class Play:
         presses = any(isinstance(step.action, Press) for step in steps)
         if presses and not any(entry.kind == "teleop" for entry in scenario.nodes):
             KINDS["teleop"].build(self.world, TELEOP, KINDS["teleop"].defaults())
-        if steps:
-            Script(self.world, steps)
+        self._script = Script(self.world, steps) if steps else None
         # With a person in it a scenario promises nothing.
         expected = scenario.expect if script else ()
         self._expectations = Expectations(self.world, expected) if expected else None
@@ -98,11 +97,15 @@ class Play:
     def verdict(self) -> Verdict:
         """What held so far; expectations whose time has not come say so."""
         judge = self._expectations
+        steps = () if self._script is None else tuple(self._script.outcomes)
         pairs = [] if judge is None else zip(judge.expected, judge.outcomes, strict=True)
         return Verdict(
             scenario=self.scenario.name,
             file=self.scenario.file,
-            outcomes=tuple(outcome or _not_reached(expected) for expected, outcome in pairs),
+            outcomes=(
+                *steps,
+                *(outcome or _not_reached(expected) for expected, outcome in pairs),
+            ),
             lasted=self.world.clock.now() - self.start,
             failure=self.failure,
         )

@@ -31,11 +31,15 @@ class Step:
         at: When.
         action: What: one of `actions`.
         line: Its line in the file.
+        name: Its name there: "spawn".
+        fails: Whether it is to be refused.
     """
 
     at: Duration
     action: Any
     line: int
+    name: str
+    fails: bool = False
 
 
 @dataclass(frozen=True, slots=True)

@@ -17,10 +17,12 @@ from tftool.messages import (
     Clear,
     KeyPress,
     Kill,
+    Killed,
     Reset,
     RotateAbsolute,
     SetPen,
     Spawn,
+    Spawned,
     TeleportAbsolute,
     TeleportRelative,
     Twist2D,
@@ -30,17 +32,25 @@ from tftool.runtime.node import Node
 from tftool.runtime.world import World
 from tftool.scenario import actions
 from tftool.scenario.schema import Step
-from tftool.stamps import Duration, Stamp, seconds
+from tftool.scenario.verdict import Outcome
+from tftool.stamps import Duration, Stamp, as_seconds, seconds
 
 REFRESH: Duration = seconds(0.5)
 """How often a drive repeats its command; a turtle stops a second after the last one."""
 
 
+class StepFailed(TftoolError):
+    """A step was refused, and why."""
+
+
 class Script(Node):
     """Does every step at its time; steps of one instant in the order of the file.
 
+    A step that fails is told and noted; the others are done all the same.
+
     Attributes:
         start: The moment the script began.
+        outcomes: What came of the steps that were to fail, and of those that failed.
     """
 
     def __init__(self, world: World, steps: Sequence[Step]) -> None:
@@ -48,6 +58,7 @@ class Script(Node):
         super().__init__(world, "script")
         self.steps = tuple(steps)
         self.start = world.clock.now()
+        self.outcomes: list[Outcome] = []
 
     async def run(self) -> None:
         """Do all steps; one that waits for an answer holds up no other."""
@@ -56,10 +67,26 @@ class Script(Node):
 
     async def _do(self, step: Step) -> None:
         await self.wait_until(self.start + step.at)
+        refusal = ""
         try:
             await _DO[type(step.action)](step.action, self)
         except TftoolError as error:
-            raise TftoolError(f"in line {step.line} of the scenario: {error}") from error
+            refusal = f"{error}"
+        if not (refusal or step.fails):
+            return
+        if refusal and not step.fails:
+            self.error(f"Step '{step.name}' in line {step.line} failed: {refusal}")
+        self.outcomes.append(
+            Outcome(
+                expectation=f"step '{step.name}'",
+                line=step.line,
+                when=f"at {as_seconds(step.at):g} s",
+                expected="fails" if step.fails else "is done",
+                found=f"refused: {refusal}" if refusal else "done",
+                at=self.clock.now() - self.start,
+                ok=step.fails == bool(refusal),
+            )
+        )
 
     async def wait_until(self, stamp: Stamp) -> None:
         """Wait for a moment, in this node's place within it."""
@@ -74,22 +101,31 @@ async def _press(action: actions.Press, script: Script) -> None:
 
 
 async def _drive(action: actions.Drive, script: Script) -> None:
-    topic = f"{action.turtle}/cmd_vel"
+    topic = script.world.topic(f"{action.turtle}/cmd_vel", Twist2D)
     at = script.clock.now()
     end = at + action.lasting
+    heard = topic.subscribers > 0
     while at < end:
-        script.publish(topic, Twist2D(action.linear, action.angular, action.sideways))
+        topic.publish(Twist2D(action.linear, action.angular, action.sideways))
         at = min(at + REFRESH, end)
         await script.wait_until(at)
-    script.publish(topic, Twist2D())
+        heard = heard or topic.subscribers > 0
+    topic.publish(Twist2D())
+    if not heard:
+        raise StepFailed(f"nobody listens to '{topic.name}'")
 
 
 async def _spawn(action: actions.SpawnTurtle, script: Script) -> None:
-    await script.call("spawn", Spawn(action.x, action.y, action.theta, action.name))
+    request = Spawn(action.x, action.y, action.theta, action.name)
+    spawned: Spawned = await script.call("spawn", request)
+    if not spawned.name:
+        raise StepFailed(f"the simulator refused a turtle named '{action.name}'")
 
 
 async def _kill(action: actions.KillTurtle, script: Script) -> None:
-    await script.call("kill", Kill(action.turtle))
+    killed: Killed = await script.call("kill", Kill(action.turtle))
+    if not killed.found:
+        raise StepFailed(f"there is no turtle '{action.turtle}'")
 
 
 async def _teleport(action: actions.Teleport, script: Script) -> None:
@@ -120,6 +156,9 @@ async def _reset(action: actions.ResetField, script: Script) -> None:
     await script.call("reset", Reset())
 
 
+_REFUSED = "the buffer refused it; the log says why"
+
+
 def _transform(action: actions.Broadcast | actions.BroadcastStatic) -> Transform:
     rotation = quaternion_from_rpy(action.roll, action.pitch, action.yaw)
     return Transform((action.x, action.y, action.z), rotation)
@@ -129,19 +168,24 @@ async def _broadcast(action: actions.Broadcast, script: Script) -> None:
     pose = _transform(action)
     at = script.clock.now()
     end = at + action.lasting
+    whole = True
     while True:
         stamp = action.stamp.stamp(script.start, at)
-        script.broadcast(TransformStamped(stamp, action.parent, action.child, pose))
+        sample = TransformStamped(stamp, action.parent, action.child, pose)
+        whole = script.broadcast(sample) and whole
         at += action.every
         if at > end:
             break
         await script.wait_until(at)
+    if not whole:
+        raise StepFailed(_REFUSED)
 
 
 async def _static(action: actions.BroadcastStatic, script: Script) -> None:
     now = script.clock.now()
     pose = _transform(action)
-    script.broadcast_static(TransformStamped(now, action.parent, action.child, pose))
+    if not script.broadcast_static(TransformStamped(now, action.parent, action.child, pose)):
+        raise StepFailed(_REFUSED)
 
 
 async def _stop(action: actions.StopNode, script: Script) -> None:

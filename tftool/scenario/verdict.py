@@ -52,7 +52,8 @@ class Verdict:
     Attributes:
         scenario: Its name.
         file: Where it came from.
-        outcomes: One for each expectation, in the order of the file.
+        outcomes: One for each step that failed or was to, in the order of time; then one for
+            each expectation, in the order of the file.
         lasted: How long the run was, nanoseconds on its clock.
         failure: Why the run ended early; empty when it did not.
     """
