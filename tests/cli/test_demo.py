@@ -68,6 +68,23 @@ def test_an_expectation_that_fails_is_told_and_is_the_exit_status(tftool, tmp_pa
     assert "line 5: at 1 s" in result.out
 
 
+def test_what_was_set_is_said_beside_what_the_expectations_are_written_for(tftool):
+    result = tftool("demo", "turtles", "--source-frame", "nosuch")
+
+    assert result.status == 1
+    assert "Played 60 s of simulated time with source_frame=nosuch." in result.out
+    assert "expectations hold; they are written for source_frame=turtle1." in result.out
+
+
+@pytest.mark.parametrize("seconds", [90_000, 9e9])
+def test_a_run_without_end_is_refused(tftool, seconds):
+    for words in (["demo"], ["run", "--simulated", "x.py"], ["launch", "--simulated", "x.py"]):
+        result = tftool(words[0], "--for", seconds, *words[1:])
+
+        assert result.status == 2
+        assert "is too long for simulated time, of which a day is played at most" in result.err
+
+
 def test_a_scenario_may_expect_nothing(tftool, tmp_path):
     (tmp_path / "quiet.yaml").write_text("duration: 1 s\n")
 

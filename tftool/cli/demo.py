@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 from tftool.cli.onscreen import Ascii, Light
-from tftool.cli.options import ForPrograms, positive, within
+from tftool.cli.options import ForPrograms, positive, simulated_seconds, within
 from tftool.errors import UsageError
 
 if TYPE_CHECKING:
@@ -72,7 +72,8 @@ def demo(
     from tftool.stamps import seconds
 
     arguments = _arguments(settings or (), source_frame)
-    chosen = load(find(scenario or HOME), arguments)
+    path = find(scenario or HOME)
+    chosen = load(path, arguments)
     duration = None if lasting is None else seconds(lasting)
     if for_programs or not has_terminal():
         from tftool.cli.summary import as_json, play_through, written
@@ -82,7 +83,9 @@ def demo(
                 "Without a terminal the demo plays on simulated time, which nobody can share. "
                 "'tftool monitor' and 'tftool view' share a session without one."
             )
-        played = play_through(chosen, duration)
+        simulated_seconds(lasting)
+        defaults = load(path).arguments if arguments else chosen.arguments
+        played = play_through(chosen, defaults, duration)
         typer.echo(as_json(played) if for_programs else written(played))
         return 0 if played.verdict.ok else 1
 

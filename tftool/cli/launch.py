@@ -4,7 +4,7 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from tftool.cli.options import positive
+from tftool.cli.options import positive, simulated_seconds
 from tftool.stamps import seconds
 
 if TYPE_CHECKING:
@@ -56,6 +56,8 @@ def launch(
 
     if simulated and run_for is None and not show_args:
         raise UsageError("on simulated time a launch needs an end: --for SECONDS")
+    if simulated:
+        simulated_seconds(run_for)
     workspace = hosting.Workspace(Path.cwd())
     with hosting.ros_free(insist=insist):
         hosting.packages.use(workspace)

@@ -6,8 +6,13 @@ from typing import Annotated
 
 import typer
 
+from tftool.errors import UsageError
+
 MOST = 9e9
 """The largest number an option takes: as seconds, about what a stamp of 64 bits can hold."""
+
+LONGEST_SIMULATED = 86_400.0
+"""How many seconds of simulated time a command plays: a day, as long as a scenario may last."""
 
 
 def finite(value: float | None) -> float | None:
@@ -47,6 +52,19 @@ def not_negative(value: float | None) -> float | None:
     if value is not None and not (math.isfinite(value) and value >= 0):
         raise typer.BadParameter(f"{value:g} is not zero or more.")
     return _bounded(value)
+
+
+def simulated_seconds(value: float | None) -> None:
+    """Let what can be lived through on simulated time pass.
+
+    Raises:
+        UsageError: If it is more than a day.
+    """
+    if value is not None and value > LONGEST_SIMULATED:
+        raise UsageError(
+            f"--for {value:g} is too long for simulated time, of which a day is played at most: "
+            f"--for {LONGEST_SIMULATED:.0f}"
+        )
 
 
 def within(least: float, most: float) -> Callable[[float | None], float | None]:

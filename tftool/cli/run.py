@@ -4,7 +4,7 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from tftool.cli.options import positive
+from tftool.cli.options import positive, simulated_seconds
 from tftool.stamps import seconds
 
 if TYPE_CHECKING:
@@ -59,6 +59,8 @@ def run(
 
     if simulated and run_for is None:
         raise UsageError("on simulated time a run needs an end: --for SECONDS")
+    if simulated:
+        simulated_seconds(run_for)
     words = list(rest or [])
     workspace = hosting.Workspace(Path.cwd())
     clock = SimClock() if simulated else None

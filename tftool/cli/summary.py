@@ -2,6 +2,7 @@
 
 import json
 import math
+from collections.abc import Mapping, Sequence
 from contextlib import suppress
 from dataclasses import dataclass
 
@@ -28,18 +29,28 @@ class Played:
         scenario: What was played.
         snapshot: All frames at its end.
         verdict: What held.
+        defaults: The arguments its expectations were written for.
     """
 
     scenario: Scenario
     snapshot: Snapshot
     verdict: Verdict
+    defaults: Mapping[str, str]
+
+    def changed(self) -> list[str]:
+        """The names of the arguments that are not as its expectations have them."""
+        given = self.scenario.arguments
+        return [name for name, value in given.items() if value != self.defaults.get(name)]
 
 
-def play_through(scenario: Scenario, duration: Duration | None = None) -> Played:
+def play_through(
+    scenario: Scenario, defaults: Mapping[str, str], duration: Duration | None = None
+) -> Played:
     """Play a scenario with its own script on simulated time.
 
     Args:
         scenario: What to play.
+        defaults: What its arguments are when nobody says otherwise.
         duration: For how long; for the scenario's own duration when None.
     """
     clock = SimClock()
@@ -48,15 +59,19 @@ def play_through(scenario: Scenario, duration: Duration | None = None) -> Played
     # The verdict says so.
     with suppress(NodeFailed):
         run(clock, play.live(until))
-    return Played(scenario, play.world.buffer.snapshot(clock.now()), play.verdict())
+    snapshot = play.world.buffer.snapshot(clock.now())
+    return Played(scenario, snapshot, play.verdict(), defaults)
 
 
 def written(played: Played) -> str:
     """Say it to a person, in lines."""
     scenario, verdict, snapshot = played.scenario, played.verdict, played.snapshot
+    changed = played.changed()
+    given = _settings(scenario.arguments, changed)
     lines = [
         f"{visible(scenario.name)}: {visible(scenario.about)}".rstrip(": "),
-        f"Played {as_seconds(verdict.lasted):g} s of simulated time.",
+        f"Played {as_seconds(verdict.lasted):g} s of simulated time"
+        + (f" with {given}." if given else "."),
         "",
     ]
     moved = [info for info in snapshot.frames if info.parent is not None]
@@ -84,7 +99,11 @@ def written(played: Played) -> str:
         lines.append("It expects nothing up to here.")
         return "\n".join(lines)
     held = sum(outcome.ok for outcome in reached)
-    lines.append(f"{held} of {len(reached)} expectations hold.")
+    written_for = _settings(played.defaults, changed)
+    lines.append(
+        f"{held} of {len(reached)} expectations hold"
+        + (f"; they are written for {written_for}." if written_for else ".")
+    )
     lines += [
         f"  line {outcome.line}: {outcome.when}: {visible(outcome.expectation)} "
         f"{visible(outcome.expected)}, but it was {visible(outcome.found)}"
@@ -109,6 +128,7 @@ def as_json(played: Played) -> str:
     return json.dumps(
         {
             "scenario": played.scenario.name,
+            "arguments": dict(played.scenario.arguments),
             "seconds": as_seconds(verdict.lasted),
             "frames": frames,
             "distances": [
@@ -130,6 +150,10 @@ def as_json(played: Played) -> str:
             "ok": verdict.ok,
         }
     )
+
+
+def _settings(values: Mapping[str, str], names: Sequence[str]) -> str:
+    return ", ".join(f"{visible(name)}={visible(values[name])}" for name in names)
 
 
 def _distances(played: Played) -> list[tuple[str, str, float]]:
