@@ -14,6 +14,7 @@ import time
 
 from tftool.frames.sample import TransformStamped
 from tftool.geometry.rigid import Transform
+from tftool.link.graph import Role
 from tftool.link.membership import Options
 from tftool.link.session import Link
 from tftool.runtime.clock import WallClock, run
@@ -44,7 +45,7 @@ async def _read(messages):
 
     with Link(Options("reader")) as link:
         world.tf.subscribe(heard)
-        link.attach(world, is_host=False)
+        link.attach(world, role=Role.GUEST)
         sys.stdout.write("ready\n")
         sys.stdout.flush()
         silent = 0
@@ -88,7 +89,7 @@ def measure(*, size, count, period, readers=1):
         with Link(Options("sender")) as link:
 
             async def work():
-                link.attach(world, is_host=True)
+                link.attach(world, role=Role.HOST)
                 far = [
                     subprocess.Popen(
                         [sys.executable, "-m", "tests.benchmarks.link", str(count)],

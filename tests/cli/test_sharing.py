@@ -52,7 +52,6 @@ def test_a_domain_in_the_environment_that_is_none_is_named(tftool, monkeypatch, 
         (["--connect", "http/localhost:1"], "'http/localhost:1' is no endpoint"),
         (["--connect", "tls/there:7448"], "needs --tls-cert, --tls-key and --tls-ca"),
         (["--tls-cert", "pyproject.toml"], "give --tls-cert, --tls-key and --tls-ca together"),
-        (["--zenoh-config", "nowhere.json5"], "There is no file 'nowhere.json5'"),
         (["--zenoh-config", "README.md", "--listen", "tcp/0.0.0.0:1"], "says all endpoints"),
         (["--domain", "233"], "233"),
     ],
@@ -64,11 +63,28 @@ def test_what_contradicts_itself_is_wrong_usage(tftool, words, told):
     assert told in result.err
 
 
-def test_a_named_world_cannot_be_joined(tftool):
-    result = tftool("echo", "a", "b", "turtles", "--join")
+@pytest.mark.parametrize("option", ["--zenoh-config", "--tls-cert", "--tls-key", "--tls-ca"])
+def test_a_file_that_is_not_there_cannot_be_read(tftool, option):
+    result = tftool("echo", "a", "b", option, "no/where.pem")
+
+    assert result.status == 3
+    assert result.err == "tftool: There is no file 'no/where.pem'.\n"
+
+
+@pytest.mark.parametrize("words", [["echo", "a", "b", "robot"], ["tree", "robot"]])
+def test_a_named_world_cannot_be_joined(tftool, words):
+    result = tftool(*words, "--join")
 
     assert result.status == 2
-    assert "'turtles' is always hosted" in result.err
+    assert "'robot' is always hosted: leave out --join, or the name." in result.err
+
+
+@pytest.mark.parametrize("option", [["--listen", "tcp/127.0.0.1:7999"], ["--read-only"]])
+def test_a_world_on_simulated_time_is_not_shared(tftool, option):
+    result = tftool("tree", "robot", *option)
+
+    assert result.status == 2
+    assert "'robot' is played on simulated time here, which nobody can share" in result.err
 
 
 def test_a_zenoh_configuration_that_is_none_is_a_sentence(tftool):

@@ -14,6 +14,7 @@ from tests.link.conftest import new_world, until
 from tests.link.definitions import SERVICES
 from tftool.frames.sample import TransformStamped
 from tftool.geometry.rigid import Transform
+from tftool.link.graph import Role
 from tftool.link.membership import Options
 from tftool.link.session import Link
 from tftool.link.transport import Reach
@@ -112,7 +113,7 @@ def test_a_foreign_ros_2_peer_hears_us_and_is_heard(tmp_path):
         with Link(Options("demo", reach=Reach(listen=(f"tcp/127.0.0.1:{port}",)))) as link:
             world = new_world()
             simulator = Turtlesim(world)
-            link.attach(world, is_host=True)
+            link.attach(world, role=Role.HOST)
             living = asyncio.ensure_future(live(world))
             # Sent before the other comes: it has to be handed on later.
             static = TransformStamped(0, "world", "fixed", Transform((4.5, 0.0, 0.0)))

@@ -1,7 +1,7 @@
 """Who is there, from tokens alone."""
 
 from tftool.link import graph, keys
-from tftool.link.graph import Graph, Process, parse_process
+from tftool.link.graph import Graph, Process, Role, parse_process
 from tftool.link.keys import Entity
 
 
@@ -10,12 +10,12 @@ def talker(session="ab", number=1, name="tf"):
 
 
 def test_a_process_comes_back_from_its_token_and_names_are_made_plain():
-    process = Process(3, "ab12", 1_700_000_000_000_000_000, 42, True, "demo")
+    process = Process(3, "ab12", 1_700_000_000_000_000_000, 42, Role.HOST, "demo")
 
     assert parse_process(process.token()) == process
     assert parse_process(process.token().replace("/host/", "/ghost/")) is None
     assert parse_process("@tftool/3/ab12") is None
-    odd = Process(0, "ab", 1, 2, False, "de mo/../x")
+    odd = Process(0, "ab", 1, 2, Role.SOURCE, "de mo/../x")
     assert parse_process(odd.token()).command == "de_mo____x"
 
 
@@ -59,8 +59,8 @@ def test_a_flood_of_tokens_is_kept_within_bounds(monkeypatch):
 
 def test_processes_stand_in_the_order_in_which_they_joined():
     there = Graph("me", 0)
-    late = Process(0, "aa", 20, 1, False, "echo")
-    early = Process(0, "bb", 10, 2, True, "demo")
+    late = Process(0, "aa", 20, 1, Role.GUEST, "echo")
+    early = Process(0, "bb", 10, 2, Role.HOST, "demo")
     for one in (late, early):
         there.add(one.token())
 
@@ -73,7 +73,7 @@ def test_processes_stand_in_the_order_in_which_they_joined():
 def test_a_publisher_is_known_by_its_gid_or_by_being_the_only_one_it_can_be():
     there = Graph("me", 0)
     ours, ros = talker("aa", 1), talker("bb", 2)
-    there.add(Process(0, "aa", 1, 1, True, "demo").token())
+    there.add(Process(0, "aa", 1, 1, Role.HOST, "demo").token())
     there.add(ours.token())
     there.add(ros.token())
 

@@ -15,6 +15,7 @@ import pytest
 
 from tests.link.conftest import new_world, until
 from tests.link.processes import PAUSE, ROOT, TRIES, Process, run
+from tftool.link.graph import Role
 from tftool.link.membership import Options
 from tftool.link.session import Link
 from tftool.runtime import clock as clocks
@@ -81,7 +82,7 @@ def test_session_lists_processes_nodes_topics_rates_and_services():
         first.says('"translation"')
         found = json.loads(run("session", "--json").stdout)
         (process,) = found["processes"]
-        assert (process["command"], process["pid"], process["host"]) == ("echo", first.pid, True)
+        assert (process["command"], process["pid"], process["role"]) == ("echo", first.pid, "host")
         assert {"turtlesim", "broadcaster1", "follower"} <= set(process["nodes"])
         assert found["topics"]["tf"]["publishers"] == ["broadcaster1", "broadcaster2"]
         assert found["topics"]["turtle1/pose"]["rate"] > 10
@@ -105,6 +106,34 @@ def test_a_named_world_keeps_to_itself_while_a_session_runs():
         assert alone.returncode == 0
         assert "this world keeps to itself" in alone.stderr
         assert "map" not in run("tree").stdout
+
+
+@pytest.mark.parametrize("leave", [Process.interrupt, Process.kill])
+def test_who_stays_says_that_the_host_has_left_and_goes_on_with_the_next(leave):
+    with host() as first:
+        first.says('"translation"')
+        with Process("echo", "turtle2", "turtle1", "--rate", "20") as guest:
+            guest.says("At time")
+            leave(first)
+            left = guest.says(f"'tftool echo' (process {first.pid}), which hosted, has left")
+            guest.says("Waiting for turtle1 in turtle2: nothing new has come since", after=left)
+            # Nobody is left but one who waits: whoever comes next hosts, as if nobody were.
+            with host() as second:
+                second.says("No session is running here: hosting scenario 'turtles'.")
+                begun = guest.says(f"'tftool echo' (process {second.pid}) hosts now.")
+                guest.says("At time", after=begun)
+
+
+def test_a_named_world_is_shared_with_those_who_have_none():
+    with Process("static", "--x", "1", "--frame-id", "A", "--child-frame-id", "B") as static:
+        static.says("Spinning")
+        with Process("echo", "map", "odom") as waiting:
+            waiting.says("Frames there are so far: B, A.")
+            named = run("echo", "map", "B", "robot", "--once", "--timeout", "1")
+            # In one session, and in trees that nothing joins.
+            assert named.returncode == 4
+            assert "not part of the same tree" in named.stderr
+            waiting.says("- Translation: [0.000, 0.000, 0.000]")
 
 
 def test_another_domain_is_another_session():
@@ -170,7 +199,7 @@ ROUNDS = 20
 async def statics_reach_a_newcomer():
     with Link(Options("test", read_only=True)) as link:
         world = new_world()
-        link.attach(world, is_host=False)
+        link.attach(world, role=Role.GUEST)
         await until(lambda: world.buffer.frame_exists("B"))
 
 

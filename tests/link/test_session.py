@@ -10,7 +10,7 @@ from tests.link.conftest import new_world, until
 from tftool.errors import LinkError, TftoolError
 from tftool.frames.sample import TransformStamped
 from tftool.geometry.rigid import Transform
-from tftool.link.graph import hosts
+from tftool.link.graph import Role, hosts
 from tftool.link.membership import Options
 from tftool.link.session import Link
 from tftool.link.transport import Certificates, Reach
@@ -43,10 +43,10 @@ class Two:
     def __init__(self, guest=None, host=None):
         self.host = Link(host or Options("demo"))
         self.here = new_world()
-        self.host.attach(self.here, is_host=True)
+        self.host.attach(self.here, role=Role.HOST)
         self.guest = Link(guest or Options("echo"))
         self.there = new_world()
-        self.guest.attach(self.there, is_host=False)
+        self.guest.attach(self.there, role=Role.GUEST)
 
     async def __aenter__(self):
         await until(lambda: self.guest.graph.processes() or self.guest.options.domain)
@@ -69,7 +69,7 @@ def test_the_first_is_alone_and_the_second_sees_a_host():
     async def meet():
         with Link(Options("demo")) as host:
             assert host.graph.is_empty
-            host.attach(new_world(), is_host=True)
+            host.attach(new_world(), role=Role.HOST)
             with Link(Options("echo")) as guest:
                 (process,) = guest.graph.processes()
                 assert hosts([process]) == [process]
@@ -130,7 +130,7 @@ def test_who_comes_late_gets_all_statics_of_everybody():
     async def send():
         with Link(Options("static")) as first:
             here = new_world()
-            first.attach(here, is_host=True)
+            first.attach(here, role=Role.HOST)
             here.broadcast([sample(0, "a"), sample(0, "b")], "one", static=True)
             here.broadcast([sample(0, "c")], "one", static=True)
             here.broadcast([sample(0, "a", x=5.0)], "one", static=True)
@@ -138,7 +138,7 @@ def test_who_comes_late_gets_all_statics_of_everybody():
 
             with Link(Options("echo")) as late:
                 there = new_world()
-                late.attach(there, is_host=False)
+                late.attach(there, role=Role.GUEST)
                 await until(lambda: set("abcd") <= set(there.buffer.frames()))
 
                 found = there.buffer.lookup_transform("world", "a")
@@ -411,7 +411,7 @@ def test_the_second_host_of_the_same_turtle_is_told():
             with Link(Options("demo")) as second:
                 world = new_world()
                 world.serve("spawn", lambda request: Spawned("turtle1"))
-                second.attach(world, is_host=True)
+                second.attach(world, role=Role.HOST)
 
                 (told,) = texts(world)
                 assert "serves 'spawn' too" in told
@@ -461,10 +461,10 @@ def test_domains_of_one_machine_hear_nothing_of_each_other():
     async def look():
         with Link(Options("demo", domain=3)) as host, Link(Options("echo", domain=4)) as other:
             world = new_world()
-            host.attach(world, is_host=True)
-            other.attach(new_world(), is_host=True)
+            host.attach(world, role=Role.HOST)
+            other.attach(new_world(), role=Role.HOST)
             assert host.graph.is_empty
-            assert other.wire.neighbours == 0
+            assert not other.wire.neighbours
 
     play(look())
 
@@ -482,14 +482,14 @@ def test_over_tcp_a_guest_reaches_every_process_of_the_other_machine(session_dir
         port = free_port()
         with Link(Options("static")) as inner:
             inside = new_world()
-            inner.attach(inside, is_host=True)
+            inner.attach(inside, role=Role.HOST)
             with Link(Options("demo", reach=Reach(listen=(f"tcp/127.0.0.1:{port}",)))) as gate:
-                gate.attach(new_world(), is_host=True)
+                gate.attach(new_world(), role=Role.HOST)
                 # Another folder stands for another machine.
                 monkeypatch.setenv("TFTOOL_SESSION_DIR", str(session_dir / "far"))
                 with Link(Options("echo", reach=Reach(connect=(f"tcp/127.0.0.1:{port}",)))) as far:
                     outside = new_world()
-                    far.attach(outside, is_host=False)
+                    far.attach(outside, role=Role.GUEST)
                     inside.broadcast([sample(0, "A")], "static", static=True)
                     await until(lambda: outside.buffer.frame_exists("A"))
                     await until(lambda: len(far.graph.processes()) == 2)
@@ -504,11 +504,11 @@ def test_a_peer_that_talks_in_another_domain_is_said_once(session_dir, monkeypat
         port = free_port()
         options = Options("demo", domain=3, reach=Reach(listen=(f"tcp/127.0.0.1:{port}",)))
         with Link(options) as gate:
-            gate.attach(new_world(), is_host=True)
+            gate.attach(new_world(), role=Role.HOST)
             monkeypatch.setenv("TFTOOL_SESSION_DIR", str(session_dir / "far"))
             with Link(Options("echo", reach=Reach(connect=(f"tcp/127.0.0.1:{port}",)))) as far:
                 world = new_world()
-                far.attach(world, is_host=True)
+                far.attach(world, role=Role.HOST)
                 await until(lambda: texts(world))
                 gate_world = far.graph.foreign_domains
                 assert gate_world == {3}
@@ -582,7 +582,7 @@ def test_over_tls_only_who_has_a_certificate_is_let_in(session_dir, monkeypatch,
         endpoint = (f"tls/localhost:{free_port()}",)
         gate_options = Options("demo", reach=Reach(listen=endpoint, certificates=files))
         with Link(gate_options) as gate:
-            gate.attach(new_world(), is_host=True)
+            gate.attach(new_world(), role=Role.HOST)
             monkeypatch.setenv("TFTOOL_SESSION_DIR", str(session_dir / "far"))
             with Link(Options("echo", reach=Reach(connect=endpoint, certificates=files))) as far:
                 assert hosts(far.graph.processes())

@@ -111,7 +111,7 @@ def demo(
         async def life() -> None:
             # Counted from here: the screen takes a while to come up.
             until = None if duration is None else world.clock.now() + duration
-            with shared(link, world, is_host=True):
+            with shared(link, world):
                 await play.live(until, endless=until is None)
 
         driver = None if simulator_of(world) is None else driver_of(world, "turtle1")

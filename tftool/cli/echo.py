@@ -128,6 +128,7 @@ def echo(
         count=1 if once or moment else count,
         patience=(patience or None) if timeout is None else seconds(timeout),
         tells=not moment,
+        departures=session.departures,
     )
     session.run(echoing.run())
 

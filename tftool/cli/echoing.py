@@ -4,11 +4,17 @@ import asyncio
 import json
 import re
 import sys
+from collections.abc import Callable
 from dataclasses import dataclass
 from difflib import get_close_matches
 
 from tftool.cli.session import notice
-from tftool.errors import BackwardExtrapolationException, LookupException, TransformException
+from tftool.errors import (
+    BackwardExtrapolationException,
+    LookupException,
+    TimeoutException,
+    TransformException,
+)
 from tftool.frames.buffer import Buffer
 from tftool.frames.sample import TransformStamped
 from tftool.runtime.clock import Phase
@@ -20,8 +26,8 @@ from tftool.views.escaping import visible, visible_lines
 MOST_NAMED = 12
 """How many frames a hint names."""
 
-SETTLED = seconds(1)
-"""When whoever has just joined a session may be told which frames there are."""
+SETTLED = seconds(0.75)
+"""How long frames have time to arrive before anybody is told what is missing."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -66,6 +72,10 @@ class Question:
         if self.fixed_frame is None:
             return buffer.why_not(self.target, self.source, then)
         return buffer.why_not_full(self.target, LATEST, self.source, then, self.fixed_frame)
+
+    def newest(self, buffer: Buffer) -> Stamp:
+        """The newest moment known of the frames in question; 0 where none of them moves."""
+        return buffer.newest_common(self.fixed_frame or self.target, self.source)
 
 
 def _unknown(frame: str) -> str:
@@ -117,6 +127,7 @@ class Echo:
         count: int | None = None,
         patience: Duration | None = None,
         tells: bool = True,
+        departures: Callable[[], int] = lambda: 0,
         advice: str = "--timeout SECONDS ends the wait.",
     ) -> None:
         """Prepare to ask.
@@ -129,6 +140,8 @@ class Echo:
             count: How many answers to print; None for no end.
             patience: How long to wait for the first, in nanoseconds; None for ever.
             tells: Whether to say why it waits; nobody needs to know while time is simulated.
+            departures: Says how many have left that transforms came from; when another one
+                has, it waits again, for something new.
             advice: What ends a wait for a frame that never comes, when patience does not.
         """
         self.world = world
@@ -138,8 +151,10 @@ class Echo:
         self.count = count
         self.patience = patience
         self.tells = tells
+        self.departures = departures
         self.advice = advice
         self._hinted = False
+        self._told = ""
 
     async def run(self) -> None:
         """Print answers until there are enough.
@@ -149,9 +164,14 @@ class Echo:
         """
         clock = self.world.clock
         await self.wait()
+        left = self.departures()
         due = clock.now()
         printed = 0
         while True:
+            if self.departures() != left:
+                left = self.departures()
+                await self.wait(stale=self.question.newest(self.world.buffer))
+                due = clock.now()
             now = clock.now()
             try:
                 self.printer.found(self.question.ask(self.world.buffer, now))
@@ -165,35 +185,46 @@ class Echo:
             # Late by more than a period: what was missed is not made up for.
             due = max(due, clock.now() - self.period)
 
-    async def wait(self) -> None:
-        """Wait until the question can be answered; whatever comes in may change that."""
+    async def wait(self, stale: Stamp = LATEST) -> None:
+        """Wait until the question can be answered; whatever comes in may change that.
+
+        Args:
+            stale: The newest moment of what nobody sends any more: that is no answer.
+
+        Raises:
+            TransformException: If the answer does not come in time, or never will.
+        """
         clock, buffer = self.world.clock, self.world.buffer
         news = asyncio.Event()
         stop = buffer.listen(lambda *_: news.set())
-        end = None if self.patience is None else clock.timer(clock.now() + self.patience)
-        if end is not None:
-            end.add_done_callback(lambda _: news.set())
-        settled = clock.timer(clock.now() + SETTLED)
-        settled.add_done_callback(self._hint_when)
-        told = ""
+        timers = [clock.timer(clock.now() + SETTLED)]
+        if self.patience is not None:
+            timers.append(clock.timer(clock.now() + self.patience))
+        for timer in timers:
+            timer.add_done_callback(lambda _: news.set())
+        settled, end = timers[0], timers[-1] if self.patience is not None else None
+        self._told = ""
         try:
             while True:
                 try:
                     self.question.ask(buffer, clock.now())
-                    return
+                    if not stale or self.question.newest(buffer) != stale:
+                        return
                 except TransformException as refusal:
                     if self._is_over(refusal, end):
                         self._hint()
                         raise
-                if self.tells:
-                    told = self._tell(told)
+                else:
+                    if end is not None and end.done():
+                        raise TimeoutException(self._nothing_new())
+                if self.tells and settled.done():
+                    self._tell()
                 news.clear()
                 await news.wait()
         finally:
             stop()
-            settled.cancel()
-            if end is not None:
-                end.cancel()
+            for timer in timers:
+                timer.cancel()
 
     def _is_over(self, refusal: TransformException, end: "asyncio.Future[None] | None") -> bool:
         if end is not None and end.done():
@@ -201,30 +232,29 @@ class Echo:
         # One moment that lies before all that is remembered will not come back.
         return self.question.at != LATEST and isinstance(refusal, BackwardExtrapolationException)
 
-    def _tell(self, told: str) -> str:
+    def _tell(self) -> None:
         """Say why it waits, if that is another reason than the one told last."""
         reason = self.question.why_not(self.world.buffer, self.world.clock.now())
+        reason = reason or self._nothing_new()
         # The times in it change with every sample; the reason does not.
         kind = re.sub(r"-?\d+\.\d{6}", "<time>", reason)
-        if kind == told:
-            return told
-        words = view.in_words(self.question.target, self.question.source)
-        notice(f"Waiting for {words}: {visible_lines(reason.rstrip())}")
-        if not told:
-            self._hint()
-        return kind
+        if kind != self._told:
+            self._told = kind
+            words = view.in_words(self.question.target, self.question.source)
+            notice(f"Waiting for {words}: {visible_lines(reason.rstrip())}")
+        self._hint()
 
-    def _hint_when(self, settled: "asyncio.Future[None]") -> None:
-        """Hint again once frames had time to arrive, to whoever is still waiting."""
-        if self.tells and not settled.cancelled():
-            self._hint()
+    def _nothing_new(self) -> str:
+        return "nothing new has come since who sent it left"
 
     def _hint(self) -> None:
         """Name the frames there are, when one of those asked for is not among them."""
+        if self._hinted:
+            return
         frames = self.world.buffer.frames()
         asked = (self.question.target, self.question.source, self.question.fixed_frame)
         missing = [frame for frame in asked if frame is not None and frame not in frames]
-        if not missing or not frames or self._hinted:
+        if not missing or not frames:
             return
         self._hinted = True
         near = get_close_matches(missing[0], frames, 1)

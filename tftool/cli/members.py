@@ -12,6 +12,10 @@ if TYPE_CHECKING:
     from tftool.link.session import Link
 
 
+ROLES = {"host": "hosts", "source": "brings its own", "guest": "joined"}
+"""What a process is to the others, in words."""
+
+
 def session(
     listen_for: Annotated[
         float,
@@ -90,7 +94,7 @@ def _listened(link: "Link", duration: float) -> dict[str, Any]:
             {
                 "command": one.command,
                 "pid": one.pid,
-                "host": one.is_host,
+                "role": one.role.value,
                 "since": as_seconds(one.since),
                 "nodes": sorted(
                     {each.node for each in graph.entities("NN") if each.session == one.session}
@@ -117,7 +121,7 @@ def _written(found: dict[str, Any]) -> str:
     for one in found["processes"]:
         since = datetime.fromtimestamp(one["since"]).strftime("%H:%M:%S")
         nodes = ", ".join(visible(node) for node in one["nodes"]) or "no nodes"
-        role = "hosts" if one["host"] else "joined"
+        role = ROLES[one["role"]]
         lines.append(
             f"  tftool {visible(one['command'])}, process {one['pid']}, {role}, "
             f"since {since}: {nodes}"

@@ -61,6 +61,10 @@ class Session:
     duration: Duration | None = None
     link: "Link | None" = None
 
+    def departures(self) -> int:
+        """How many of the other processes have left by now that transforms came from."""
+        return 0 if self.link is None else self.link.departures
+
     def run(self, work: Coroutine[Any, Any, T]) -> T:
         """Do some work while the world lives, on the world's clock.
 
@@ -155,12 +159,15 @@ def open_session(
     Raises:
         InputError: If there is no such scenario, or it cannot be read.
         LinkError: If a session was asked for and there is none.
+        UsageError: If sharing was asked for where time is simulated.
     """
     link = None
     if clock is None:
         joined, link = _look_around(source, needs_turtles, cache_time)
         if joined is not None:
             return joined
+    else:
+        _refuse_to_share(source)
     try:
         return _hosted(source, clock, head_start, cache_time, without, link, at_a_moment)
     except BaseException:
@@ -192,7 +199,24 @@ def open_empty_session(clock: Clock | None = None) -> Session:
     """Give a world with nothing in it to whoever brings all there is to it; others see it."""
     world = World(clock or WallClock())
     link = _open_link(choice()) if _is_real(world.clock) else None
-    return Session(world, True, "an empty world", _lived(world, link), link=link)
+    alive = _lived(world, link, "source")
+    return Session(world, True, "an empty world", alive, link=link)
+
+
+def _refuse_to_share(source: str | None) -> None:
+    """Say so to whoever wants to share a world on simulated time."""
+    chosen = choice()
+    _refuse_to_join(source, chosen)
+    if chosen.is_asked_for:
+        raise UsageError(
+            f"'{source or HOME}' is played on simulated time here, which nobody can share: "
+            "leave out --join, --listen, --connect, --zenoh-config and --read-only."
+        )
+
+
+def _refuse_to_join(source: str | None, chosen: Choice) -> None:
+    if source is not None and chosen.mode is Mode.JOIN:
+        raise UsageError(f"'{source}' is always hosted: leave out --join, or the name.")
 
 
 def _look_around(
@@ -200,18 +224,19 @@ def _look_around(
 ) -> tuple[Session | None, "Link | None"]:
     """Join what runs here; else give the link by which a host lets others in."""
     chosen = choice()
-    if source is not None and chosen.mode is Mode.JOIN:
-        raise UsageError(f"'{source}' is always hosted: leave out --join, or the name.")
+    _refuse_to_join(source, chosen)
     link = _open_link(chosen)
     if link is None:
         return None, None
-    there = not link.graph.is_empty
+    there = link.graph.has_sources
     if source is None and chosen.mode is not Mode.HOST:
-        if there and (not needs_turtles or _has_turtles(link)):
+        # Who names the other end means what is there, or comes there; nobody wants turtles
+        # of his own among a robot's frames.
+        if chosen.connect or (there and (not needs_turtles or _has_host(link))):
             world = World(WallClock(), cache_time=cache_time or CACHE_TIME)
             name = _name_of(link)
             notice(f"Joined {name}.")
-            return Session(world, False, name, _lived(world, link), link=link), None
+            return Session(world, False, name, _lived(world, link, "guest"), link=link), None
         if chosen.mode is Mode.JOIN or chosen.read_only:
             link.close()
             what = "session with turtles" if there else "session"
@@ -219,7 +244,7 @@ def _look_around(
                 f"No {what} is running in domain {chosen.domain}: start one with 'tftool demo', "
                 "or leave out the option to host one here."
             )
-    elif there:
+    elif _has_host(link):
         link.close()
         notice(
             f"A session is running here, {_name_of(link)}; this world keeps to itself "
@@ -253,7 +278,7 @@ def _hosted(
     play = build(scenario, clock)
 
     async def alive(until: Stamp | None) -> None:
-        with shared(link, play.world, is_host=True):
+        with shared(link, play.world):
             # People look for as long as they like, whatever the scenario's duration.
             await play.live(until, endless=until is None)
 
@@ -272,23 +297,31 @@ def host_link(source: str) -> "Link | None":
 
 
 @contextmanager
-def shared(link: "Link | None", world: World, *, is_host: bool) -> Iterator[None]:
-    """Let others share a world for as long as this lasts; call inside its loop."""
+def shared(link: "Link | None", world: World, role: str = "host") -> Iterator[None]:
+    """Let others share a world for as long as this lasts; call inside its loop.
+
+    Args:
+        link: What joins it to the others; None to keep to itself.
+        world: What is shared.
+        role: What this process is to the others, as `link.graph.Role` has it.
+    """
     if link is None:
         yield
         return
+    from tftool.link.graph import Role
+
     try:
-        link.attach(world, is_host=is_host)
+        link.attach(world, role=Role(role))
         yield
     finally:
         link.close()
 
 
 def _lived(
-    world: World, link: "Link | None", *, is_host: bool = False
+    world: World, link: "Link | None", role: str
 ) -> Callable[[Stamp | None], Awaitable[None]]:
     async def alive(until: Stamp | None) -> None:
-        with shared(link, world, is_host=is_host):
+        with shared(link, world, role):
             await live(world, until=until)
 
     return alive
@@ -318,7 +351,8 @@ def _somebody_is_here(chosen: Choice) -> bool:
     return is_anybody_there(chosen.domain)
 
 
-def _has_turtles(link: "Link") -> bool:
+def _has_host(link: "Link") -> bool:
+    """Whether a world runs here: one of ours, or turtles of a launch file or of ROS."""
     from tftool.link.graph import hosts
 
     # A host that has only just begun has no turtles yet, and will have some.
@@ -331,19 +365,26 @@ def _is_real(clock: Clock) -> bool:
 
 
 def _name_of(link: "Link") -> str:
-    from tftool.link.graph import hosts
+    from tftool.link.graph import Role, hosts
 
     processes = link.graph.processes()
-    first = next(iter(hosts(processes) or processes), None)
+    sources = [one for one in processes if one.role is not Role.GUEST]
+    first = next(iter(hosts(processes) or sources), None)
     if first is not None:
         return f"the session of {visible(str(first))}"
     nodes = sorted({one.node for one in link.graph.entities("NN")})
-    return f"the session of ROS node '{visible(nodes[0])}'" if nodes else "a session"
+    if nodes:
+        return f"the session of ROS node '{visible(nodes[0])}'"
+    return f"what is at {visible(', '.join(choice().connect))}, which is nobody yet"
+
+
+def is_news(record: "LogRecord") -> bool:
+    """Whether the link has something to say that every user wants to know."""
+    return record.node == "link" and record.level == "WARN"
 
 
 def _tell(record: "LogRecord") -> None:
-    """Tell the user what the link has to say."""
-    if record.node == "link" and record.level == "WARN":
+    if is_news(record):
         notice(visible(record.text))
 
 

@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
-from tftool.errors import UsageError
+from tftool.errors import InputError, UsageError
 
 if TYPE_CHECKING:
     from tftool.link.membership import Options
@@ -200,6 +200,7 @@ def _read(
 
     Raises:
         UsageError: If they contradict each other.
+        InputError: If a file is not there.
     """
     if join and host:
         raise UsageError("--join and --host contradict each other: choose one.")
@@ -211,7 +212,7 @@ def _read(
     given = [file for file in (*files, zenoh_config) if file is not None]
     for file in given:
         if not file.is_file():
-            raise UsageError(f"There is no file '{file}'.")
+            raise InputError(f"There is no file '{file}'.")
     if any(files) and not all(files):
         raise UsageError("TLS here is mutual: give --tls-cert, --tls-key and --tls-ca together.")
     endpoints = [*(listen or ()), *(connect or ())]

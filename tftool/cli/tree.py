@@ -16,6 +16,7 @@ if TYPE_CHECKING:
 
     from tftool.cli.session import Session
     from tftool.frames.sample import Snapshot
+    from tftool.runtime.log import LogRecord
 
 
 class Format(str, Enum):
@@ -187,17 +188,28 @@ def _drawn(snapshot: "Snapshot", *, to_file: bool) -> str:
 
 
 def _watch(open_session: "Callable[[], Session]", duration: Duration | None) -> None:
-    from rich.console import Console
+    from rich.console import Console, Group
     from rich.live import Live
+    from rich.text import Text
 
+    from tftool.cli.session import is_news
     from tftool.runtime.clock import Phase
     from tftool.views import frame_tree
+    from tftool.views.escaping import visible
 
     console = Console()
     if not console.is_terminal:
         raise UsageError("--watch needs a terminal; without it the tree is written once.")
     session = open_session()
     world = session.world
+    # On this screen nothing else can be read.
+    news = Text(style="yellow")
+
+    def tell(record: "LogRecord") -> None:
+        if is_news(record):
+            news.plain = f"\n{visible(record.text)}"
+
+    world.log.listen(tell)
 
     async def draw() -> None:
         # Redrawn on the world's own ticks; rich's thread would draw half a change.
@@ -210,7 +222,7 @@ def _watch(open_session: "Callable[[], Session]", duration: Duration | None) -> 
                     width=console.width,
                     ascii_only=console.options.ascii_only,
                 )
-                live.update(picture, refresh=True)
+                live.update(Group(picture, news), refresh=True)
                 due = max(due + seconds(0.5), world.clock.now())
                 await world.clock.sleep_until(due, Phase.WATCH)
 

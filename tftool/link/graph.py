@@ -3,6 +3,7 @@
 import re
 from collections.abc import Iterable
 from dataclasses import dataclass
+from enum import Enum
 from typing import Final
 
 from tftool.link import keys
@@ -14,9 +15,23 @@ MOST: Final = 20_000
 
 _PROCESS = re.compile(
     rf"{re.escape(keys.OURS)}/(?P<domain>\d{{1,9}})/(?P<session>[0-9a-f]{{1,32}})/"
-    r"(?P<since>\d{1,19})/(?P<pid>\d{1,9})/(?P<role>host|guest)/(?P<command>\w{1,64})",
+    r"(?P<since>\d{1,19})/(?P<pid>\d{1,9})/(?P<role>host|source|guest)/(?P<command>\w{1,64})",
     re.ASCII,
 )
+
+
+class Role(str, Enum):
+    """What a tftool is to the others of its session.
+
+    Attributes:
+        HOST: It runs the world that others look at.
+        SOURCE: It brings something of its own, a static transform or a user's node.
+        GUEST: It only takes part, and waits for somebody who brings something.
+    """
+
+    HOST = "host"
+    SOURCE = "source"
+    GUEST = "guest"
 
 
 @dataclass(frozen=True, slots=True)
@@ -28,7 +43,7 @@ class Process:
         session: Its zenoh session, in hexadecimal.
         since: When it joined, by its own clock.
         pid: Its process number on its machine.
-        is_host: Whether it runs a world, or only takes part.
+        role: What it is to the others.
         command: What it was called for: "demo", "echo".
     """
 
@@ -36,14 +51,14 @@ class Process:
     session: str
     since: Stamp
     pid: int
-    is_host: bool
+    role: Role
     command: str
 
     def token(self) -> str:
         """The key of its token."""
-        role = "host" if self.is_host else "guest"
         command = re.sub(r"\W", "_", self.command, flags=re.ASCII)[:64] or "_"
-        return f"{keys.OURS}/{self.domain}/{self.session}/{self.since}/{self.pid}/{role}/{command}"
+        who = f"{self.session}/{self.since}/{self.pid}/{self.role.value}"
+        return f"{keys.OURS}/{self.domain}/{who}/{command}"
 
     def __str__(self) -> str:
         return f"'tftool {self.command}' (process {self.pid})"
@@ -59,7 +74,7 @@ def parse_process(token: str) -> Process | None:
         found["session"],
         int(found["since"]),
         int(found["pid"]),
-        found["role"] == "host",
+        Role(found["role"]),
         found["command"],
     )
 
@@ -135,6 +150,22 @@ class Graph:
         """Whether nobody else is there."""
         return not self._entities and not self._processes
 
+    @property
+    def sessions(self) -> frozenset[str]:
+        """The zenoh sessions that show a token."""
+        found = {one.session for one in self._processes.values()}
+        return frozenset(found | {one.session for one in self._entities.values()})
+
+    @property
+    def has_sources(self) -> bool:
+        """Whether somebody is there who brings something; guests alone only wait."""
+        guests = set()
+        for one in self._processes.values():
+            if one.role is not Role.GUEST:
+                return True
+            guests.add(one.session)
+        return any(one.session not in guests for one in self._entities.values())
+
     def publisher(self, gid: bytes, topic: str) -> str:
         """The node behind a message's sender: by its gid, else the only one it can be."""
         publishers = self.entities(keys.PUBLISHER, name=topic)
@@ -149,4 +180,4 @@ class Graph:
 
 def hosts(processes: Iterable[Process]) -> list[Process]:
     """Those among some processes that run a world."""
-    return [one for one in processes if one.is_host]
+    return [one for one in processes if one.role is Role.HOST]

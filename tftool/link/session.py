@@ -16,7 +16,7 @@ from typing import Final
 from tftool.errors import LinkError
 from tftool.link import keys
 from tftool.link.actions import ActionClient, ActionServer
-from tftool.link.graph import Process
+from tftool.link.graph import Process, Role, hosts
 from tftool.link.keys import Entity
 from tftool.link.membership import NAME, Membership, Options, plain
 from tftool.link.rendezvous import Rendezvous
@@ -36,12 +36,19 @@ NEARBY: Final = 1.0
 INTRODUCED: Final = 1.0
 """Seconds to wait for tokens of those who are connected."""
 
+SHOWN: Final = 0.3
+"""Seconds to wait for the tokens of all, once those of some are there."""
+
 _STEP = 0.005
 _PLAIN = re.compile(r"[A-Za-z_][A-Za-z0-9_]*(/[A-Za-z_][A-Za-z0-9_]*)*", re.ASCII)
 
 
 class Link(Membership):
-    """A process's place in a session: it joins, and carries its world's traffic."""
+    """A process's place in a session: it joins, and carries its world's traffic.
+
+    Attributes:
+        departures: How many of those have left that transforms came from.
+    """
 
     def __init__(self, options: Options) -> None:
         """Join the others of this machine, and those `options` reach out to.
@@ -77,6 +84,8 @@ class Link(Membership):
         self._settling = False
         self._reconciling = False
         self._since = 0
+        self.departures = 0
+        self._forgotten = 0
 
     def settle(self) -> None:
         """Let other processes of this machine join from now on."""
@@ -85,12 +94,12 @@ class Link(Membership):
 
     # Taking part
 
-    def attach(self, world: World, *, is_host: bool) -> None:
+    def attach(self, world: World, *, role: Role) -> None:
         """Carry a world's topics, services and actions from now on; call inside its loop.
 
         Args:
             world: Whose.
-            is_host: Whether this process runs the world that others look at.
+            role: What this process is to the others.
         """
         self._world = world
         self._since = WallClock().epoch
@@ -98,7 +107,7 @@ class Link(Membership):
         domain = self.options.domain
         if not self.options.read_only:
             process = Process(
-                domain, self.wire.zid, self._since, os.getpid(), is_host, self.options.command
+                domain, self.wire.zid, self._since, os.getpid(), role, self.options.command
             )
             self._stops.append(self.wire.token(process.token()))
         # Every domain: a peer that talks in another one is worth a word.
@@ -246,6 +255,7 @@ class Link(Membership):
             if isinstance(gone, Process):
                 self._left(gone)
             elif gone is not None:
+                self.departures += gone.kind == keys.PUBLISHER and gone.name == "tf"
                 self._graph_changed()
             return
         new = self.graph.add(token)
@@ -254,8 +264,8 @@ class Link(Membership):
             return
         if isinstance(new, Entity):
             self._graph_changed()
-        elif new.since >= self._since:
-            self.world.log.info(NAME, f"{new} has joined.")
+        else:
+            self._came(new)
 
     def _graph_changed(self) -> None:
         """Reconcile soon: tokens come in crowds, and one look serves them all."""
@@ -264,13 +274,24 @@ class Link(Membership):
             self._reconciling = True
             asyncio.get_running_loop().call_soon(self._reconcile)
 
+    def _came(self, process: Process) -> None:
+        alone = process.role is Role.HOST and len(hosts(self.graph.processes())) == 1
+        if alone and self.departures > self._forgotten:
+            # Another world under the same names, perhaps by another clock: what is known of
+            # the way things moved in the one before would only be in its way.
+            self._forgotten = self.departures
+            self.world.buffer.clear()
+            self.world.log.warn(NAME, f"{process} hosts now.")
+        elif process.since >= self._since:
+            self.world.log.info(NAME, f"{process} has joined.")
+
     def _left(self, process: Process) -> None:
-        if process.is_host:
-            self.world.log.warn(
-                NAME, f"{process}, which hosted, has left; what it sent stays as it was."
-            )
-        else:
+        if process.role is Role.GUEST:
             self.world.log.info(NAME, f"{process} has left.")
+            return
+        self.departures += 1
+        hosted = ", which hosted," if process.role is Role.HOST else ""
+        self.world.log.warn(NAME, f"{process}{hosted} has left; what it sent stays as it was.")
 
     def _mention_foreign_domains(self) -> None:
         for domain in self.graph.foreign_domains:
@@ -300,10 +321,10 @@ class Link(Membership):
     def _await_neighbours(self, count: int, patience: float) -> bool:
         pause = threading.Event()
         for _ in range(round(patience / _STEP)):
-            if self.wire.neighbours >= count:
+            if len(self.wire.neighbours) >= count:
                 return True
             pause.wait(_STEP)
-        return self.wire.neighbours >= count
+        return len(self.wire.neighbours) >= count
 
     def close_quietly(self) -> None:
         """Give up while opening."""
@@ -316,13 +337,18 @@ class Link(Membership):
         """Fill the graph with who is there now, where somebody should be."""
         expected = others or self.options.reach.connect or self.options.reach.config
         pause = threading.Event()
+        patience = round(INTRODUCED / _STEP) if expected else 1
         # Connected is not yet introduced: routers take a moment to pass tokens on.
-        for _ in range(round(INTRODUCED / _STEP) if expected else 1):
+        while patience > 0:
             for prefix in (keys.LIVELINESS, keys.OURS):
                 for token in self.wire.tokens(f"{prefix}/{self.options.domain}/**"):
                     self.graph.add(token)
-            if not self.graph.is_empty or not expected:
+            if not expected or self.wire.neighbours <= self.graph.sessions:
                 return
+            if not self.graph.is_empty:
+                # Those who only look never show a token: no reason to wait for long.
+                patience = min(patience, round(SHOWN / _STEP))
+            patience -= 1
             pause.wait(_STEP)
 
 

@@ -164,10 +164,10 @@ class Wire:
             self._session.close()
 
     @property
-    def neighbours(self) -> int:
-        """How many processes this one is directly connected to."""
+    def neighbours(self) -> frozenset[str]:
+        """The sessions this one is directly connected to."""
         info = self._session.info
-        return len(info.peers_zid()) + len(info.routers_zid())
+        return frozenset(str(zid) for zid in [*info.peers_zid(), *info.routers_zid()])
 
     # Messages
 
