@@ -6,12 +6,13 @@ from importlib import resources
 
 from tftool.errors import TftoolError
 
-_KINDS = {
-    "index.html": "text/html; charset=utf-8",
-    "page.css": "text/css; charset=utf-8",
-    "page.js": "text/javascript; charset=utf-8",
-    "icon.svg": "image/svg+xml",
-    "three-LICENSE.txt": "text/plain; charset=utf-8",
+# Where each lies: what is built has a folder of its own.
+_FILES = {
+    "index.html": ("page", "text/html; charset=utf-8"),
+    "page.css": ("page", "text/css; charset=utf-8"),
+    "icon.svg": ("page", "image/svg+xml"),
+    "page.js": ("bundle", "text/javascript; charset=utf-8"),
+    "three-LICENSE.txt": ("bundle", "text/plain; charset=utf-8"),
 }
 
 SAFETY: Mapping[str, str] = {
@@ -42,10 +43,11 @@ def load() -> dict[str, Asset]:
     Raises:
         TftoolError: If the page was not built, which happens in a source tree only.
     """
-    folder = resources.files("tftool.screens.browser") / "bundle"
+    here = resources.files("tftool.screens.browser")
     try:
         found = {
-            f"/{name}": Asset(kind, (folder / name).read_bytes()) for name, kind in _KINDS.items()
+            f"/{name}": Asset(kind, (here / folder / name).read_bytes())
+            for name, (folder, kind) in _FILES.items()
         }
     except FileNotFoundError as error:
         raise TftoolError(

@@ -1,4 +1,4 @@
-// Builds ../bundle/ from this folder: `npm install --no-package-lock && npm run build`.
+// Builds ../bundle/ from the scripts in this folder: `npm install --no-package-lock && npm run build`.
 // The versions in package.json are exact, so the same sources give the same bytes.
 import { build } from "esbuild";
 import { createHash } from "node:crypto";
@@ -11,7 +11,7 @@ const out = join(here, "..", "bundle");
 
 // What the bundle was made from; a test compares it with the sources as they are.
 const hash = createHash("sha256");
-const sources = (await readdir(here)).filter((name) => /\.(m?js|json|css|html|svg)$/.test(name)).sort();
+const sources = (await readdir(here)).filter((name) => /\.(m?js|json)$/.test(name)).sort();
 for (const name of sources) {
   hash.update(name).update("\0").update(await readFile(join(here, name))).update("\0");
 }
@@ -27,5 +27,4 @@ await build({
   legalComments: "inline",
   banner: { js: `/* tftool view; three.js: see three-LICENSE.txt; sources ${hash.digest("hex")} */` },
 });
-for (const name of ["index.html", "page.css", "icon.svg"]) await copyFile(join(here, name), join(out, name));
 await copyFile(join(here, "node_modules", "three", "LICENSE"), join(out, "three-LICENSE.txt"));
