@@ -3,7 +3,7 @@ import pytest
 from tests.nodes.harness import At, log_texts, new_world, play
 from tftool.errors import UsageError
 from tftool.messages import KeyPress, RotateAbsolute, Twist2D
-from tftool.nodes.teleop import KEYS, Teleop, keys_in
+from tftool.nodes.teleop import KEYS, Teleop
 from tftool.nodes.turtlesim import Turtlesim
 from tftool.runtime.clock import SimClock, run
 from tftool.runtime.supervisor import live
@@ -118,7 +118,3 @@ def test_a_rotation_nobody_takes_is_told_and_teleop_goes_on():
 def test_a_turtle_that_cannot_be_is_refused(name):
     with pytest.raises(UsageError, match="cannot be a turtle's name"):
         Teleop(new_world(), turtle=name)
-
-
-def test_what_a_terminal_sends_is_read_as_keys():
-    assert keys_in("\x1b[A\x1bOBgQ\x1b[1;5Cx\x1b") == ["up", "down", "g", "q"]

@@ -2,7 +2,9 @@ import asyncio
 
 import pytest
 from rich.cells import cell_len
+from textual._xterm_parser import XTermParser
 
+from tests.nodes.vectors import VECTORS
 from tftool.errors import NodeFailed, TftoolError, UsageError
 from tftool.frames.sample import TransformStamped
 from tftool.geometry.rigid import Transform
@@ -234,6 +236,27 @@ def test_the_key_help_comes_and_goes(danced):
     assert "swap the two frames" in "\n".join(shown(danced, keys=("?",)))
     assert shown(danced, keys=("?", "?")) == plain
     assert shown(danced, keys=("?", "escape")) == plain
+
+
+@pytest.mark.parametrize("case", VECTORS["teleop_keys"], ids=lambda case: case["key"])
+def test_what_a_terminal_sends_for_a_key_drives(danced, case):
+    final = chr(int(case["final_byte"], 16))
+    sent = final if len(case["key"]) == 1 else f"\x1b[{final}"
+    pressed = []
+
+    async def steps(app, pilot):
+        # As the terminal's driver does it, from the bytes on.
+        for event in XTermParser().feed(sent):
+            app.post_message(event)
+        await settled(pilot)
+
+    app = visit(danced, (100, 30), steps, pressed.append)
+
+    if case["action"] == "quit":
+        assert app.return_code == 0
+        assert not pressed
+    else:
+        assert pressed == [case["key"].removeprefix("arrow_")]
 
 
 def test_light_and_dark_change_places(danced):

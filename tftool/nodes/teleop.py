@@ -1,7 +1,6 @@
 """turtle_teleop_key: arrow keys drive a turtle, eight letters round F turn it."""
 
 import asyncio
-import re
 from collections.abc import Mapping
 from dataclasses import dataclass
 from types import MappingProxyType
@@ -70,9 +69,6 @@ KEYS: Mapping[str, Key] = MappingProxyType(
     }
 )
 """Every key that does something. The letters form a ring round F on a keyboard."""
-
-_ARROWS = {"A": "up", "B": "down", "C": "right", "D": "left"}
-_TYPED = re.compile(r"\x1b[\[O](?P<arrow>[A-D])|\x1b[\[O][0-9;]*.|(?P<letter>.)", re.DOTALL)
 
 
 class Teleop(Node):
@@ -159,17 +155,3 @@ class Teleop(Node):
             )
         except TftoolError as refusal:
             self.warn(f"{self.turtle} cannot be turned: {refusal}")
-
-
-def keys_in(typed: str) -> list[str]:
-    """Read the keys in what a terminal sent, in order; what means nothing is left out.
-
-    Arrows are escape sequences, `ESC [ A` or `ESC O A`; letters count in either case.
-    """
-    found = []
-    for match in _TYPED.finditer(typed):
-        if match["arrow"]:
-            found.append(_ARROWS[match["arrow"]])
-        elif match["letter"] and match["letter"].lower() in KEYS:
-            found.append(match["letter"].lower())
-    return found
