@@ -203,11 +203,6 @@ def flag(node: Node, reading: Reading) -> bool:
     return _TRUTHS[value.lower()]
 
 
-def nothing(node: Node, reading: Reading) -> None:
-    """What stands behind a key that says it all by itself."""
-    reading.record(node, {}, "this")
-
-
 def or_none(read_one: Reader) -> Reader:
     """A reader that takes `none` as well, or nothing at all."""
 
