@@ -28,8 +28,13 @@ FLAT_OUT = 10_000
 """Messages sent without a pause."""
 
 
+# Made beforehand: what is measured is how poses travel, not how they are computed.
+POSE = Transform((1.0, 2.0, 0.0))
+FRAMES = [f"frame{number}" for number in range(1000)]
+
+
 def sample_of(stamp, number):
-    return TransformStamped(stamp, "world", f"frame{number}", Transform((1.0, 2.0, 0.0)))
+    return TransformStamped(stamp, "world", FRAMES[number], POSE)
 
 
 async def _read(messages):

@@ -5,7 +5,7 @@ from pathlib import Path
 import pytest
 
 from tftool.cli.sharing import Choice, Mode, choice, shares
-from tftool.link.transport import Certificates
+from tftool.link.reach import Certificates
 
 
 @pytest.fixture

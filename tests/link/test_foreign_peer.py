@@ -16,8 +16,8 @@ from tftool.frames.sample import TransformStamped
 from tftool.geometry.rigid import Transform
 from tftool.link.graph import Role
 from tftool.link.membership import Options
+from tftool.link.reach import Reach
 from tftool.link.session import Link
-from tftool.link.transport import Reach
 from tftool.nodes.turtlesim import Turtlesim
 from tftool.runtime.clock import WallClock, run
 from tftool.runtime.supervisor import live

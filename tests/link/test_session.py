@@ -12,8 +12,8 @@ from tftool.frames.sample import TransformStamped
 from tftool.geometry.rigid import Transform
 from tftool.link.graph import Role, hosts
 from tftool.link.membership import Options
+from tftool.link.reach import Certificates, Reach
 from tftool.link.session import Link
-from tftool.link.transport import Certificates, Reach
 from tftool.messages import (
     Clear,
     Color,

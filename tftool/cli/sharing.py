@@ -68,7 +68,7 @@ class Choice:
     def options(self) -> "Options":
         """The same as the link takes it."""
         from tftool.link.membership import Options
-        from tftool.link.transport import Certificates, Reach
+        from tftool.link.reach import Certificates, Reach
 
         certificates = None if self.tls is None else Certificates(*self.tls)
         reach = Reach(self.listen, self.connect, certificates, self.config)
@@ -231,7 +231,7 @@ def _read(
 
 
 def _check_endpoint(endpoint: str, *, has_files: bool) -> None:
-    from tftool.link.transport import PROTOCOLS
+    from tftool.link.reach import PROTOCOLS
 
     protocol, slash, address = endpoint.partition("/")
     if not slash or not address or protocol not in PROTOCOLS:

@@ -12,7 +12,8 @@ from tftool.errors import LinkError, MalformedMessage
 from tftool.link import keys
 from tftool.link.graph import Graph
 from tftool.link.keys import Attachment, Entity
-from tftool.link.transport import Outlet, Reach, Wire
+from tftool.link.reach import Reach
+from tftool.link.transport import Outlet, Wire
 from tftool.runtime.world import World
 
 NAME: Final = "link"

@@ -1,0 +1,77 @@
+"""What comes in on other threads is taken in on the loop, within bounds."""
+
+import asyncio
+import threading
+
+from tests.link.conftest import until
+from tftool.link import inbox
+from tftool.link.inbox import Inbox
+from tftool.runtime.clock import WallClock, run
+
+
+def taken_in(fill, expected):
+    """Fill an inbox before and while it is read; give what came out."""
+    box, taken = Inbox(), []
+
+    async def take():
+        fill(box, taken.append)
+        box.start(asyncio.get_running_loop())
+        await until(lambda: len(taken) >= expected)
+        box.close()
+
+    run(WallClock(), take())
+    return box, taken
+
+
+def test_what_came_before_the_start_and_from_other_threads_comes_in_order():
+    def fill(box, take):
+        for number in range(500):
+            box.put(take, number, 1)
+        threading.Thread(target=lambda: box.put(take, 500, 1)).start()
+
+    _, taken = taken_in(fill, 501)
+
+    assert sorted(taken) == list(range(501))
+    assert [one for one in taken if one < 500] == list(range(500))
+
+
+def test_messages_beyond_the_most_are_lost_and_counted_and_news_of_others_never(monkeypatch):
+    monkeypatch.setattr(inbox, "MOST_WAITING", 3)
+
+    def fill(box, take):
+        for number in range(5):
+            box.put(take, number, 10)
+        box.put(take, "somebody has left")
+
+    box, taken = taken_in(fill, 4)
+
+    assert taken == [0, 1, 2, "somebody has left"]
+    assert box.lost == 2
+
+
+def test_bytes_that_wait_are_bounded_too(monkeypatch):
+    monkeypatch.setattr(inbox, "MOST_BYTES", 100)
+
+    def fill(box, take):
+        for size in (60, 60, 40):
+            box.put(take, size, size)
+
+    box, taken = taken_in(fill, 2)
+
+    assert taken == [60, 40]
+    assert box.lost == 1
+
+
+def test_nothing_is_called_after_the_end():
+    box, called = Inbox(), []
+
+    async def end():
+        box.start(asyncio.get_running_loop())
+        box.put(called.append, 1, 1)
+        box.close()
+        box.put(called.append, 2, 1)
+        await WallClock().sleep(1)
+
+    run(WallClock(), end())
+
+    assert called == []

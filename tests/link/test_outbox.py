@@ -1,0 +1,94 @@
+"""What goes out waits for no reader, and goes out in its order."""
+
+import threading
+
+import pytest
+
+from tftool.errors import LinkError
+from tftool.link import outbox
+from tftool.link.outbox import Outbox
+
+
+@pytest.fixture
+def out():
+    made = Outbox()
+    yield made
+    made.close()
+
+
+class Stuck:
+    """A send that takes until it is let go, as to a reader that takes nothing."""
+
+    def __init__(self):
+        self.begun, self.let_go = threading.Event(), threading.Event()
+
+    def __call__(self):
+        self.begun.set()
+        self.let_go.wait(20)
+
+
+def test_everything_is_sent_in_its_order_before_the_end(out):
+    sent = []
+    for number in range(1000):
+        out.put(lambda number=number: sent.append(number))
+    out.close()
+
+    assert sent == list(range(1000))
+
+
+def test_while_a_reader_takes_nothing_the_loop_goes_on_and_nothing_is_lost(out):
+    stuck, sent = Stuck(), []
+    out.put(stuck)
+    assert stuck.begun.wait(20)
+    for number in range(1000):
+        out.put(lambda number=number: sent.append(number))
+    # All of them were taken while the sender stood still.
+    assert sent == []
+    stuck.let_go.set()
+    out.close()
+
+    assert sent == list(range(1000))
+
+
+def test_there_is_an_end_to_what_waits(out, monkeypatch):
+    monkeypatch.setattr(outbox, "MOST_WAITING", 50)
+    stuck, sent = Stuck(), []
+    out.put(stuck)
+    assert stuck.begun.wait(20)
+    ahead = threading.Event()
+
+    def publish():
+        for number in range(60):
+            if number == 45:
+                ahead.set()
+            out.put(lambda number=number: sent.append(number))
+
+    publishing = threading.Thread(target=publish)
+    publishing.start()
+    assert ahead.wait(20)
+    publishing.join(0.05)
+    assert publishing.is_alive()
+    stuck.let_go.set()
+    publishing.join(20)
+    out.close()
+
+    assert sent == list(range(60))
+
+
+def test_who_cannot_be_sent_to_keeps_nothing_from_the_others(out):
+    def gone():
+        raise OSError("gone")
+
+    sent = []
+    out.put(gone)
+    out.put(lambda: sent.append(1))
+    out.close()
+
+    assert sent == [1]
+
+
+def test_after_the_end_nothing_is_sent(out):
+    out.close()
+
+    with pytest.raises(LinkError, match="the link is closed"):
+        out.put(lambda: None)

@@ -1,0 +1,84 @@
+"""From the transport's threads to our event loop: what comes in waits here, within bounds."""
+
+import asyncio
+import contextlib
+import threading
+from collections import deque
+from collections.abc import Callable
+from typing import Any, Final
+
+MOST_WAITING: Final = 50_000
+"""Messages that may wait for the event loop; what comes on top is lost, and counted."""
+
+MOST_BYTES: Final = 256 * 1024 * 1024
+"""Bytes of payload that may wait."""
+
+_SLICE: Final = 200
+
+
+class Inbox:
+    """Calls that any thread hands in, made one after the other on the event loop.
+
+    Attributes:
+        lost: Messages that were dropped because too many waited.
+    """
+
+    def __init__(self) -> None:
+        self.lost = 0
+        self._loop: asyncio.AbstractEventLoop | None = None
+        self._lock = threading.Lock()
+        self._waiting: deque[tuple[Callable[..., object], Any, int]] = deque()
+        self._bytes = 0
+        self._scheduled = False
+        self._closed = False
+
+    def start(self, loop: asyncio.AbstractEventLoop) -> None:
+        """Make the calls on `loop` from now on; until then they wait."""
+        with self._lock:
+            self._loop = loop
+            self._scheduled = bool(self._waiting)
+        if self._scheduled:
+            loop.call_soon(self._drain)
+
+    def close(self) -> None:
+        """Make no call any more."""
+        with self._lock:
+            self._closed = True
+            self._waiting.clear()
+
+    def put(self, callback: Callable[..., object], argument: Any, size: int = 0) -> None:
+        """Have `callback(argument)` called on the loop (on any thread).
+
+        Args:
+            callback: What to call.
+            argument: With what.
+            size: Bytes of payload it carries; what carries none is never dropped.
+        """
+        with self._lock:
+            if self._closed:
+                return
+            if size and (len(self._waiting) >= MOST_WAITING or self._bytes + size > MOST_BYTES):
+                self.lost += 1
+                return
+            self._waiting.append((callback, argument, size))
+            self._bytes += size
+            if self._scheduled or self._loop is None:
+                return
+            self._scheduled = True
+            loop = self._loop
+        # A loop that has just been closed wants to hear no more.
+        with contextlib.suppress(RuntimeError):
+            loop.call_soon_threadsafe(self._drain)
+
+    def _drain(self) -> None:
+        """Call what waits, a slice at a time, so that a flood does not starve the world."""
+        for _ in range(_SLICE):
+            with self._lock:
+                if not self._waiting:
+                    self._scheduled = False
+                    return
+                callback, argument, size = self._waiting.popleft()
+                self._bytes -= size
+            callback(argument)
+        if self._loop is not None:
+            self._loop.call_soon(self._drain)

@@ -1,0 +1,87 @@
+"""From our event loop to the transport: sent on a thread of its own.
+
+To send blocks while a reader takes nothing, up to a second until it counts as gone.
+That may hold up this thread, and nothing else: a process that somebody stopped with
+Ctrl-Z must not stop the world of everybody else.
+"""
+
+import contextlib
+import queue
+import threading
+from collections.abc import Callable
+from typing import Final
+
+from tftool.errors import LinkError
+
+MOST_AHEAD: Final = 32
+"""How far the loop may run ahead before it lets the sender catch up."""
+
+MOST_WAITING: Final = 20_000
+"""Messages that may wait while a reader takes nothing; then the loop waits as well."""
+
+_PAUSE = 0.0002
+_STUCK = 50  # pauses without progress, after which the sender counts as stuck
+_FAREWELL = 2.0
+
+
+class Outbox:
+    """Calls that send something, made in their order on one thread."""
+
+    def __init__(self) -> None:
+        self._queue: queue.SimpleQueue[Callable[[], object] | None] = queue.SimpleQueue()
+        self._put = 0
+        self._sent = 0
+        self._stuck = False
+        self._closed = False
+        self._thread: threading.Thread | None = None
+
+    def put(self, send: Callable[[], object]) -> None:
+        """Have something sent, after everything before it; what it raises is passed over.
+
+        Raises:
+            LinkError: If this is closed.
+        """
+        if self._closed:
+            raise LinkError("a message could not be sent: the link is closed")
+        if self._thread is None:
+            self._thread = threading.Thread(target=self._run, name="outbox", daemon=True)
+            self._thread.start()
+        self._put += 1
+        self._queue.put(send)
+        ahead = self._put - self._sent
+        if ahead > MOST_WAITING or (ahead > MOST_AHEAD and not self._stuck):
+            self._let_catch_up()
+
+    def close(self) -> None:
+        """Send what waits, for as long as that makes sense, and nothing after it."""
+        if not self._closed:
+            self._closed = True
+            self._queue.put(None)
+            if self._thread is not None:
+                self._thread.join(_FAREWELL)
+
+    def _let_catch_up(self) -> None:
+        """Give way to the sender while it gets on.
+
+        Without it, a loop that never rests would keep the interpreter to itself.
+        """
+        pause = threading.Event()
+        sent, idle = self._sent, 0
+        while self._put - self._sent > MOST_AHEAD // 2:
+            pause.wait(_PAUSE)
+            idle = idle + 1 if self._sent == sent else 0
+            sent = self._sent
+            if idle >= _STUCK and self._put - self._sent <= MOST_WAITING:
+                self._stuck = True
+                return
+
+    def _run(self) -> None:
+        while True:
+            send = self._queue.get()
+            if send is None:
+                return
+            # Who it was for may be gone by now, or the session closed.
+            with contextlib.suppress(Exception):
+                send()
+            self._sent += 1
+            self._stuck = False

@@ -1,0 +1,133 @@
+"""How far a link reaches, and what zenoh is told of it.
+
+zenoh is imported when a link opens and not before: commands that host alone do not
+pay for it, and a platform without it can still do everything else.
+"""
+
+import json
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any, Final
+
+from tftool.errors import LinkError
+
+PROTOCOLS: Final = ("tcp", "udp", "tls", "quic", "ws", "unixsock-stream")
+"""How an endpoint may begin."""
+
+_CONGESTED = 1_000_000  # microseconds a sender waits for a reader that takes nothing
+_NEAR_HELLO, _FAR_HELLO = 1000, 5000  # milliseconds for two processes to get to know each other
+_SCOUTING_DELAY = 100  # milliseconds `open` waits at most for a peer that does not answer
+
+
+@dataclass(frozen=True, slots=True)
+class Certificates:
+    """Files for mutual TLS: who we are, and whom we believe.
+
+    Attributes:
+        certificate: Our certificate, PEM.
+        key: Its private key, PEM.
+        authority: The certificate that signed the other side's, PEM.
+    """
+
+    certificate: Path
+    key: Path
+    authority: Path
+
+
+@dataclass(frozen=True, slots=True)
+class Reach:
+    """What a link opens beyond this machine's own processes; nothing unless asked.
+
+    Attributes:
+        listen: Endpoints where other machines may come in, "tcp/0.0.0.0:7448".
+        connect: Endpoints to go to, "tcp/robot:7447".
+        certificates: For endpoints that begin with tls/ or quic/.
+        config: A zenoh configuration, JSON5, taken as it is in place of ours.
+    """
+
+    listen: tuple[str, ...] = ()
+    connect: tuple[str, ...] = ()
+    certificates: Certificates | None = None
+    config: Path | None = None
+
+
+def import_zenoh() -> Any:
+    """The library.
+
+    Raises:
+        LinkError: If it is missing.
+    """
+    try:
+        import zenoh
+    except ImportError as error:
+        raise LinkError(
+            "talking to other processes needs 'eclipse-zenoh', which is missing here "
+            f"({error}); hosting works without it: --host"
+        ) from error
+    return zenoh
+
+
+def open_zenoh(zenoh: Any, reach: Reach, endpoint: str, others: tuple[str, ...]) -> Any:
+    """Open a zenoh session.
+
+    Args:
+        zenoh: The library.
+        reach: What to open beyond this machine.
+        endpoint: Where to listen for this machine's processes, "" for nowhere.
+        others: Where the others of this machine listen.
+
+    Raises:
+        LinkError: If an endpoint or a file cannot be used.
+    """
+    try:
+        if reach.config is not None:
+            config = zenoh.Config.from_file(str(reach.config))
+        else:
+            config = zenoh.Config()
+            for key, value in settings(reach, endpoint, others).items():
+                config.insert_json5(key, json.dumps(value))
+        return zenoh.open(config)
+    except Exception as error:
+        reason = str(error).partition(" at /")[0]
+        where = ", ".join([str(reach.config or ""), *reach.listen, *reach.connect]).strip(", ")
+        raise LinkError(
+            f"the link cannot be opened{f' ({where})' if where else ''}: {reason}"
+        ) from error
+
+
+def settings(reach: Reach, endpoint: str, others: tuple[str, ...]) -> dict[str, Any]:
+    """What we tell zenoh, by its own names; its defaults would listen on every interface."""
+    outward = bool(reach.listen or reach.connect)
+    found: dict[str, Any] = {
+        # A router passes on between this machine's processes, which know each other
+        # directly, and the world outside; a peer passes nothing on.
+        "mode": "router" if outward else "peer",
+        "listen/endpoints": [*([endpoint] if endpoint else []), *reach.listen],
+        "connect/endpoints": [*others, *reach.connect],
+        "listen/exit_on_failure": True,
+        "connect/timeout_ms": -1,
+        "connect/exit_on_failure": False,
+        "scouting/multicast/enabled": False,
+        # Gossip tells routers who knows whom; nobody is to act on addresses it carries.
+        "scouting/gossip/enabled": True,
+        "scouting/gossip/autoconnect": {"router": [], "peer": [], "client": []},
+        "scouting/delay": _SCOUTING_DELAY,
+        # Latched messages are told apart by their time.
+        "timestamping/enabled": True,
+        "transport/shared_memory/enabled": False,
+        # A stopped process takes a connection and never speaks: closing would wait for it.
+        "transport/unicast/open_timeout": _FAR_HELLO if outward else _NEAR_HELLO,
+        "transport/unicast/accept_timeout": _FAR_HELLO if outward else _NEAR_HELLO,
+        "transport/link/tx/queue/congestion_control/block/wait_before_close": _CONGESTED,
+    }
+    if reach.certificates is not None:
+        files = reach.certificates
+        found |= {
+            "transport/link/tls/root_ca_certificate": str(files.authority),
+            "transport/link/tls/listen_certificate": str(files.certificate),
+            "transport/link/tls/listen_private_key": str(files.key),
+            "transport/link/tls/connect_certificate": str(files.certificate),
+            "transport/link/tls/connect_private_key": str(files.key),
+            "transport/link/tls/enable_mtls": True,
+        }
+    return found
