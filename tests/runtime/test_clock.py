@@ -1,6 +1,7 @@
 import asyncio
 import os
 import signal
+import time
 
 import pytest
 
@@ -229,6 +230,34 @@ def test_a_head_start_is_lived_through_at_once_and_in_order_then_time_is_real():
         ("slow", seconds(3000)),
     ]
     assert seconds(3600) <= arrived < seconds(3660)
+
+
+@pytest.mark.parametrize(("cost", "behind"), [(0.003, 0.0), (0.02, 6.0)])
+def test_after_a_head_start_it_is_as_late_as_elsewhere_if_the_world_can_keep_up(
+    monkeypatch, cost, behind
+):
+    spent = 0
+    monotonic = time.monotonic_ns
+    monkeypatch.setattr("tftool.runtime.clock.time.monotonic_ns", lambda: monotonic() + spent)
+    clock = WallClock(head_start=seconds(3))
+    began = monotonic()
+
+    async def tick():
+        nonlocal spent
+        while True:
+            await clock.sleep(seconds(0.01))
+            spent += seconds(cost)
+
+    async def main():
+        ticking = asyncio.ensure_future(tick())
+        await clock.sleep_until(clock.epoch + seconds(3))
+        await clock.sleep(seconds(2))
+        elapsed = clock.elapsed()
+        real = seconds(3) + monotonic() + spent - began
+        ticking.cancel()
+        return (real - elapsed) / seconds(1)
+
+    assert run(clock, main()) == pytest.approx(behind, abs=0.25)
 
 
 def test_a_head_start_ends_when_nothing_is_due_in_it():

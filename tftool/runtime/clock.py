@@ -180,16 +180,18 @@ class WallClock(Clock):
         if head_start < 0:
             raise ValueError(f"a head start cannot be negative: {head_start} ns")
         super().__init__(time.time_ns() - head_start, rate)
-        self._started = time.monotonic_ns()
+        self._started = time.monotonic_ns() - round(head_start / rate)
         self._alarm: asyncio.TimerHandle | None = None
-        # From here on time is real; before, it stands still while anything runs.
+        # Up to here time stands still while anything runs; from here on it is real.
         self._caught_up = self.epoch + head_start
+        self._behind = head_start
         self._simulated: Stamp | None = self.epoch if head_start else None
 
     def now(self) -> Stamp:
         """The moment it is, in nanoseconds since the Unix epoch (at rate 1)."""
-        if self._simulated is not None:
-            return self._simulated
+        return self._real() if self._simulated is None else self._simulated
+
+    def _real(self) -> Stamp:
         passed = time.monotonic_ns() - self._started
         return self.epoch + (passed if self.rate == 1.0 else round(passed * self.rate))
 
@@ -227,18 +229,29 @@ class WallClock(Clock):
             return
         due = self._next_due()
         if self._simulated is not None:
-            if due is not None and due <= self._caught_up:
-                self._simulated = max(due, self._simulated)
-            else:
-                self._simulated = None
-                head_start = (self._caught_up - self.epoch) / self.rate
-                self._started = time.monotonic_ns() - round(head_start)
+            self._simulated = self._moment_before_now(due, self._simulated)
         if due is None or due > self.now():
             self._set_alarm()
             return
         heapq.heappop(self._waiters)[4].set_result(None)
         # The woken task takes its step before the next waiter of the instant is woken.
         asyncio.get_running_loop().call_soon(self._wake)
+
+    def _moment_before_now(self, due: Stamp | None, moment: Stamp) -> Stamp | None:
+        """Where a head start goes on after `moment`; None where it has reached the present."""
+        real = self._real()
+        behind = real - self._caught_up
+        if due is not None and self._caught_up < due <= real and behind <= self._behind // 2:
+            # To live through the last stretch took a while itself; what fell due in it is
+            # lived through as well, and takes less.
+            self._caught_up, self._behind = real, behind
+        if due is not None and due <= self._caught_up:
+            return max(due, moment)
+        if due is not None and due <= real:
+            # This world is no faster than time is: better a clock that lags behind the
+            # system's than everything late at once.
+            self._started += round(behind / self.rate)
+        return None
 
 
 def _others_wait_their_turn() -> bool:
