@@ -98,20 +98,24 @@ tf_transformations: tf.euler: concatenate_matrices compose_matrix vector_norm un
 tf_transformations: tf.euler: TRANSLATION_IDENTITY ROTATION_IDENTITY
 launch: launching.description: LaunchDescription LaunchDescriptionSource
 launch: launching.context: LaunchContext
-launch: launching.actions: Action
+launch: launching.action: Action
 launch: launching.conditions: Condition
 launch: launching.events: Event EventHandler
 launch: launching.substitutions: Substitution SomeSubstitutionsType
-launch: launching.description: LaunchDescriptionEntity
-launch.actions: launching.actions: DeclareLaunchArgument SetLaunchConfiguration LogInfo
-launch.actions: launching.actions: UnsetLaunchConfiguration SetEnvironmentVariable
-launch.actions: launching.actions: UnsetEnvironmentVariable OpaqueFunction GroupAction
-launch.actions: launching.actions: IncludeLaunchDescription RegisterEventHandler
-launch.actions: launching.actions: UnregisterEventHandler EmitEvent Shutdown TimerAction
-launch.actions: launching.actions: ExecuteProcess ExecuteLocal PushLaunchConfigurations
-launch.actions: launching.actions: PopLaunchConfigurations
-launch.conditions: launching.conditions: IfCondition UnlessCondition
-launch.conditions: launching.conditions: LaunchConfigurationEquals LaunchConfigurationNotEquals
+launch: launching.description: LaunchDescriptionEntity LaunchDescriptionSource
+launch.action: launching.action: Action
+launch.actions: launching.settings: DeclareLaunchArgument SetLaunchConfiguration
+launch.actions: launching.settings: UnsetLaunchConfiguration ResetLaunchConfigurations
+launch.actions: launching.settings: SetEnvironmentVariable AppendEnvironmentVariable
+launch.actions: launching.settings: UnsetEnvironmentVariable PushLaunchConfigurations=Push
+launch.actions: launching.settings: PopLaunchConfigurations=Pop
+launch.actions: launching.composition: OpaqueFunction GroupAction IncludeLaunchDescription
+launch.actions: launching.composition: TimerAction
+launch.actions: launching.reactions: LogInfo RegisterEventHandler UnregisterEventHandler EmitEvent
+launch.actions: launching.reactions: Shutdown
+launch.actions: launching.processes: ExecuteProcess ExecuteLocal=ExecuteProcess
+launch.conditions: launching.conditions: IfCondition UnlessCondition LaunchConfigurationEquals
+launch.conditions: launching.conditions: LaunchConfigurationNotEquals
 launch.event_handlers: launching.events: OnProcessExit OnProcessStart OnShutdown
 launch.event_handlers: launching.events: OnExecutionComplete
 launch.events: launching.events: Shutdown
@@ -122,20 +126,25 @@ launch.launch_description_source: launching.description: LaunchDescriptionSource
 launch.launch_description_sources: launching.description: PythonLaunchDescriptionSource
 launch.launch_description_sources: launching.description: AnyLaunchDescriptionSource
 launch.launch_description_sources: launching.description: FrontendLaunchDescriptionSource
+launch.some_substitutions_type: launching.substitutions: SomeSubstitutionsType
+launch.substitution: launching.substitutions: Substitution
 launch.substitutions: launching.substitutions: TextSubstitution LaunchConfiguration
 launch.substitutions: launching.substitutions: EnvironmentVariable PathJoinSubstitution
 launch.substitutions: launching.substitutions: StringJoinSubstitution PythonExpression
 launch.substitutions: launching.substitutions: ThisLaunchFile ThisLaunchFileDir AnonName
-launch.substitutions: launching.substitutions: FindExecutable Command EqualsSubstitution
-launch.substitutions: launching.substitutions: NotEqualsSubstitution AndSubstitution
-launch.substitutions: launching.substitutions: OrSubstitution NotSubstitution IfElseSubstitution
+launch.substitutions: launching.substitutions: FindExecutable Command SubstitutionFailure
+launch.substitutions: launching.logic: EqualsSubstitution NotEqualsSubstitution AndSubstitution
+launch.substitutions: launching.logic: OrSubstitution NotSubstitution AnySubstitution
+launch.substitutions: launching.logic: AllSubstitution IfElseSubstitution
 launch.utilities: launching.substitutions: perform_substitutions=perform
 launch_xml.launch_description_sources: launching.description: XMLLaunchDescriptionSource
 launch_yaml.launch_description_sources: launching.description: YAMLLaunchDescriptionSource
-launch_ros.actions: launching.nodes: Node PushRosNamespace SetRemap SetParameter
+launch_ros.actions: launching.nodes: Node PushRosNamespace PushROSNamespace=PushRosNamespace
+launch_ros.actions: launching.nodes: SetRemap
+launch_ros.actions: launching.parameters: SetParameter SetUseSimTime SetParametersFromFile
 launch_ros.substitutions: launching.substitutions: FindPackageShare FindPackagePrefix FindPackage
-launch_ros.parameter_descriptions: launching.nodes: ParameterValue ParameterFile
-launch_ros.descriptions: launching.nodes: ParameterValue ParameterFile
+launch_ros.parameter_descriptions: launching.parameters: ParameterValue ParameterFile
+launch_ros.descriptions: launching.parameters: ParameterValue ParameterFile
 ament_index_python: launching.packages: get_package_share_directory get_package_prefix
 ament_index_python: launching.packages: get_package_share_path PackageNotFoundError
 ament_index_python: launching.packages: get_packages_with_prefixes

@@ -8,9 +8,10 @@ from tftool.errors import NodeFailed, UsageError
 from tftool.ros import executables, importing, names, users
 from tftool.ros.importing import ros_free
 from tftool.ros.launching import packages
+from tftool.ros.launching.arguments import declared, shown_arguments
 from tftool.ros.launching.context import LaunchContext
-from tftool.ros.launching.description import load_file
-from tftool.ros.launching.engine import Launch, declared, shown_arguments
+from tftool.ros.launching.engine import Launch
+from tftool.ros.launching.files import load_file
 from tftool.ros.program import Program
 from tftool.ros.workspace import Workspace
 from tftool.runtime.clock import Phase
@@ -129,11 +130,8 @@ def show_arguments(path: Path, workspace: Workspace) -> str:
     Raises:
         InputError: If it cannot be read.
     """
-    context = LaunchContext(workspace)
-    context.locals = {
-        "current_launch_file_path": str(path),
-        "current_launch_file_directory": str(path.parent),
-    }
+    context = LaunchContext(workspace, load_file)
+    context.enter_file(path)
     return shown_arguments(declared(load_file(path), context))
 
 

@@ -4,7 +4,7 @@ World topics are full names without the leading slash.
 """
 
 import re
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
 from difflib import get_close_matches
 from pathlib import Path
@@ -203,8 +203,14 @@ def yaml_value(text: str) -> Any:
         return text
 
 
-def read_parameters(path: Path) -> list[tuple[str, str, Any]]:
+def read_parameters(
+    path: Path, substitute: Callable[[str], str] = str
+) -> list[tuple[str, str, Any]]:
     """The (node, name, value) of a ROS 2 parameter file.
+
+    Args:
+        path: The file.
+        substitute: Makes the text that is read of the one in the file.
 
     Raises:
         InputError: If it cannot be read, is no YAML, or is laid out otherwise.
@@ -217,7 +223,7 @@ def read_parameters(path: Path) -> list[tuple[str, str, Any]]:
         reason = error.strerror if isinstance(error, OSError) else "it is not UTF-8 text"
         raise InputError(f"cannot read the parameter file '{path}': {reason}") from None
     try:
-        tree = yaml.safe_load(text)
+        tree = yaml.safe_load(substitute(text))
     except yaml.YAMLError as error:
         mark = getattr(error, "problem_mark", None)
         where = f":{mark.line + 1}:{mark.column + 1}" if mark is not None else ""

@@ -1,8 +1,9 @@
 """What is known while a launch runs."""
 
 import os
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from contextlib import contextmanager
+from pathlib import Path
 from typing import Any
 
 from tftool.ros.workspace import Workspace
@@ -17,19 +18,23 @@ class LaunchContext:
         locals: What holds in the file that is being launched.
         namespace: Where nodes are put.
         remaps: Rules for all nodes of the scope.
-        parameters: Values for all nodes of the scope.
+        parameters: (node, name, value) for the nodes of the scope; "" is each of them.
         workspace: Where packages are looked for.
+        load: Reads a launch file, for those that include one.
         launch: What runs it.
     """
 
-    def __init__(self, workspace: Workspace, launch: Any = None) -> None:
+    def __init__(
+        self, workspace: Workspace, load: Callable[[Path], Any], launch: Any = None
+    ) -> None:
         self.launch_configurations: dict[str, str] = {}
         self.environment: dict[str, str] = dict(os.environ)
         self.locals: dict[str, str] = {}
         self.namespace = ""
         self.remaps: list[tuple[str, str]] = []
-        self.parameters: dict[str, Any] = {}
+        self.parameters: list[tuple[str, str, Any]] = []
         self.workspace = workspace
+        self.load = load
         self.launch = launch
         self.event: Any = None
         self._numbers: dict[str, int] = {}
@@ -39,6 +44,17 @@ class LaunchContext:
         """A number for a name, the same one each time."""
         return self._numbers.setdefault(name, len(self._numbers) + 1)
 
+    def perform_substitution(self, substitution: Any) -> str:
+        """The text of a substitution, for functions of a launch file."""
+        return str(substitution.perform(self))
+
+    def enter_file(self, path: Path) -> None:
+        """Be in a launch file from now on."""
+        self.locals = {
+            "current_launch_file_path": str(path),
+            "current_launch_file_directory": str(path.parent),
+        }
+
     def kept(self) -> tuple[Any, ...]:
         """The scope one is in, to come back to."""
         return (
@@ -47,7 +63,7 @@ class LaunchContext:
             dict(self.locals),
             self.namespace,
             list(self.remaps),
-            dict(self.parameters),
+            list(self.parameters),
         )
 
     def push(self) -> None:

@@ -1,12 +1,9 @@
-"""launch's descriptions: lists of actions, from Python, XML or YAML."""
+"""launch's descriptions: lists of actions, and where they come from."""
 
 from collections.abc import Iterable, Sequence
 from pathlib import Path
-from types import ModuleType
 from typing import Any
 
-from tftool.errors import InputError
-from tftool.ros import users
 from tftool.ros.launching.context import LaunchContext
 from tftool.ros.launching.substitutions import perform
 
@@ -43,7 +40,7 @@ class LaunchDescriptionSource:
         if self.description is not None:
             return self.description, None
         path = Path(perform(context, self.location))
-        return load_file(path), path
+        return context.load(path), path
 
 
 class PythonLaunchDescriptionSource(LaunchDescriptionSource):
@@ -55,44 +52,3 @@ class PythonLaunchDescriptionSource(LaunchDescriptionSource):
 
 XMLLaunchDescriptionSource = YAMLLaunchDescriptionSource = PythonLaunchDescriptionSource
 AnyLaunchDescriptionSource = FrontendLaunchDescriptionSource = PythonLaunchDescriptionSource
-
-
-def load_file(path: Path) -> LaunchDescription:
-    """The description in a launch file.
-
-    Raises:
-        InputError: If it cannot be read, is none, or raises; the user's own line is shown.
-    """
-    if path.suffix == ".xml":
-        from tftool.ros.launching.frontends import from_xml
-
-        return from_xml(path)
-    if path.suffix in (".yaml", ".yml"):
-        from tftool.ros.launching.frontends import from_yaml
-
-        return from_yaml(path)
-    return _from_python(path)
-
-
-def _from_python(path: Path) -> LaunchDescription:
-    code = users.compile_file(path)
-    module = ModuleType("launch_file")
-    module.__file__ = str(path)
-    try:
-        exec(code, module.__dict__)
-        make = module.__dict__.get("generate_launch_description")
-        if make is None:
-            raise InputError(
-                f"'{path}' is no launch file: it has no function generate_launch_description()"
-            )
-        description = make()
-    except InputError:
-        raise
-    except Exception as error:
-        raise InputError(f"{path}: {users.sentence_of(error)}") from error
-    if not isinstance(description, LaunchDescription):
-        raise InputError(
-            f"{path}: generate_launch_description() must return a LaunchDescription, not "
-            f"{type(description).__name__}"
-        )
-    return description

@@ -7,17 +7,17 @@ import subprocess
 import sys
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from contextlib import suppress
-from difflib import get_close_matches
 from pathlib import Path
 from typing import Any, ClassVar
 
 from tftool.errors import TftoolError, UsageError
 from tftool.ros import executables, users
-from tftool.ros.launching.actions import DeclareLaunchArgument, IncludeLaunchDescription
+from tftool.ros.launching.arguments import declared, refuse_unknown
 from tftool.ros.launching.context import LaunchContext
-from tftool.ros.launching.description import LaunchDescription, load_file
 from tftool.ros.launching.events import Event, ProcessExited, ProcessStarted, Shutdown
-from tftool.ros.names import RosOptions
+from tftool.ros.launching.files import load_file
+from tftool.ros.launching.nodes import Executable
+from tftool.ros.launching.processes import Command
 from tftool.ros.program import Program
 from tftool.ros.workspace import Workspace
 from tftool.runtime.clock import SimClock
@@ -27,6 +27,10 @@ from tftool.stamps import seconds
 
 Say = Callable[[str, str, str], object]
 """Is told level, who speaks ("launch", "listener-4") and a line."""
+
+
+SOONEST = 0.1
+"""Seconds before a program is started again at least: one that ends at once must let time pass."""
 
 
 class Launch(Node):
@@ -57,9 +61,9 @@ class Launch(Node):
             UsageError: If an argument is passed that it does not declare.
         """
         self.description = load_file(path)
-        self.context = LaunchContext(workspace, self)
-        self.context.locals = _locals(path)
-        _refuse_unknown(path, arguments or {}, declared(self.description, self.context))
+        self.context = LaunchContext(workspace, load_file, self)
+        self.context.enter_file(path)
+        refuse_unknown(path, arguments or {}, declared(self.description, self.context))
         self.context.launch_configurations.update(arguments or {})
         self.failed: list[str] = []
         self.ended = asyncio.Event()
@@ -70,6 +74,7 @@ class Launch(Node):
         self._running: dict[str, Program | asyncio.subprocess.Process | Node] = {}
         self._timers: set[asyncio.Task[None]] = set()
         self._watches: set[asyncio.Task[None]] = set()
+        self._respawns: dict[str, tuple[float, Callable[[], None]]] = {}
         self._count = 0
         self._closing = False
         self._over: asyncio.Future[None] | None = None
@@ -105,7 +110,11 @@ class Launch(Node):
     def do(self, entities: Any) -> None:
         """Carry out entities, and what they give, one after the other."""
         for entity in entities if isinstance(entities, Iterable) else [entities]:
-            following = entity.visit(self.context)
+            try:
+                following = entity.visit(self.context)
+            except UsageError as error:
+                where = getattr(entity, "where", "")
+                raise UsageError(f"{where}: {error}" if where else f"{error}") from error
             if following:
                 self.do(following)
 
@@ -126,6 +135,10 @@ class Launch(Node):
         """Say something."""
         self._say("INFO", "launch", text)
 
+    def warn(self, text: str) -> None:
+        """Say what is odd."""
+        self._say("WARNING", "launch", text)
+
     def later(self, period: float, actions: Sequence[Any]) -> None:
         """Carry actions out after so many seconds, in the scope of now."""
         kept = self.context.kept()
@@ -137,18 +150,17 @@ class Launch(Node):
 
         self._start_task(wait(), self._timers)
 
-    def start_node(
-        self,
-        action: Any,
-        package: str,
-        executable: str,
-        arguments: Sequence[str],
-        options: RosOptions,
-        exec_name: str | None,
-    ) -> None:
-        """Start a package's executable."""
-        label = self._label(exec_name or executable)
-        argv = [executable, *arguments, "--ros-args"]
+    def start_node(self, action: Any, executable: Executable, respawn: float | None) -> None:
+        """Start a package's executable.
+
+        Args:
+            action: What asked for it, for events.
+            executable: What to start.
+            respawn: After how many seconds it is started again once it has ended; None for never.
+        """
+        label = self._label(executable.label)
+        options = executable.options
+        argv = [executable.name, *executable.arguments, "--ros-args"]
         if options.name:
             argv += ["-r", f"__node:={options.name}"]
         if options.namespace:
@@ -156,73 +168,83 @@ class Launch(Node):
         argv += [
             word for _, name, value in options.parameters for word in ("-p", f"{name}:={value}")
         ]
-        node = executables.start(
-            self.world,
-            self.context.workspace,
-            package,
-            executable,
-            label=label,
-            argv=argv,
-            arguments=arguments,
-            options=options,
-            on_exit=lambda program: self._program_ended(action, label, program),
-        )
-        if not isinstance(node, Program):
-            self.labels[node.name] = label
-        self._running[label] = node
-        self._say("INFO", label, "process started")
-        self.emit(ProcessStarted(action=action, process_name=label))
+
+        def start() -> None:
+            node = executables.start(
+                self.world,
+                self.context.workspace,
+                executable.package,
+                executable.name,
+                label=label,
+                argv=argv,
+                arguments=executable.arguments,
+                options=options,
+                on_exit=lambda program: self._program_ended(action, label, program),
+            )
+            if not isinstance(node, Program):
+                self.labels[node.name] = label
+            self._running[label] = node
+            self._say("INFO", label, "process started")
+            self.emit(ProcessStarted(action=action, process_name=label))
+
+        self._start(label, start, respawn)
 
     def start_process(
-        self,
-        action: Any,
-        name: str,
-        words: Sequence[str],
-        environment: Mapping[str, str],
-        cwd: str | None,
-        shell: bool,
+        self, action: Any, name: str, command: Command, respawn: float | None
     ) -> None:
-        """Start a command of the system; on simulated time it takes no time."""
-        label = self._label(name)
-        words = list(words) if not shell else ["/bin/sh", "-c", " ".join(words)]
-        self._say("INFO", label, f"process started: {shlex.join(words)}")
-        self.emit(ProcessStarted(action=action, process_name=label))
-        if isinstance(self.clock, SimClock):
-            try:
-                done = subprocess.run(
-                    words,
-                    env=dict(environment),
-                    cwd=cwd,
-                    capture_output=True,
-                    text=True,
-                    check=False,
-                )
-            except OSError as error:
-                raise UsageError(f"cannot run '{words[0]}': {error.strerror}") from None
-            for line in done.stdout.splitlines():
-                self._say("", label, line)
-            self._ended(action, label, done.returncode, "")
-            return
-        self._start_task(self._watch(action, label, words, environment, cwd), self._watches)
+        """Start a command of the system; on simulated time it takes no time.
 
-    async def _watch(
-        self,
-        action: Any,
-        label: str,
-        words: Sequence[str],
-        environment: Mapping[str, str],
-        cwd: str | None,
-    ) -> None:
+        Args:
+            action: What asked for it, for events.
+            name: What it is called in the log, before its number.
+            command: What to start.
+            respawn: As for `start_node`.
+        """
+        label = self._label(name)
+
+        def start() -> None:
+            self._say("INFO", label, f"process started: {shlex.join(command.words)}")
+            self.emit(ProcessStarted(action=action, process_name=label))
+            if isinstance(self.clock, SimClock):
+                self._ended(action, label, *self._run_at_once(label, command))
+            else:
+                self._start_task(self._watch(action, label, command), self._watches)
+
+        self._start(label, start, respawn)
+
+    def _start(self, label: str, start: Callable[[], None], respawn: float | None) -> None:
+        if respawn is not None:
+            self._respawns[label] = (max(respawn, SOONEST), start)
+        start()
+
+    def _run_at_once(self, label: str, command: Command) -> tuple[int, str]:
+        """Run a command while simulated time stands still; its status, and why it failed."""
+        try:
+            done = subprocess.run(
+                command.words,
+                env=dict(command.environment),
+                cwd=command.cwd,
+                capture_output=True,
+                text=True,
+                check=False,
+            )
+        except OSError as error:
+            raise UsageError(f"cannot run '{command.words[0]}': {error.strerror}") from None
+        for line in (done.stdout + done.stderr).splitlines():
+            self._say("", label, line)
+        return done.returncode, ""
+
+    async def _watch(self, action: Any, label: str, command: Command) -> None:
         try:
             process = await asyncio.create_subprocess_exec(
-                *words,
-                env=dict(environment),
-                cwd=cwd,
+                *command.words,
+                env=dict(command.environment),
+                cwd=command.cwd,
                 stdout=asyncio.subprocess.PIPE,
                 stderr=asyncio.subprocess.STDOUT,
             )
         except OSError as error:
-            self._ended(action, label, 127, f"cannot run '{words[0]}': {error.strerror}")
+            self._ended(action, label, 127, f"cannot run '{command.words[0]}': {error.strerror}")
             return
         self._running[label] = process
         if self._closing:
@@ -236,6 +258,8 @@ class Launch(Node):
     # What ends
 
     def _program_ended(self, action: Any, label: str, program: Program) -> None:
+        # Its name is free again: it may be started anew.
+        self.world.remove(program)
         reason = "" if program.failure is None else users.sentence_of(program.failure)
         if isinstance(program.failure, SystemExit):
             reason = ""
@@ -253,7 +277,19 @@ class Launch(Node):
             self._say("ERROR", label, f"process has died, exit status {status}{told}")
         event = ProcessExited(action=action, process_name=label, returncode=status)
         self._guarded(lambda: self.emit(event))
+        self._respawn(label)
         self._look_round()
+
+    def _respawn(self, label: str) -> None:
+        if label not in self._respawns or self._closing:
+            return
+        delay, start = self._respawns[label]
+
+        async def wait() -> None:
+            await self.clock.sleep(seconds(delay), self.phase, self.rank)
+            self._guarded(start)
+
+        self._start_task(wait(), self._timers)
 
     def _guarded(self, work: Callable[[], object]) -> None:
         """Do something later than the launch began: what is wrong ends the launch."""
@@ -306,74 +342,3 @@ def _interrupt(process: asyncio.subprocess.Process) -> None:
     if process.returncode is None:
         with suppress(ProcessLookupError):
             process.send_signal(signal.SIGINT if sys.platform != "win32" else signal.SIGTERM)
-
-
-def _locals(path: Path) -> dict[str, str]:
-    return {
-        "current_launch_file_path": str(path),
-        "current_launch_file_directory": str(path.parent),
-    }
-
-
-def declared(description: LaunchDescription, context: LaunchContext) -> list[DeclareLaunchArgument]:
-    """The arguments a description declares, those of files it includes too."""
-    found: dict[str, DeclareLaunchArgument] = {}
-
-    def look(entities: Iterable[Any]) -> None:
-        for entity in entities:
-            if isinstance(entity, DeclareLaunchArgument):
-                found.setdefault(entity.name, entity)
-                if entity.default_value is not None:
-                    context.launch_configurations.setdefault(entity.name, "")
-            elif isinstance(entity, IncludeLaunchDescription):
-                passed = {str(name) for name, _ in entity.launch_arguments}
-                before = set(found)
-                try:
-                    inner, _ = entity.source.load(context)
-                except TftoolError:
-                    continue  # it is said when the file is really included
-                look(inner.entities)
-                for name in set(found) - before & passed:
-                    del found[name]
-            elif isinstance(entity, LaunchDescription):
-                look(entity.entities)
-            else:
-                look(entity.describe_sub_entities())
-
-    kept = dict(context.launch_configurations)
-    look(description.entities)
-    context.launch_configurations = kept
-    return list(found.values())
-
-
-def _refuse_unknown(
-    path: Path, given: Mapping[str, str], known: Sequence[DeclareLaunchArgument]
-) -> None:
-    names = [one.name for one in known]
-    for name in given:
-        if name not in names:
-            near = get_close_matches(name, names, n=1)
-            if near:
-                raise UsageError(
-                    f"{path.name} declares no argument '{name}'; did you mean '{near[0]}:=…'?"
-                )
-            there = ", ".join(names) if names else "none"
-            raise UsageError(f"{path.name} declares no argument '{name}' (it declares {there})")
-
-
-def shown_arguments(arguments: Sequence[DeclareLaunchArgument]) -> str:
-    """What --show-args prints, laid out as `ros2 launch` does."""
-    lines = ["Arguments (pass arguments as '<name>:=<value>'):"]
-    if not arguments:
-        lines += ["", "  No arguments."]
-    for one in arguments:
-        choices = "" if one.choices is None else f" Valid choices are: {one.choices}"
-        default = one.shown_default()
-        lines += [
-            "",
-            f"    '{one.name}':",
-            f"        {one.description}.{choices}" if choices else f"        {one.description}",
-        ]
-        if default is not None:
-            lines.append(f"        (default: {default})")
-    return "\n".join(lines)

@@ -1,76 +1,40 @@
-"""launch_ros's actions: nodes, their parameters, namespaces and remappings."""
+"""launch_ros's actions: nodes, their namespaces and remappings."""
 
-from collections.abc import Iterable, Mapping
-from pathlib import Path
+import shlex
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass
 from typing import Any
 
 from tftool.errors import UsageError
 from tftool.ros import names
-from tftool.ros.launching.actions import Action
+from tftool.ros.launching.action import Action
 from tftool.ros.launching.context import LaunchContext
-from tftool.ros.launching.events import OnProcessExit
+from tftool.ros.launching.parameters import read_all
+from tftool.ros.launching.processes import Startable
 from tftool.ros.launching.substitutions import Substitution, perform
+from tftool.ros.names import RosOptions
 
 
-class ParameterValue:
-    """A parameter's value of a given type."""
+@dataclass(frozen=True, slots=True)
+class Executable:
+    """A package's executable, ready to be started.
 
-    def __init__(self, value: Any, *, value_type: Any = None) -> None:
-        self.value, self.value_type = value, value_type
+    Attributes:
+        package: Its package.
+        name: Its name there.
+        arguments: Its own arguments.
+        options: ROS 2's.
+        label: What it is called in the log, before its number.
+    """
 
-    def evaluate(self, context: LaunchContext) -> Any:
-        """The value.
-
-        Raises:
-            UsageError: If it is not of that type.
-        """
-        if not _is_text(self.value):
-            return _plain(context, self.value)
-        text = perform(context, self.value)
-        if self.value_type is str:
-            return text
-        value = names.yaml_value(text)
-        if self.value_type is float and isinstance(value, int):
-            value = float(value)
-        if isinstance(self.value_type, type) and not isinstance(value, self.value_type):
-            raise UsageError(
-                f"a parameter's value is to be {self.value_type.__name__}, not '{text}'"
-            )
-        return value
+    package: str
+    name: str
+    arguments: Sequence[str]
+    options: RosOptions
+    label: str
 
 
-class ParameterFile:
-    """A parameter file."""
-
-    def __init__(self, param_file: Any, *, allow_substs: Any = False) -> None:
-        self.param_file = param_file
-
-
-def _is_text(value: Any) -> bool:
-    if isinstance(value, str | Substitution):
-        return True
-    return (
-        isinstance(value, list | tuple)
-        and bool(value)
-        and any(isinstance(one, Substitution) for one in value)
-        and all(isinstance(one, str | Substitution) for one in value)
-    )
-
-
-def _plain(context: LaunchContext, value: Any) -> Any:
-    if isinstance(value, ParameterValue):
-        return value.evaluate(context)
-    if isinstance(value, str):
-        return value
-    if _is_text(value):
-        # What a substitution gives is read as YAML, as ROS 2 reads it.
-        return names.yaml_value(perform(context, value))
-    if isinstance(value, list | tuple):
-        return [_plain(context, one) for one in value]
-    return value
-
-
-class Node(Action):
+class Node(Startable):
     """A node: a package's executable."""
 
     def __init__(
@@ -85,34 +49,20 @@ class Node(Action):
         remappings: Iterable[Any] | None = None,
         arguments: Iterable[Any] | None = None,
         ros_arguments: Iterable[Any] | None = None,
-        output: Any = "log",
-        emulate_tty: bool = False,
-        respawn: Any = False,
-        respawn_delay: float | None = None,
-        on_exit: Any = None,
-        prefix: Any = None,
         additional_env: Any = None,
         env: Any = None,
         cwd: Any = None,
-        shell: bool = False,
-        sigterm_timeout: Any = None,
-        sigkill_timeout: Any = None,
-        node_name: Any = None,
-        node_namespace: Any = None,
-        node_executable: Any = None,
+        shell: Any = False,
         **kwargs: Any,
     ) -> None:
         super().__init__(**kwargs)
         self.package, self.executable = package, executable
-        self.name = name if node_name is None else node_name
-        self.namespace = namespace if node_namespace is None else node_namespace
-        self.exec_name = exec_name
+        self.name, self.namespace, self.exec_name = name, namespace, exec_name
         self.parameters = [parameters] if isinstance(parameters, dict) else list(parameters or ())
         self.remappings = list(remappings or ())
         self.arguments = _listed(arguments)
         self.ros_arguments = _listed(ros_arguments)
-        self.output = output
-        self.on_exit = on_exit
+        self.additional_env, self.env, self.cwd, self.shell = additional_env, env, cwd, shell
 
     def execute(self, context: LaunchContext) -> Any:
         """Start it."""
@@ -126,44 +76,30 @@ class Node(Action):
         options.namespace = own if own.startswith("/") else names.join(context.namespace, own)
         for old, new in [*self._remappings(context), *context.remaps]:
             names.add_remap(options, f"{old}:={new}")
-        given = [("", name, value) for name, value in context.parameters.items()]
-        options.parameters = [*given, *self._parameters(context), *options.parameters]
+        own_parameters = read_all(context, self.parameters)
+        options.parameters = [*context.parameters, *own_parameters, *options.parameters]
         arguments = [perform(context, one) for one in self.arguments]
         if "--ros-args" in arguments:
             more, arguments = names.parse(arguments)
             options.parameters += more.parameters
             options.remaps += more.remaps
             options.name = more.name or options.name
-        if self.on_exit is not None:
-            context.launch.handlers.append(
-                OnProcessExit(target_action=self, on_exit=self.on_exit, handle_once=True)
-            )
         if self.package is None:
             raise UsageError("a Node needs a package here; run a command by ExecuteProcess")
-        context.launch.start_node(
-            self,
+        self.handle_exit(context)
+        self.say_unused(context, "additional_env", "env", "cwd", "shell")
+        executable = perform(context, self.executable)
+        started = Executable(
             perform(context, self.package),
-            perform(context, self.executable),
+            executable,
             arguments,
             options,
-            None if self.exec_name is None else perform(context, self.exec_name),
+            perform(context, self.exec_name) or executable,
         )
+        context.launch.start_node(self, started, self.respawn_after(context))
 
     def _remappings(self, context: LaunchContext) -> list[tuple[str, str]]:
         return [(perform(context, old), perform(context, new)) for old, new in self.remappings]
-
-    def _parameters(self, context: LaunchContext) -> list[tuple[str, str, Any]]:
-        found: list[tuple[str, str, Any]] = []
-        for one in self.parameters:
-            if isinstance(one, Mapping):
-                named = {perform(context, key): value for key, value in one.items()}
-                for name, value in names.flatten(named):
-                    found.append(("", name, _plain(context, value)))
-            elif isinstance(one, ParameterFile):
-                found += names.read_parameters(Path(perform(context, one.param_file)))
-            else:
-                found += names.read_parameters(Path(perform(context, one)))
-        return found
 
 
 def _listed(given: Any) -> list[Any]:
@@ -171,8 +107,6 @@ def _listed(given: Any) -> list[Any]:
     if given is None:
         return []
     if isinstance(given, str):
-        import shlex
-
         return list(shlex.split(given))
     return [given] if isinstance(given, Substitution) else list(given)
 
@@ -201,15 +135,3 @@ class SetRemap(Action):
     def execute(self, context: LaunchContext) -> Any:
         """Rename it."""
         context.remaps.append((perform(context, self.src), perform(context, self.dst)))
-
-
-class SetParameter(Action):
-    """Sets a parameter for all nodes of the scope."""
-
-    def __init__(self, name: Any, value: Any, **kwargs: Any) -> None:
-        super().__init__(**kwargs)
-        self.name, self.value = name, value
-
-    def execute(self, context: LaunchContext) -> Any:
-        """Set it."""
-        context.parameters[perform(context, self.name)] = _plain(context, self.value)

@@ -9,6 +9,7 @@ from pathlib import Path
 from typing import Any
 
 from tftool.errors import UsageError
+from tftool.ros.launching import packages
 from tftool.ros.launching.context import LaunchContext
 
 
@@ -114,8 +115,8 @@ class LaunchConfiguration(Substitution):
         )
 
     def describe(self) -> str:
-        """LaunchConfiguration('name')."""
-        return f"LaunchConfiguration({describe(self.variable_name)})"
+        """LaunchConfig('name')."""
+        return f"LaunchConfig({describe(self.variable_name)})"
 
 
 class EnvironmentVariable(Substitution):
@@ -150,8 +151,9 @@ class PathJoinSubstitution(Substitution):
         return os.path.join(*(perform(context, one) for one in self.substitutions))
 
     def describe(self) -> str:
-        """PathJoin(parts)."""
-        return f"PathJoin({', '.join(describe(one) for one in self.substitutions)})"
+        """PathJoinSubstitution('parts')."""
+        parts = ", ".join(describe(one) for one in self.substitutions)
+        return f"PathJoinSubstitution('{parts}')"
 
 
 class StringJoinSubstitution(Substitution):
@@ -171,14 +173,20 @@ class StringJoinSubstitution(Substitution):
 class PythonExpression(Substitution):
     """What an expression of Python gives; it is the launch file's own code."""
 
-    def __init__(self, expression: Any, python_modules: Any = ()) -> None:
+    def __init__(self, expression: Any, python_modules: Any = ("math",)) -> None:
         self.expression = expression
+        self.python_modules = python_modules
 
     def perform(self, context: LaunchContext) -> str:
         """The expression's value as text."""
         text = perform(context, self.expression)
-        names: dict[str, Any] = {**vars(math), "math": math, "os": os}
+        given = self.python_modules
+        modules = [given] if isinstance(given, str | Substitution) else given
         try:
+            names: dict[str, Any] = {**vars(math), "os": os}
+            for module in modules:
+                name = perform(context, module)
+                names[name.partition(".")[0]] = __import__(name)
             return str(eval(text, names))
         except Exception as error:
             raise SubstitutionFailure(
@@ -228,6 +236,11 @@ class FindPackageShare(Substitution):
         """Its path: in a workspace, the package's sources."""
         return str(context.workspace.share(perform(context, self.package)))
 
+    @staticmethod
+    def find(package_name: str) -> str:
+        """A package's path at once, for launch files that join paths themselves."""
+        return packages.get_package_share_directory(package_name)
+
     def describe(self) -> str:
         """FindPackageShare(pkg='name')."""
         return f"FindPackageShare(pkg={describe(self.package)})"
@@ -269,72 +282,3 @@ class Command(Substitution):
         except (OSError, subprocess.CalledProcessError) as error:
             raise SubstitutionFailure(f"the command {words} failed: {error}") from None
         return done.stdout
-
-
-class _Logic(Substitution):
-    def __init__(self, left: Any, right: Any) -> None:
-        self.left, self.right = left, right
-
-
-class EqualsSubstitution(_Logic):
-    """Whether two texts are equal; numbers compare as numbers, truths as truths."""
-
-    def perform(self, context: LaunchContext) -> str:
-        """'true' or 'false'."""
-        left, right = perform(context, self.left), perform(context, self.right)
-        try:
-            equal = math.isclose(float(left), float(right))
-        except ValueError:
-            truths = {"true", "false"}
-            low = (left.lower(), right.lower())
-            equal = low[0] == low[1] if set(low) <= truths else left == right
-        return str(equal).lower()
-
-
-class NotEqualsSubstitution(EqualsSubstitution):
-    """Whether two texts differ."""
-
-    def perform(self, context: LaunchContext) -> str:
-        """'true' or 'false'."""
-        return str(super().perform(context) == "false").lower()
-
-
-class AndSubstitution(_Logic):
-    """Whether both are true."""
-
-    def perform(self, context: LaunchContext) -> str:
-        """'true' or 'false'."""
-        both = is_true(perform(context, self.left)) and is_true(perform(context, self.right))
-        return str(both).lower()
-
-
-class OrSubstitution(_Logic):
-    """Whether one is true."""
-
-    def perform(self, context: LaunchContext) -> str:
-        """'true' or 'false'."""
-        one = is_true(perform(context, self.left)) or is_true(perform(context, self.right))
-        return str(one).lower()
-
-
-class NotSubstitution(Substitution):
-    """Whether something is false."""
-
-    def __init__(self, value: Any) -> None:
-        self.value = value
-
-    def perform(self, context: LaunchContext) -> str:
-        """'true' or 'false'."""
-        return str(not is_true(perform(context, self.value))).lower()
-
-
-class IfElseSubstitution(Substitution):
-    """One text or another."""
-
-    def __init__(self, condition: Any, if_value: Any = "", else_value: Any = "") -> None:
-        self.condition, self.if_value, self.else_value = condition, if_value, else_value
-
-    def perform(self, context: LaunchContext) -> str:
-        """The text chosen."""
-        chosen = is_true(perform(context, self.condition))
-        return perform(context, self.if_value if chosen else self.else_value)

@@ -1,0 +1,45 @@
+"""launch's Action: one thing to do."""
+
+import sys
+from collections.abc import Sequence
+from typing import Any
+
+from tftool.ros.fibers import place_of
+from tftool.ros.launching.context import LaunchContext
+from tftool.ros.launching.events import ExecutionComplete
+
+
+class Action:
+    """One thing to do: `execute` gives further actions, or None.
+
+    What takes time is handed to the launch (`context.launch`).
+
+    Attributes:
+        condition: Whether it is done at all; None for always.
+        where: "file:line" where the launch file says it.
+    """
+
+    def __init__(self, *, condition: Any = None, **kwargs: Any) -> None:
+        self.condition = condition
+        place = place_of(sys._getframe(1))
+        self.where = "" if place is None else f"{place.file}:{place.line}"
+        if kwargs:
+            raise TypeError(
+                f"{type(self).__name__} takes no argument {', '.join(map(repr, kwargs))} here"
+            )
+
+    def visit(self, context: LaunchContext) -> Any:
+        """Do it, if its condition holds; what is to be done next."""
+        if self.condition is not None and not self.condition.evaluate(context):
+            return None
+        following = self.execute(context)
+        context.launch.emit(ExecutionComplete(action=self))
+        return following
+
+    def execute(self, context: LaunchContext) -> Any:
+        """Do it."""
+        return None
+
+    def describe_sub_entities(self) -> Sequence[Any]:
+        """Actions inside, for looking for arguments."""
+        return ()

@@ -1,0 +1,80 @@
+"""Arguments of launch files: which there are, which may be passed, how they are shown."""
+
+from collections.abc import Iterable, Mapping, Sequence
+from difflib import get_close_matches
+from pathlib import Path
+from typing import Any
+
+from tftool.errors import TftoolError, UsageError
+from tftool.ros.launching.composition import IncludeLaunchDescription
+from tftool.ros.launching.context import LaunchContext
+from tftool.ros.launching.description import LaunchDescription
+from tftool.ros.launching.settings import DeclareLaunchArgument
+
+
+def declared(description: LaunchDescription, context: LaunchContext) -> list[DeclareLaunchArgument]:
+    """The arguments a description declares, those of files it includes too."""
+    found: dict[str, DeclareLaunchArgument] = {}
+
+    def look(entities: Iterable[Any]) -> None:
+        for entity in entities:
+            if isinstance(entity, DeclareLaunchArgument):
+                found.setdefault(entity.name, entity)
+                if entity.default_value is not None:
+                    context.launch_configurations.setdefault(entity.name, "")
+            elif isinstance(entity, IncludeLaunchDescription):
+                passed = {str(name) for name, _ in entity.launch_arguments}
+                before = set(found)
+                try:
+                    inner, _ = entity.source.load(context)
+                except TftoolError:
+                    continue  # it is said when the file is really included
+                look(inner.entities)
+                for name in set(found) - before & passed:
+                    del found[name]
+            elif isinstance(entity, LaunchDescription):
+                look(entity.entities)
+            else:
+                look(entity.describe_sub_entities())
+
+    kept = dict(context.launch_configurations)
+    look(description.entities)
+    context.launch_configurations = kept
+    return list(found.values())
+
+
+def refuse_unknown(
+    path: Path, given: Mapping[str, str], known: Sequence[DeclareLaunchArgument]
+) -> None:
+    """Refuse arguments that a launch file does not declare.
+
+    Raises:
+        UsageError: If there is one; the nearest that is declared is told.
+    """
+    names = [one.name for one in known]
+    for name in given:
+        if name not in names:
+            near = get_close_matches(name, names, n=1)
+            if near:
+                raise UsageError(
+                    f"{path.name} declares no argument '{name}'; did you mean '{near[0]}:=…'?"
+                )
+            there = ", ".join(names) if names else "none"
+            raise UsageError(f"{path.name} declares no argument '{name}' (it declares {there})")
+
+
+def shown_arguments(arguments: Sequence[DeclareLaunchArgument]) -> str:
+    """What --show-args prints, laid out as `ros2 launch` does."""
+    lines = ["Arguments (pass arguments as '<name>:=<value>'):"]
+    if not arguments:
+        lines += ["", "  No arguments."]
+    for one in arguments:
+        default = one.shown_default()
+        lines += [
+            "",
+            f"    '{one.name}':",
+            f"        {one.description}",
+        ]
+        if default is not None:
+            lines.append(f"        (default: {default})")
+    return "\n".join(lines)

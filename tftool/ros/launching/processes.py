@@ -1,0 +1,131 @@
+"""launch's actions that start something with an end of its own; commands of the system."""
+
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+from tftool.errors import UsageError
+from tftool.ros.launching.action import Action
+from tftool.ros.launching.context import LaunchContext
+from tftool.ros.launching.events import OnProcessExit
+from tftool.ros.launching.substitutions import is_true, perform
+
+
+class Startable(Action):
+    """What is started, ends some time, and may be started again."""
+
+    def __init__(
+        self,
+        *,
+        on_exit: Any = None,
+        respawn: Any = False,
+        respawn_delay: Any = None,
+        prefix: Any = None,
+        output: Any = "log",
+        **kwargs: Any,
+    ) -> None:
+        # These are about how real processes end, and where their output goes.
+        for name in ("emulate_tty", "sigterm_timeout", "sigkill_timeout", "log_cmd",
+                     "output_format", "cached_output"):  # fmt: skip
+            kwargs.pop(name, None)
+        super().__init__(**kwargs)
+        self.on_exit, self.prefix, self.output = on_exit, prefix, output
+        self.respawn, self.respawn_delay = respawn, respawn_delay
+
+    def handle_exit(self, context: LaunchContext) -> None:
+        """Have done what is to be done once it has ended."""
+        if self.on_exit is not None:
+            context.launch.handlers.append(
+                OnProcessExit(target_action=self, on_exit=self.on_exit, handle_once=True)
+            )
+
+    def respawn_after(self, context: LaunchContext) -> float | None:
+        """After how many seconds it is started again; None if it is not.
+
+        Raises:
+            UsageError: If that is no number.
+        """
+        if not is_true(perform(context, self.respawn)):
+            return None
+        return seconds_of(context, self.respawn_delay or 0.0, "a respawn_delay")
+
+    def say_unused(self, context: LaunchContext, *names: str) -> None:
+        """Say what was given and has no effect here."""
+        given = [name for name in ("prefix", *names) if getattr(self, name)]
+        if given:
+            context.launch.warn(
+                f"{' and '.join(given)} of a {type(self).__name__} have no effect here"
+            )
+
+
+def seconds_of(context: LaunchContext, value: Any, what: str) -> float:
+    """A number of seconds.
+
+    Raises:
+        UsageError: If it is none.
+    """
+    text = perform(context, value)
+    try:
+        return float(text)
+    except ValueError:
+        raise UsageError(f"{what} is seconds, not '{text}'") from None
+
+
+@dataclass(frozen=True, slots=True)
+class Command:
+    """A command of the system.
+
+    Attributes:
+        words: It and its arguments.
+        environment: Its environment variables, all of them.
+        cwd: Where it runs; None for here.
+    """
+
+    words: Sequence[str]
+    environment: Mapping[str, str]
+    cwd: str | None
+
+
+class ExecuteProcess(Startable):
+    """A command of the system."""
+
+    def __init__(
+        self,
+        *,
+        cmd: Iterable[Any],
+        name: Any = None,
+        cwd: Any = None,
+        env: Mapping[Any, Any] | None = None,
+        additional_env: Mapping[Any, Any] | None = None,
+        shell: Any = False,
+        **kwargs: Any,
+    ) -> None:
+        super().__init__(**kwargs)
+        self.cmd = list(cmd)
+        self.process_name = name
+        self.cwd, self.env, self.additional_env = cwd, env, additional_env
+        self.shell = shell
+
+    def execute(self, context: LaunchContext) -> Any:
+        """Start it."""
+        words = [perform(context, word) for word in self.cmd]
+        environment = dict(context.environment)
+        if self.env is not None:
+            environment = _texts(context, self.env)
+        environment.update(_texts(context, self.additional_env or {}))
+        cwd = None if self.cwd is None else perform(context, self.cwd)
+        if self.process_name is None:
+            name = Path(words[0].split()[0]).name if words[0].strip() else "process"
+        else:
+            name = perform(context, self.process_name)
+        self.handle_exit(context)
+        self.say_unused(context)
+        if is_true(perform(context, self.shell)):
+            words = ["/bin/sh", "-c", " ".join(words)]
+        command = Command(words, environment, cwd)
+        context.launch.start_process(self, name, command, self.respawn_after(context))
+
+
+def _texts(context: LaunchContext, given: Mapping[Any, Any]) -> dict[str, str]:
+    return {perform(context, key): perform(context, value) for key, value in given.items()}

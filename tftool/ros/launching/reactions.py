@@ -1,0 +1,70 @@
+"""launch's actions that say something, wait for events, or make them happen."""
+
+from typing import Any
+
+from tftool.ros.launching.action import Action
+from tftool.ros.launching.context import LaunchContext
+from tftool.ros.launching.events import Event, EventHandler
+from tftool.ros.launching.events import Shutdown as ShutdownEvent
+from tftool.ros.launching.substitutions import perform
+
+
+class LogInfo(Action):
+    """Says something."""
+
+    def __init__(self, *, msg: Any, **kwargs: Any) -> None:
+        super().__init__(**kwargs)
+        self.msg = msg
+
+    def execute(self, context: LaunchContext) -> Any:
+        """Say it."""
+        context.launch.info(perform(context, self.msg))
+
+
+class RegisterEventHandler(Action):
+    """Does something when something happens."""
+
+    def __init__(self, event_handler: EventHandler, **kwargs: Any) -> None:
+        super().__init__(**kwargs)
+        self.event_handler = event_handler
+
+    def execute(self, context: LaunchContext) -> Any:
+        """Begin to listen."""
+        context.launch.handlers.append(self.event_handler)
+
+
+class UnregisterEventHandler(Action):
+    """Does it no more."""
+
+    def __init__(self, event_handler: EventHandler, **kwargs: Any) -> None:
+        super().__init__(**kwargs)
+        self.event_handler = event_handler
+
+    def execute(self, context: LaunchContext) -> Any:
+        """Listen no more."""
+        if self.event_handler in context.launch.handlers:
+            context.launch.handlers.remove(self.event_handler)
+
+
+class EmitEvent(Action):
+    """Makes something happen."""
+
+    def __init__(self, *, event: Event, **kwargs: Any) -> None:
+        super().__init__(**kwargs)
+        self.event = event
+
+    def execute(self, context: LaunchContext) -> Any:
+        """Emit it."""
+        context.launch.emit(self.event)
+
+
+class Shutdown(Action):
+    """Ends the launch."""
+
+    def __init__(self, *, reason: Any = "reason not given", **kwargs: Any) -> None:
+        super().__init__(**kwargs)
+        self.reason = reason
+
+    def execute(self, context: LaunchContext) -> Any:
+        """End it."""
+        context.launch.emit(ShutdownEvent(reason=perform(context, self.reason)))
