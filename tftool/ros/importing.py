@@ -9,7 +9,7 @@ import os
 import sys
 import threading
 from collections import UserList
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 from importlib.abc import Loader, MetaPathFinder
 from pathlib import Path
@@ -19,6 +19,7 @@ from typing import Any
 from tftool.errors import UsageError
 from tftool.interfaces.classes import INTERFACES
 from tftool.ros import faces, fibers
+from tftool.ros.shims import builtins_for_users
 
 WHERE_TO_LOOK = (
     "the table 'The tutorial, line by line' in tftool's README says what runs without ROS; "
@@ -109,9 +110,8 @@ def _kinds(package: str) -> list[str]:
 class _Finder(MetaPathFinder):
     """Finds faces; and, below the roots of a workspace, users' own modules."""
 
-    def __init__(self, make_builtins: Callable[[], dict[str, Any]]) -> None:
+    def __init__(self) -> None:
         self.roots: list[Path] = []
-        self._make_builtins = make_builtins
 
     def find_spec(
         self, fullname: str, path: Sequence[str] | None = None, target: ModuleType | None = None
@@ -139,7 +139,7 @@ class _Finder(MetaPathFinder):
         if spec is None or spec.origin is None or not self._is_users(spec.origin):
             return None
         if isinstance(spec.loader, importlib.machinery.SourceFileLoader):
-            spec.loader = _UserLoader(fullname, spec.origin, self._make_builtins)
+            spec.loader = _UserLoader(fullname, spec.origin)
         return spec
 
     def _is_users(self, origin: str) -> bool:
@@ -153,12 +153,8 @@ def _spec(name: str, *, is_package: bool) -> importlib.machinery.ModuleSpec:
 class _UserLoader(importlib.machinery.SourceFileLoader):
     """Loads a user's module with builtins whose `import` knows our clock."""
 
-    def __init__(self, name: str, path: str, make: Callable[[], dict[str, Any]]) -> None:
-        super().__init__(name, path)
-        self._make = make
-
     def exec_module(self, module: ModuleType) -> None:
-        module.__dict__["__builtins__"] = self._make()
+        module.__dict__["__builtins__"] = builtins_for_users()
         super().exec_module(module)
 
     def set_data(self, path: str, data: Any, *, _mode: int = 0o666) -> None:
@@ -208,9 +204,7 @@ def ros_free(*, insist: bool = False) -> Iterator["_Finder"]:
     if _finder is not None:
         yield _finder
         return
-    from tftool.ros.users import builtins_for_users
-
-    _finder = _Finder(builtins_for_users)
+    _finder = _Finder()
     before = {name: module for name, module in sys.modules.items() if _is_theirs(name)}
     for name in before:
         del sys.modules[name]
