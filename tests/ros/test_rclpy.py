@@ -90,16 +90,47 @@ def test_two_nodes_of_one_name_are_told_apart_with_a_warning(node, ros_runtime):
     assert any("a node named 'probe' is here already" in text for text in ros_runtime.log())
 
 
+def test_a_nodes_class_may_call_its_own_things_as_it_likes(node, ros_runtime):
+    import rclpy
+    from rclpy.node import Node
+
+    class Robot(Node):
+        def __init__(self):
+            super().__init__("robot")
+            self.world = self.program = self.graph = self.frames = self.member = "map"
+            self.entities = self.authority = self.wake = self.late = self.forget = None
+            self.declare_parameter("speed", 1.0)
+            self.ticks = []
+            self.create_timer(1.0, self._tick)
+
+        def _tick(self):
+            self.ticks.append(self.get_parameter("speed").value)
+
+        def _keep(self):
+            raise AssertionError("this is the user's own")
+
+        _join = _destroy = _all = _known = _fault = _on_get = _keep
+
+    robot = Robot()
+    rclpy.spin_once(robot)
+    robot.destroy_timer(next(robot.timers))
+    robot.destroy_node()
+
+    assert robot.ticks == [1.0]
+    assert "robot" not in node.get_node_names()
+
+
 def test_destroying_a_node_silences_it(node, ros_runtime):
     import rclpy
     from std_msgs.msg import Int32
 
-    sender = rclpy.create_node("sender").create_publisher(Int32, "numbers", 10)
+    other = rclpy.create_node("sender")
+    sender = other.create_publisher(Int32, "numbers", 10)
     with node:
         node.create_subscription(Int32, "numbers", print, 10)
         assert sender.get_subscription_count() == 1
     assert sender.get_subscription_count() == 0
-    assert "probe" not in sender.node.get_node_names()
+    assert "probe" not in other.get_node_names()
 
 
 # Topics
@@ -280,12 +311,13 @@ def test_a_service_answers_a_client(node):
         return response
 
     service = node.create_service(AddTwoInts, "add_two_ints", add)
-    client = rclpy.create_node("asker").create_client(AddTwoInts, "add_two_ints")
+    asker = rclpy.create_node("asker")
+    client = asker.create_client(AddTwoInts, "add_two_ints")
     assert client.wait_for_service(timeout_sec=1.0)
     future = client.call_async(AddTwoInts.Request(a=2, b=3))
     executor = rclpy.get_global_executor()
     executor.add_node(node)
-    executor.add_node(client.node)
+    executor.add_node(asker)
     executor.spin_until_future_complete(future, timeout_sec=1.0)
 
     assert future.result().sum == 5

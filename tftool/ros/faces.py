@@ -21,9 +21,9 @@ rclpy.clock: client.time: Clock ROSClock ClockType
 rclpy.clock_type: client.time: ClockType
 rclpy.constants: client.time: S_TO_NS
 rclpy.timer: client.time: Rate
-rclpy.timer: client.entities: Timer TimerInfo
-rclpy.publisher: client.entities: Publisher
-rclpy.subscription: client.entities: Subscription
+rclpy.timer: client.timers: Timer TimerInfo
+rclpy.publisher: client.topics: Publisher
+rclpy.subscription: client.topics: Subscription
 rclpy.client: client.services: Client
 rclpy.service: client.services: Service
 rclpy.guard_condition: client.entities: GuardCondition

@@ -52,7 +52,7 @@ class Program(Node):
             those of the others in the same instant.
         failure: What ended it, unless it ended well.
         status: Its exit status once it has ended, None before.
-        nodes: What it made with rclpy, destroyed at the end.
+        nodes: The seats (`client.member.Member`) of the nodes it made, withdrawn at the end.
     """
 
     is_shown: ClassVar[bool] = False
@@ -166,7 +166,7 @@ class Program(Node):
     def _say_busy(self, place: Place | None) -> None:
         where = str(place) if place is not None else "code that is not yours"
         wait = "simulated time waits for it" if self.strict else "its other callbacks wait for it"
-        names = ", ".join(f"'{node.get_name()}'" for node in self.nodes) or f"'{self.name}'"
+        names = ", ".join(f"'{node.name}'" for node in self.nodes) or f"'{self.name}'"
         self.warn(f"{names} has been busy for {fibers.PATIENCE:g} s and {wait}: {where}")
 
     # The fibers' side.

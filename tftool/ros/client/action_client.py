@@ -1,7 +1,5 @@
 """rclpy.action's client: sends goals, hears of them, gives them up."""
 
-import asyncio
-from collections import deque
 from collections.abc import Callable
 from typing import Any
 
@@ -9,9 +7,10 @@ from tftool.errors import TftoolError
 from tftool.interfaces.classes import INTERFACES, duplicate
 from tftool.ros import values
 from tftool.ros.client.action_goals import STATUS, GoalStatus, new_id
-from tftool.ros.client.entities import Entity, Work
+from tftool.ros.client.entities import Asker
+from tftool.ros.client.executors import wait_for
 from tftool.ros.client.futures import Future
-from tftool.ros.client.node import Node
+from tftool.ros.client.member import member_of
 from tftool.runtime.topics import GoalHandle as WorldGoal
 
 
@@ -59,7 +58,7 @@ class ClientGoalHandle:
     def get_result(self) -> Any:
         """Block until the result is there."""
         future = self.get_result_async()
-        self._client.node.wait_for(future, None)
+        wait_for(self._client.member, future, None)
         return future.result()
 
     def cancel_goal_async(self) -> Future:
@@ -69,43 +68,40 @@ class ClientGoalHandle:
     def cancel_goal(self) -> Any:
         """Ask the server to stop, and block until it has answered."""
         future = self.cancel_goal_async()
-        self._client.node.wait_for(future, None)
+        wait_for(self._client.member, future, None)
         return future.result()
 
 
-class ActionClient(Entity):
+class ActionClient(Asker):
     """Sends goals to an action's server."""
-
-    passes_busy_group = True
 
     def __init__(
         self,
-        node: Node,
+        node: Any,
         action_type: Any,
         action_name: str,
         *,
         callback_group: Any = None,
         **profiles: Any,
     ) -> None:
-        super().__init__(node, callback_group or node.default_callback_group)
+        member = member_of(node)
+        super().__init__(member, callback_group or node.default_callback_group)
         self._type = action_type
         self._name = action_name
-        self.full = node._full(action_name)
-        self._arrived: deque[Work] = deque()
-        self._tasks: set[asyncio.Task[None]] = set()
-        node.program.ask(lambda: node.add_entity(self))
+        self.full = member.full(action_name)
+        member.keep(lambda: self)
 
     def server_is_ready(self) -> bool:
         """Whether somebody serves the action."""
-        world = self.node.world
-        ready = bool(self.node.program.ask(lambda: self.full in world.actions()))
+        world = self.member.world
+        ready = bool(self.member.program.ask(lambda: self.full in world.actions()))
         if not ready:
-            self.node.program.looked_in_vain()
+            self.member.program.looked_in_vain()
         return ready
 
     def wait_for_server(self, timeout_sec: float | None = None) -> bool:
         """Block until somebody serves it; whether somebody does."""
-        return self.node.wait_until(lambda: self.full in self.node.world.actions(), timeout_sec)
+        return self.member.wait_until(lambda: self.full in self.member.world.actions(), timeout_sec)
 
     def send_goal_async(
         self,
@@ -120,7 +116,7 @@ class ActionClient(Entity):
         """
         if not isinstance(goal, self._type.Goal):
             raise TypeError(f"Expected {self._type.Goal}, got {type(goal)}")
-        future = Future(executor=self.node.executor)
+        future = Future(executor=self.member.executor)
         goal_id = goal_uuid or new_id()
         copy = duplicate(goal)
 
@@ -129,10 +125,10 @@ class ActionClient(Entity):
                 return
             message = values.unpack_part(self._type, "Feedback", value)
             told = feedback_callback
-            self._put(lambda: told(_Feedback(goal_id, message)))
+            self.put(lambda: told(_Feedback(goal_id, message)))
 
         async def send() -> None:
-            world = self.node.world
+            world = self.member.world
             acceptor = world.actions().get(self.full)
             if acceptor is None:
                 return
@@ -142,26 +138,26 @@ class ActionClient(Entity):
                 handle = await world.send_goal(self.full, value, on_feedback)
             except TftoolError as error:
                 refused = error
-                self._put(lambda: future.set_exception(refused))
+                self.put(lambda: future.set_exception(refused))
                 return
             decided = getattr(handle, "decided", None)
             accepted = True if decided is None else await decided
             held = ClientGoalHandle(self, goal_id, handle if accepted else None)
-            self._put(lambda: future.set_result(held))
+            self.put(lambda: future.set_result(held))
 
-        self._start(send())
+        self.ask(send())
         return future
 
     def send_goal(self, goal: Any, **kwargs: Any) -> Any:
         """Send a goal, and block until its result is there."""
         future = self.send_goal_async(goal, **kwargs)
-        self.node.wait_for(future, None)
+        wait_for(self.member, future, None)
         handle = future.result()
         return None if handle is None or not handle.accepted else handle.get_result()
 
     def watch(self, handle: ClientGoalHandle, goal: WorldGoal | None) -> Future:
         """A future of a goal's end."""
-        future = Future(executor=self.node.executor)
+        future = Future(executor=self.member.executor)
 
         async def wait() -> None:
             if goal is None:
@@ -174,14 +170,14 @@ class ActionClient(Entity):
                 handle.status = int(status)
                 future.set_result(_Result(int(status), result))
 
-            self._put(arrive)
+            self.put(arrive)
 
-        self._start(wait())
+        self.ask(wait())
         return future
 
     def cancel(self, handle: ClientGoalHandle, goal: WorldGoal | None) -> Future:
         """A future of the answer to a cancellation."""
-        future = Future(executor=self.node.executor)
+        future = Future(executor=self.member.executor)
 
         def ask() -> None:
             going = goal is not None and not goal.done
@@ -191,37 +187,7 @@ class ActionClient(Entity):
                 if changed is not None and going:
                     changed()
             info: Any = INTERFACES.message("action_msgs/GoalInfo")(goal_id=handle.goal_id)
-            self._put(lambda: future.set_result(_Cancelled([info] if going else [])))
+            self.put(lambda: future.set_result(_Cancelled([info] if going else [])))
 
-        self.node.program.ask(ask)
+        self.member.program.ask(ask)
         return future
-
-    def destroy(self) -> None:
-        """Send no more."""
-        self.node.forget(self)
-
-    def _start(self, coroutine: Any) -> None:
-        def start() -> None:
-            task = asyncio.get_running_loop().create_task(coroutine)
-            self._tasks.add(task)
-            task.add_done_callback(self._tasks.discard)
-
-        self.node.program.ask(start)
-
-    def _put(self, work: Work) -> None:
-        self._arrived.append(work)
-        self.node.wake()
-
-    def ready(self) -> bool:
-        """Whether something arrived."""
-        return bool(self._arrived)
-
-    def take(self) -> Work:
-        """What arrived first."""
-        return self._arrived.popleft()
-
-    def withdraw(self) -> None:
-        """Wait for nothing any more."""
-        super().withdraw()
-        for task in list(self._tasks):
-            task.cancel()

@@ -2,7 +2,6 @@
 
 import asyncio
 import inspect
-from collections import deque
 from collections.abc import Callable
 from enum import IntEnum
 from typing import Any
@@ -11,8 +10,8 @@ from tftool.errors import TftoolError
 from tftool.interfaces.classes import duplicate
 from tftool.ros import values
 from tftool.ros.client.action_goals import STATUS, GoalStatus, new_id
-from tftool.ros.client.entities import Entity, Work
-from tftool.ros.client.node import Node
+from tftool.ros.client.entities import Inbox
+from tftool.ros.client.member import member_of
 from tftool.runtime.topics import GoalHandle as WorldGoal
 from tftool.runtime.topics import Status
 
@@ -74,7 +73,7 @@ class ServerGoalHandle:
         if not isinstance(feedback, kind):
             raise TypeError(f"Expected {kind}, got {type(feedback)}")
         copy = duplicate(feedback)
-        self._server.node.program.ask(lambda: self._goal.publish_feedback(copy))
+        self._server.member.program.ask(lambda: self._goal.publish_feedback(copy))
 
     def succeed(self, response: Any = None) -> None:
         """It was reached."""
@@ -102,7 +101,7 @@ class ServerGoalHandle:
         """Hand the result over."""
         status = self._status or "aborted"
         copy = duplicate(result)
-        self._server.node.program.ask(lambda: self._goal.finish(status, copy))
+        self._server.member.program.ask(lambda: self._goal.finish(status, copy))
 
     def request_cancel(self) -> None:
         """Note that the client wants it stopped."""
@@ -121,12 +120,12 @@ class _Acceptor:
         self._server.arrived(goal)
 
 
-class ActionServer(Entity):
+class ActionServer(Inbox):
     """Works on goals."""
 
     def __init__(
         self,
-        node: Node,
+        node: Any,
         action_type: Any,
         action_name: str,
         execute_callback: Callable[[ServerGoalHandle], Any],
@@ -137,7 +136,8 @@ class ActionServer(Entity):
         cancel_callback: Callable[[ServerGoalHandle], Any] | None = None,
         **profiles: Any,
     ) -> None:
-        super().__init__(node, callback_group or node.default_callback_group)
+        member = member_of(node)
+        super().__init__(member, callback_group or node.default_callback_group)
         if not callable(execute_callback):
             raise TypeError("an action server needs an execute_callback")
         self.type_ = action_type
@@ -145,15 +145,14 @@ class ActionServer(Entity):
         self._on_goal = goal_callback or (lambda request: GoalResponse.ACCEPT)
         self._on_accepted = handle_accepted_callback or (lambda handle: handle.execute())
         self._on_cancel = cancel_callback or (lambda handle: CancelResponse.REJECT)
-        self.full = node._full(action_name)
-        self._arrived: deque[Work] = deque()
+        self.full = member.full(action_name)
         self._stop: Callable[[], None] = lambda: None
 
-        def serve() -> None:
-            self._stop = node.world.serve_action(self.full, _Acceptor(self))
-            node.add_entity(self)
+        def serve() -> "ActionServer":
+            self._stop = member.world.serve_action(self.full, _Acceptor(self))
+            return self
 
-        node.program.ask(serve)
+        member.keep(serve)
 
     def register_goal_callback(self, callback: Callable[[Any], Any]) -> None:
         """Have `callback` decide about goals."""
@@ -181,20 +180,8 @@ class ActionServer(Entity):
         held.decided = asyncio.get_running_loop().create_future()
         request = values.unpack_part(self.type_, "Goal", goal.request)
         handle = ServerGoalHandle(self, goal, request)
-        held.on_cancel = lambda: self._put(lambda: self._consider_cancel(handle))
-        self._put(lambda: self._consider(handle, goal))
-
-    def _put(self, work: Work) -> None:
-        self._arrived.append(work)
-        self.node.wake()
-
-    def ready(self) -> bool:
-        """Whether a goal or a cancellation waits."""
-        return bool(self._arrived)
-
-    def take(self) -> Work:
-        """What arrived first."""
-        return self._arrived.popleft()
+        held.on_cancel = lambda: self.put(lambda: self._consider_cancel(handle))
+        self.put(lambda: self._consider(handle, goal))
 
     def withdraw(self) -> None:
         """Take no more goals."""
@@ -212,7 +199,7 @@ class ActionServer(Entity):
             if not accepted:
                 goal.finish("aborted", self.type_.Result())
 
-        self.node.program.ask(answer)
+        self.member.program.ask(answer)
         if accepted:
             self._on_accepted(handle)
 
@@ -230,11 +217,11 @@ class ActionServer(Entity):
                 result = await result
             if not isinstance(result, self.type_.Result):
                 text = f"an execute_callback must return {self.type_.__name__}.Result"
-                self.node.get_logger().warning(f"{text}, not {type(result).__name__}")
+                self.member.face.get_logger().warning(f"{text}, not {type(result).__name__}")
                 result = self.type_.Result()
             handle.finish(result)
 
-        executor = self.node.executor
+        executor = self.member.executor
         if executor is None:
             raise TftoolError("an action is executed by the executor that spins its node")
         executor.create_task(work())

@@ -9,6 +9,7 @@ from tftool.ros.client.context import Context, context_of
 from tftool.ros.client.executors import Executor, SingleThreadedExecutor, executor_of
 from tftool.ros.client.futures import Future
 from tftool.ros.client.node import Node
+from tftool.ros.client.node_parameters import unused_parameters
 from tftool.ros.client.time import S_TO_NS, Duration, Time
 
 __all__ = [
@@ -134,5 +135,5 @@ def spin_until_future_complete(
 
 def warn_of_unused(node: Node) -> None:
     """Say which parameters were given and never declared."""
-    for sentence in node.unused_parameters():
+    for sentence in unused_parameters(node):
         node.get_logger().warning(sentence, once=False)

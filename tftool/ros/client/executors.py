@@ -8,14 +8,16 @@ that the simulator and the broadcasters of that instant have said.
 import asyncio
 import inspect
 from collections import deque
+from collections.abc import Iterator
 from typing import Any
 
 from tftool.ros import program
 from tftool.ros.client.context import Context, context_of
-from tftool.ros.client.entities import Entity, Timer, Work
+from tftool.ros.client.entities import Entity, Work
 from tftool.ros.client.exceptions import ExternalShutdownException, ShutdownException
 from tftool.ros.client.futures import Future, Task
-from tftool.ros.client.node import Node
+from tftool.ros.client.member import Member, member_of
+from tftool.ros.client.timers import Timer
 from tftool.ros.fibers import Fiber
 from tftool.stamps import Stamp, seconds
 
@@ -29,7 +31,7 @@ class Executor:
     def __init__(self, *, context: Context | None = None) -> None:
         self._program = program.current()
         self._context = context or context_of(self._program)
-        self._nodes: list[Node] = []
+        self._members: list[Member] = []
         self._batch: deque[Entity] = deque()
         self._tasks: deque[Task] = deque()
         self._finished: deque[Any] = deque()
@@ -50,41 +52,49 @@ class Executor:
     def __exit__(self, *args: object) -> None:
         self.shutdown()
 
-    def add_node(self, node: Node) -> bool:
+    def add_node(self, node: Any) -> bool:
         """Serve a node too; False if it is served already."""
-        if node in self._nodes:
+        return self.serve(member_of(node))
+
+    def remove_node(self, node: Any) -> None:
+        """Serve a node no more."""
+        self.leave(member_of(node))
+
+    def get_nodes(self) -> list[Any]:
+        """The nodes it serves."""
+        return [member.face for member in self._members]
+
+    def serve(self, member: Member) -> bool:
+        """Serve a node's things too; False if they are served already."""
+        if member in self._members:
             return False
 
         def add() -> None:
-            self._nodes.append(node)
-            node.executor = self
+            self._members.append(member)
+            member.executor = self
             self.wake()
 
         self._program.ask(add)
         return True
 
-    def remove_node(self, node: Node) -> None:
-        """Serve a node no more."""
+    def leave(self, member: Member) -> None:
+        """Serve a node's things no more."""
 
         def remove() -> None:
-            if node in self._nodes:
-                self._nodes.remove(node)
-            if node.executor is self:
-                node.executor = None
-            self._batch = deque(one for one in self._batch if one.node is not node)
+            if member in self._members:
+                self._members.remove(member)
+            if member.executor is self:
+                member.executor = None
+            self._batch = deque(one for one in self._batch if one.member is not member)
             self.wake()
 
         self._program.ask(remove)
 
-    def get_nodes(self) -> list[Node]:
-        """The nodes it serves."""
-        return list(self._nodes)
-
     def shutdown(self, timeout_sec: float | None = None) -> bool:
         """Serve nobody any more."""
         self._over = True
-        for node in list(self._nodes):
-            self.remove_node(node)
+        for member in list(self._members):
+            self.leave(member)
         return True
 
     def create_task(self, callback: Any, *args: Any, **kwargs: Any) -> Task:
@@ -230,10 +240,7 @@ class Executor:
     def _take(self) -> tuple[Entity, Work] | None:
         for collected in (False, True):
             if collected:
-                self._batch = deque(
-                    entity for node in list(self._nodes) for entity in node.entities()
-                    if self._is_ready(entity)
-                )  # fmt: skip
+                self._batch = deque(filter(self._is_ready, self._entities()))
             while self._batch:
                 entity = self._batch.popleft()
                 if self._is_ready(entity):
@@ -241,6 +248,12 @@ class Executor:
                         entity.callback_group.beginning_execution(entity)
                     return entity, entity.take()
         return None
+
+    def _entities(self) -> Iterator[Entity]:
+        """Everything that can become ready, in the order it is served: timers come first."""
+        for member in list(self._members):
+            yield from (one for one in member.entities if isinstance(one, Timer))
+            yield from (one for one in member.entities if not isinstance(one, Timer))
 
     def _is_ready(self, entity: Entity) -> bool:
         if isinstance(entity, Timer) and self._program.strict and not self._has_turn(entity.due):
@@ -256,10 +269,9 @@ class Executor:
 
     def _due(self) -> Stamp | None:
         moments = [
-            timer.due
-            for node in self._nodes
-            for timer in node.timers
-            if not timer.is_canceled() and self._may_run(timer)
+            entity.due
+            for entity in self._entities()
+            if isinstance(entity, Timer) and not entity.is_canceled() and self._may_run(entity)
         ]
         return min(moments, default=None)
 
@@ -349,13 +361,12 @@ def executor_of(owner: "program.Program") -> Executor:
     return owner.executor  # type: ignore[no-any-return]
 
 
-def wait_for(node: Node, future: Future, timeout_sec: float | None) -> None:
+def wait_for(member: Member, future: Future, timeout_sec: float | None) -> None:
     """Block until a future is done, serving the node meanwhile if nobody else does."""
-    owner = node.program
-    executor = node.executor or executor_of(owner)
-    added = node.executor is None and executor.add_node(node)
+    executor = member.executor or executor_of(member.program)
+    added = executor.serve(member)
     try:
         executor.spin_until_future_complete(future, timeout_sec)
     finally:
         if added:
-            executor.remove_node(node)
+            executor.leave(member)

@@ -1,4 +1,4 @@
-"""The parameters of a node: declaring, reading, setting, and the services for it."""
+"""The parameters of a node: declaring, reading and setting."""
 
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from difflib import get_close_matches
@@ -31,18 +31,18 @@ class NodeParameters:
     ) -> None:
         self._parameters: dict[str, Parameter] = {}
         self._descriptors: dict[str, Any] = {}
-        self._overrides: dict[str, Any] = {one.name: one.value for one in overrides}
-        self._overrides.update(given)
-        self._unused = dict(given)
-        self._undeclared = undeclared
-        self._pre_set: list[Callable[..., Any]] = []
-        self._on_set: list[Setter] = []
-        self._post_set: list[Callable[..., Any]] = []
-        self._declare_one("use_sim_time", False, None, False)
+        self._parameter_overrides: dict[str, Any] = {one.name: one.value for one in overrides}
+        self._parameter_overrides.update(given)
+        self._unused_parameters = dict(given)
+        self._allow_undeclared_parameters = undeclared
+        self._pre_set_parameters_callbacks: list[Callable[..., Any]] = []
+        self._on_set_parameters_callbacks: list[Setter] = []
+        self._post_set_parameters_callbacks: list[Callable[..., Any]] = []
+        self.__declare_one("use_sim_time", False, None, False)
         if automatic:
-            for name, value in self._overrides.items():
+            for name, value in self._parameter_overrides.items():
                 if name not in self._parameters:
-                    self._declare_one(name, value, None, False)
+                    self.__declare_one(name, value, None, False)
 
     # Declaring
 
@@ -61,7 +61,7 @@ class NodeParameters:
             ParameterAlreadyDeclaredException: If it is known.
             InvalidParameterTypeException: If what was given is of another type.
         """
-        return self._declare_one(name, value, descriptor, ignore_override)
+        return self.__declare_one(name, value, descriptor, ignore_override)
 
     def declare_parameters(
         self,
@@ -72,7 +72,7 @@ class NodeParameters:
         """Make several known: tuples of name, value and descriptor."""
         prefix = f"{namespace}." if namespace else ""
         return [
-            self._declare_one(
+            self.__declare_one(
                 prefix + one[0],
                 one[1] if len(one) > 1 else None,
                 one[2] if len(one) > 2 else None,
@@ -81,7 +81,7 @@ class NodeParameters:
             for one in parameters
         ]
 
-    def _declare_one(
+    def __declare_one(
         self, name: str, value: Any, descriptor: Any, ignore_override: bool
     ) -> Parameter:
         if not isinstance(name, str) or not name:
@@ -96,9 +96,9 @@ class NodeParameters:
             kind, value = value.type_, value.value
         else:
             kind = Type.from_parameter_value(value)
-        self._unused.pop(name, None)
-        if not ignore_override and name in self._overrides:
-            value = self._overrides[name]
+        self._unused_parameters.pop(name, None)
+        if not ignore_override and name in self._parameter_overrides:
+            value = self._parameter_overrides[name]
             dynamic = descriptor.dynamic_typing or kind is Type.NOT_SET
             if not dynamic and not kind.check(value):
                 raise InvalidParameterTypeException(
@@ -112,9 +112,9 @@ class NodeParameters:
         if value is not None and kind.check(value):
             parameter = Parameter(name, kind, value)
         self._descriptors[name] = descriptor
-        reason = self._range_fault(parameter)
+        reason = self.__range_fault(parameter)
         if not reason:
-            result = self._ask_callbacks([parameter])
+            result = self.__ask_callbacks([parameter])
             reason = "" if result.successful else result.reason or "refused by a callback"
         if reason:
             del self._descriptors[name]
@@ -124,19 +124,10 @@ class NodeParameters:
 
     def undeclare_parameter(self, name: str) -> None:
         """Forget a parameter."""
-        self._known(name)
+        self.__known(name)
         if self._descriptors[name].read_only:
             raise ParameterImmutableException(name)
         del self._parameters[name], self._descriptors[name]
-
-    def unused_parameters(self) -> list[str]:
-        """A sentence for each parameter that was given and never declared."""
-        return [
-            f"parameter '{name}' was given, but the node declares none of that name"
-            + (f"; did you mean '{near[0]}'?" if near else "")
-            for name in self._unused
-            for near in [get_close_matches(name, self._parameters, n=1)]
-        ]
 
     # Reading
 
@@ -150,9 +141,9 @@ class NodeParameters:
         Raises:
             ParameterNotDeclaredException: If it is not declared; the nearest name is told.
         """
-        if name not in self._parameters and self._undeclared:
+        if name not in self._parameters and self._allow_undeclared_parameters:
             return Parameter(name, Type.NOT_SET, None)
-        self._known(name)
+        self.__known(name)
         parameter = self._parameters[name]
         if parameter.type_ is Type.NOT_SET and self._descriptors[name].type:
             raise ParameterUninitializedException(name)
@@ -183,7 +174,7 @@ class NodeParameters:
 
     def describe_parameter(self, name: str) -> Any:
         """A declared parameter's descriptor."""
-        self._known(name)
+        self.__known(name)
         return self._descriptors[name]
 
     def describe_parameters(self, names: Iterable[str]) -> list[Any]:
@@ -200,7 +191,7 @@ class NodeParameters:
         kind = INTERFACES.message("rcl_interfaces/ListParametersResult")
         return kind(names=found, prefixes=sorted({n.rpartition(".")[0] for n in found} - {""}))
 
-    def _known(self, name: str) -> None:
+    def __known(self, name: str) -> None:
         if name not in self._parameters:
             raise ParameterNotDeclaredException(name, self._parameters)
 
@@ -213,23 +204,23 @@ class NodeParameters:
             ParameterNotDeclaredException: If one is not declared.
         """
         for one in parameter_list:
-            if not self._undeclared:
-                self._known(one.name)
+            if not self._allow_undeclared_parameters:
+                self.__known(one.name)
         return [self.set_parameters_atomically([one]) for one in parameter_list]
 
     def set_parameters_atomically(self, parameter_list: Sequence[Parameter]) -> Any:
         """Change parameters together; all or none."""
         for one in parameter_list:
-            if not self._undeclared:
-                self._known(one.name)
+            if not self._allow_undeclared_parameters:
+                self.__known(one.name)
         changes = list(parameter_list)
-        for before in self._pre_set:
+        for before in self._pre_set_parameters_callbacks:
             changes = before(changes)
         for one in changes:
-            reason = self._fault(one)
+            reason = self.__fault(one)
             if reason:
-                return _result(False, reason)
-        result = self._ask_callbacks(changes)
+                return set_result(False, reason)
+        result = self.__ask_callbacks(changes)
         if result.successful:
             for one in changes:
                 self._parameters[one.name] = one
@@ -237,18 +228,18 @@ class NodeParameters:
                     self._descriptors[one.name] = INTERFACES.message(
                         "rcl_interfaces/ParameterDescriptor"
                     )(name=one.name, type=int(one.type_), dynamic_typing=True)
-            for after in self._post_set:
+            for after in self._post_set_parameters_callbacks:
                 after(changes)
         return result
 
     def set_descriptor(self, name: str, descriptor: Any, alternative_value: Any = None) -> Any:
         """Describe a declared parameter anew."""
-        self._known(name)
+        self.__known(name)
         descriptor.name = name
         self._descriptors[name] = descriptor
         return self._parameters[name].get_parameter_value()
 
-    def _fault(self, parameter: Parameter) -> str:
+    def __fault(self, parameter: Parameter) -> str:
         name = parameter.name
         descriptor = self._descriptors.get(name)
         if descriptor is None:
@@ -265,9 +256,9 @@ class NodeParameters:
                     f"setting it to {{{parameter.type_.name}}} is not allowed"
                     f"{_hint(wanted, parameter.value)}"
                 )
-        return self._range_fault(parameter)
+        return self.__range_fault(parameter)
 
-    def _range_fault(self, parameter: Parameter) -> str:
+    def __range_fault(self, parameter: Parameter) -> str:
         descriptor, value = self._descriptors[parameter.name], parameter.value
         if parameter.type_ is Type.INTEGER:
             ranges = descriptor.integer_range
@@ -283,86 +274,42 @@ class NodeParameters:
                 )
         return ""
 
-    def _ask_callbacks(self, changes: list[Parameter]) -> Any:
-        for callback in reversed(self._on_set):
+    def __ask_callbacks(self, changes: list[Parameter]) -> Any:
+        for callback in reversed(self._on_set_parameters_callbacks):
             result = callback(changes)
             if not result.successful:
                 return result
-        return _result(True, "")
+        return set_result(True, "")
 
     def add_on_set_parameters_callback(self, callback: Setter) -> None:
         """Have `callback` judge every change; the one added last is asked first."""
-        self._on_set.append(callback)
+        self._on_set_parameters_callbacks.append(callback)
 
     def remove_on_set_parameters_callback(self, callback: Setter) -> None:
         """Ask `callback` no more."""
-        self._on_set.remove(callback)
+        self._on_set_parameters_callbacks.remove(callback)
 
     def add_pre_set_parameters_callback(self, callback: Callable[..., Any]) -> None:
         """Have `callback` rewrite every list of changes."""
-        self._pre_set.append(callback)
+        self._pre_set_parameters_callbacks.append(callback)
 
     def add_post_set_parameters_callback(self, callback: Callable[..., Any]) -> None:
         """Have `callback` told of every change."""
-        self._post_set.append(callback)
-
-    # Services
-
-    def _serve_parameters(self) -> None:
-        node: Any = self
-        for name, kind, answer in (
-            ("get_parameters", "GetParameters", self._on_get),
-            ("get_parameter_types", "GetParameterTypes", self._on_types),
-            ("set_parameters", "SetParameters", self._on_set_request),
-            ("set_parameters_atomically", "SetParametersAtomically", self._on_set_together),
-            ("list_parameters", "ListParameters", self._on_list),
-            ("describe_parameters", "DescribeParameters", self._on_describe),
-        ):
-            service = INTERFACES.find("rcl_interfaces", "srv", kind)
-            if not node.world.has_service(node._full(f"~/{name}")):
-                node.create_service(service, f"~/{name}", answer)
-
-    def _on_get(self, request: Any, response: Any) -> Any:
-        response.values = [
-            self.get_parameter_or(name).get_parameter_value() for name in request.names
-        ]
-        return response
-
-    def _on_types(self, request: Any, response: Any) -> Any:
-        response.types = [int(self.get_parameter_or(name).type_) for name in request.names]
-        return response
-
-    def _on_set_request(self, request: Any, response: Any) -> Any:
-        response.results = [self._set_by_message(one) for one in request.parameters]
-        return response
-
-    def _set_by_message(self, message: Any) -> Any:
-        try:
-            return self.set_parameters([Parameter.from_parameter_msg(message)])[0]
-        except ParameterNotDeclaredException as error:
-            return _result(False, str(error))
-
-    def _on_set_together(self, request: Any, response: Any) -> Any:
-        try:
-            response.result = self.set_parameters_atomically(
-                [Parameter.from_parameter_msg(one) for one in request.parameters]
-            )
-        except ParameterNotDeclaredException as error:
-            response.result = _result(False, str(error))
-        return response
-
-    def _on_list(self, request: Any, response: Any) -> Any:
-        response.result = self.list_parameters(request.prefixes, request.depth)
-        return response
-
-    def _on_describe(self, request: Any, response: Any) -> Any:
-        response.descriptors = [
-            self._descriptors[name] for name in request.names if name in self._descriptors
-        ]
-        return response
+        self._post_set_parameters_callbacks.append(callback)
 
 
-def _result(successful: bool, reason: str) -> Any:
+def unused_parameters(node: NodeParameters) -> list[str]:
+    """A sentence for each parameter that was given and never declared."""
+    return [
+        f"parameter '{name}' was given, but the node declares none of that name"
+        + (f"; did you mean '{near[0]}'?" if near else "")
+        for name in node._unused_parameters
+        for near in [get_close_matches(name, node._parameters, n=1)]
+    ]
+
+
+def set_result(successful: bool, reason: str) -> Any:
+    """What setting parameters answers."""
     kind = INTERFACES.message("rcl_interfaces/SetParametersResult")
     return kind(successful=successful, reason=reason)
 

@@ -5,35 +5,26 @@ What arrived waits until an executor takes it, as with all entities.
 
 import asyncio
 import inspect
-from collections import deque
 from collections.abc import Callable
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from tftool.errors import TftoolError
 from tftool.interfaces.classes import Message, duplicate
 from tftool.ros import values
-from tftool.ros.client.entities import Entity, Work
+from tftool.ros.client.entities import Asker, Inbox
+from tftool.ros.client.executors import wait_for
 from tftool.ros.client.futures import Future
-
-if TYPE_CHECKING:
-    from tftool.ros.client.node import Node
+from tftool.ros.client.member import Member
 
 
-class Client(Entity):
+class Client(Asker):
     """Asks a service."""
 
-    # An answer completes a future and runs nobody's callback by itself, so whoever
-    # waits for it inside a callback gets it.
-    passes_busy_group = True
-
-    def __init__(self, node: "Node", kind: Any, name: str, full: str, group: Any) -> None:
-        super().__init__(node, group)
+    def __init__(self, member: Member, kind: Any, name: str, full: str, group: Any) -> None:
+        super().__init__(member, group)
         self.srv_type = kind
         self.srv_name = name
         self.full = full
-        self._answers: deque[tuple[Future, Any, BaseException | None]] = deque()
-        self._tasks: set[asyncio.Task[None]] = set()
-        self._pending: set[Future] = set()
 
     @property
     def service_name(self) -> str:
@@ -42,14 +33,14 @@ class Client(Entity):
 
     def service_is_ready(self) -> bool:
         """Whether somebody serves it."""
-        ready = bool(self.node.program.ask(lambda: self.node.world.has_service(self.full)))
+        ready = bool(self.member.program.ask(lambda: self.member.world.has_service(self.full)))
         if not ready:
-            self.node.program.looked_in_vain()
+            self.member.program.looked_in_vain()
         return ready
 
     def wait_for_service(self, timeout_sec: float | None = None) -> bool:
         """Block until somebody serves it; whether somebody does."""
-        return self.node.wait_until(lambda: self.node.world.has_service(self.full), timeout_sec)
+        return self.member.wait_until(lambda: self.member.world.has_service(self.full), timeout_sec)
 
     def call_async(self, request: Any) -> Future:
         """Ask; the answer comes while somebody spins.
@@ -59,16 +50,8 @@ class Client(Entity):
         """
         if not isinstance(request, self.srv_type.Request):
             raise TypeError(f"Expected {self.srv_type.Request}, got {type(request)}")
-        future = Future(executor=self.node.executor)
-        copy = duplicate(request)
-        self._pending.add(future)
-
-        def send() -> None:
-            task = asyncio.get_running_loop().create_task(self._call(copy, future))
-            self._tasks.add(task)
-            task.add_done_callback(self._tasks.discard)
-
-        self.node.program.ask(send)
+        future = Future(executor=self.member.executor)
+        self.ask(self._call(duplicate(request), future))
         return future
 
     def call(self, request: Any, timeout_sec: float | None = None) -> Any:
@@ -77,16 +60,15 @@ class Client(Entity):
         Unlike in ROS 2 this may be called inside a callback.
         """
         future = self.call_async(request)
-        self.node.wait_for(future, timeout_sec)
+        wait_for(self.member, future, timeout_sec)
         return future.result()
 
     def remove_pending_request(self, future: Future) -> None:
         """Wait no longer for an answer."""
-        self._pending.discard(future)
         future.cancel()
 
     async def _call(self, request: Any, future: Future) -> None:
-        world = self.node.world
+        world = self.member.world
         # As in ROS 2, a request nobody serves yet waits for nobody: it stays unanswered.
         handler = world.services().get(self.full)
         if handler is None:
@@ -99,35 +81,12 @@ class Client(Entity):
                 answer = await world.call(
                     self.full, values.pack_request(self.srv_type, self.full, request)
                 )
-            self._answers.append((future, values.unpack_response(self.srv_type, answer), None))
+            response = values.unpack_response(self.srv_type, answer)
         except TftoolError as error:
-            self._answers.append((future, None, error))
-        self.node.wake()
-
-    def ready(self) -> bool:
-        """Whether an answer waits."""
-        return bool(self._answers)
-
-    def take(self) -> Work:
-        """Complete the future of the oldest answer."""
-        future, answer, error = self._answers.popleft()
-
-        def work() -> None:
-            self._pending.discard(future)
-            if future.cancelled():
-                return
-            if error is not None:
-                future.set_exception(error)
-            else:
-                future.set_result(answer)
-
-        return work
-
-    def withdraw(self) -> None:
-        """Wait for no answer any more."""
-        super().withdraw()
-        for task in list(self._tasks):
-            task.cancel()
+            failure = error
+            self.put(lambda: None if future.cancelled() else future.set_exception(failure))
+            return
+        self.put(lambda: None if future.cancelled() else future.set_result(response))
 
 
 class _ServiceHandler:
@@ -142,26 +101,25 @@ class _ServiceHandler:
         return await self._service.asked(request)
 
 
-class Service(Entity):
+class Service(Inbox):
     """Answers a service."""
 
     def __init__(
         self,
-        node: "Node",
+        member: Member,
         kind: Any,
         name: str,
         full: str,
         callback: Callable[[Any, Any], Any],
         group: Any,
     ) -> None:
-        super().__init__(node, group)
+        super().__init__(member, group)
         self.srv_type = kind
         self.srv_name = name
         self.full = full
         self.callback = callback
-        self._requests: deque[tuple[Any, asyncio.Future[Any], bool]] = deque()
         self._open: set[asyncio.Future[Any]] = set()
-        self._stop = node.world.serve(full, _ServiceHandler(self))
+        self._stop = member.world.serve(full, _ServiceHandler(self))
 
     @property
     def service_name(self) -> str:
@@ -172,30 +130,20 @@ class Service(Entity):
         """Keep a request until an executor takes it; its answer."""
         answer: asyncio.Future[Any] = asyncio.get_running_loop().create_future()
         ours = not isinstance(request, Message)
-        self._requests.append((values.unpack_request(self.srv_type, request), answer, ours))
+        message = values.unpack_request(self.srv_type, request)
         self._open.add(answer)
-        self.node.wake()
+        self.put(lambda: self._answer(message, answer, ours))
         try:
             return await answer
         finally:
             self._open.discard(answer)
 
-    def ready(self) -> bool:
-        """Whether a request waits."""
-        return bool(self._requests)
-
-    def take(self) -> Work:
-        """The callback with the oldest request."""
-        request, answer, ours = self._requests.popleft()
-
-        def work() -> Any:
-            response = self.callback(request, self.srv_type.Response())
-            if inspect.iscoroutine(response):
-                return self._later(response, answer, ours)
-            self._send(response, answer, ours)
-            return None
-
-        return work
+    def _answer(self, request: Any, answer: "asyncio.Future[Any]", ours: bool) -> Any:
+        response = self.callback(request, self.srv_type.Response())
+        if inspect.iscoroutine(response):
+            return self._later(response, answer, ours)
+        self._send(response, answer, ours)
+        return None
 
     async def _later(self, response: Any, answer: "asyncio.Future[Any]", ours: bool) -> None:
         self._send(await response, answer, ours)
@@ -212,7 +160,7 @@ class Service(Entity):
             if not answer.done():
                 answer.set_result(packed)
 
-        self.node.program.ask(send)
+        self.member.program.ask(send)
 
     def withdraw(self) -> None:
         """Serve no more; who still waits is told that no answer will come."""

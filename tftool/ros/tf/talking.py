@@ -8,6 +8,8 @@ from typing import Any
 
 from tftool.interfaces.classes import INTERFACES
 from tftool.ros import values
+from tftool.ros.client.entities import Entity
+from tftool.ros.client.member import Member, member_of
 from tftool.ros.client.node import Node
 from tftool.ros.tf.buffer import Buffer
 from tftool.runtime.world import TransformMessage
@@ -34,11 +36,12 @@ class TransformListener:
         self.buffer = buffer
         self.node = node
         self._stops: list[Callable[[], None]] = []
-        node.program.listens = True
-        node.program.ask(lambda: self._listen(static_only))
+        self._member = member_of(node)
+        self._member.program.listens = True
+        self._member.keep(lambda: self._listen(static_only))
 
-    def _listen(self, static_only: bool) -> None:
-        world, frames = self.node.world, self.buffer.frames
+    def _listen(self, static_only: bool) -> Entity:
+        world, frames = self._member.world, self.buffer.frames
 
         def moving(message: TransformMessage) -> None:
             for sample in message.transforms:
@@ -53,7 +56,7 @@ class TransformListener:
         self._stops = [world.tf_static.subscribe(fixed)]
         if not static_only:
             self._stops.append(world.tf.subscribe(moving))
-        self.node.add_entity(_Stopper(self.node, self._stop))
+        return _Stopper(self._member, self._stop)
 
     def _stop(self) -> None:
         for stop in self._stops:
@@ -62,7 +65,7 @@ class TransformListener:
 
     def unregister(self) -> None:
         """Listen no more."""
-        self.node.program.ask(self._stop)
+        self._member.program.ask(self._stop)
 
 
 class StaticTransformListener(TransformListener):
@@ -72,18 +75,16 @@ class StaticTransformListener(TransformListener):
         super().__init__(buffer, node, static_only=True, **kwargs)
 
 
-class _Stopper:
-    """Ends a listener together with its node."""
+class _Stopper(Entity):
+    """Ends a listener together with its node; the buffer is filled without an executor."""
 
-    def __init__(self, node: Node, stop: Callable[[], None]) -> None:
-        self.node = node
-        self.callback_group = None
-        self.passes_busy_group = False
-        self.withdraw = stop
+    def __init__(self, member: Member, stop: Callable[[], None]) -> None:
+        super().__init__(member, None)
+        self._stop = stop
 
-    def ready(self) -> bool:
-        """Never: the buffer is filled without the executor."""
-        return False
+    def withdraw(self) -> None:
+        """Listen no more."""
+        self._stop()
 
 
 class TransformBroadcaster:
@@ -93,8 +94,8 @@ class TransformBroadcaster:
 
     def __init__(self, node: Node, qos: Any = None) -> None:
         self.node = node
-        owner = node.program
-        owner.broadcasts = True
+        self._member = member_of(node)
+        self._member.program.broadcasts = True
 
     def sendTransform(self, transform: Any) -> None:  # noqa: N802
         """Send one transform, or several."""
@@ -105,8 +106,8 @@ class TransformBroadcaster:
             if not isinstance(one, kind):
                 raise TypeError(f"expected a TransformStamped, got {type(one).__name__}")
             sent.append(values.pack_transform(one))
-        node, static = self.node, self._static
-        node.program.ask(lambda: node.world.broadcast(sent, node.authority, static=static))
+        member, static = self._member, self._static
+        member.program.ask(lambda: member.world.broadcast(sent, member.authority, static=static))
 
 
 class StaticTransformBroadcaster(TransformBroadcaster):

@@ -1,0 +1,158 @@
+"""Publishers and subscriptions."""
+
+import inspect
+from collections import deque
+from collections.abc import Callable
+from typing import Any
+
+from tftool.interfaces.classes import Message
+from tftool.ros import values
+from tftool.ros.client.entities import Entity, Work
+from tftool.ros.client.member import Member
+from tftool.ros.client.qos import DurabilityPolicy, HistoryPolicy, QoSProfile
+from tftool.runtime.world import TransformMessage
+
+
+class Publisher(Entity):
+    """Sends messages on a topic."""
+
+    def __init__(
+        self, member: Member, kind: type[Message], topic: str, full: str, profile: QoSProfile
+    ) -> None:
+        super().__init__(member, None)
+        self.msg_type = kind
+        self.qos_profile = profile
+        self.topic = topic
+        self.full = full
+        self._converter = values.converter(kind, full)
+        self._topic = member.world.topic(full, self._converter.kind)
+        self._latched: deque[Any] | None = None
+        if profile.durability is DurabilityPolicy.TRANSIENT_LOCAL and full not in values.TF_TOPICS:
+            self._latched = deque(maxlen=profile.depth or None)
+            member.graph.latched.setdefault(full, []).append(self._latched)
+        member.graph.publishers.setdefault(full, []).append(self)
+
+    @property
+    def topic_name(self) -> str:
+        """The topic's full name."""
+        return f"/{self.full}"
+
+    def publish(self, msg: Any) -> None:
+        """Send a message.
+
+        Raises:
+            TypeError: If it is of another type.
+        """
+        if not isinstance(msg, self.msg_type):
+            raise TypeError(f"Expected {self.msg_type}, got {type(msg)}")
+        member = self.member
+        value = self._converter.pack(msg)
+        if self.full in values.TF_TOPICS and isinstance(value, TransformMessage):
+            static = self.full == "tf_static"
+            member.program.ask(
+                lambda: member.world.broadcast(value.transforms, member.authority, static=static)
+            )
+            return
+        member.program.ask(lambda: self._send(value))
+
+    def _send(self, value: Any) -> None:
+        if self._latched is not None:
+            self._latched.append(value)
+        self._topic.publish(value)
+
+    def get_subscription_count(self) -> int:
+        """How many listen."""
+        return int(self.member.program.ask(lambda: self._topic.subscribers))
+
+    def assert_liveliness(self) -> None:
+        """Nothing to do."""
+
+    def withdraw(self) -> None:
+        """Leave the graph; latched messages go along."""
+        super().withdraw()
+        graph = self.member.graph
+        if self in graph.publishers.get(self.full, []):
+            graph.publishers[self.full].remove(self)
+        if self._latched is not None:
+            graph.latched[self.full] = [
+                one for one in graph.latched[self.full] if one is not self._latched
+            ]
+
+
+class Subscription(Entity):
+    """Receives a topic's messages."""
+
+    def __init__(
+        self,
+        member: Member,
+        kind: type[Message],
+        topic: str,
+        full: str,
+        callback: Callable[[Any], Any],
+        profile: QoSProfile,
+        group: Any,
+    ) -> None:
+        super().__init__(member, group)
+        self.msg_type = kind
+        self.callback: Callable[..., Any] = callback
+        self.qos_profile = profile
+        self.topic = topic
+        self.full = full
+        self._converter = values.converter(kind, full)
+        keeps_all = profile.history is HistoryPolicy.KEEP_ALL
+        self._queue: deque[Any] = deque(maxlen=None if keeps_all else max(1, profile.depth))
+        self._takes_info = _takes_two(callback)
+        self._stop = member.world.topic(full, self._converter.kind).subscribe(self._arrived)
+        member.graph.subscriptions.setdefault(full, []).append(self)
+        if profile.durability is DurabilityPolicy.TRANSIENT_LOCAL:
+            for value in member.late(full):
+                self._arrived(value)
+
+    @property
+    def topic_name(self) -> str:
+        """The topic's full name."""
+        return f"/{self.full}"
+
+    def _arrived(self, value: Any) -> None:
+        self._queue.append((self.member.now(), value))
+        self.member.wake()
+
+    def ready(self) -> bool:
+        """Whether a message waits."""
+        return bool(self._queue)
+
+    def take(self) -> Work:
+        """The callback with the oldest waiting message."""
+        stamp, value = self._queue.popleft()
+
+        def work() -> Any:
+            message = self._converter.unpack(value)
+            if self._takes_info:
+                return self.callback(
+                    message, {"source_timestamp": stamp, "received_timestamp": stamp}
+                )
+            return self.callback(message)
+
+        return work
+
+    def withdraw(self) -> None:
+        """Stop listening."""
+        super().withdraw()
+        self._stop()
+        self._queue.clear()
+        if self in self.member.graph.subscriptions.get(self.full, []):
+            self.member.graph.subscriptions[self.full].remove(self)
+
+
+def _takes_two(callback: Callable[..., Any]) -> bool:
+    try:
+        inspect.signature(callback).bind(object())
+    except TypeError:
+        try:
+            inspect.signature(callback).bind(object(), object())
+        except TypeError:
+            return False
+        return True
+    except ValueError:
+        return False
+    return False
