@@ -25,6 +25,7 @@ MODULES = (
     "tftool/frames/history.py",
     "tftool/frames/links.py",
     "tftool/frames/plans.py",
+    "tftool/geometry/quaternions.py",
 )
 
 # Types are judged when the tests run, with everything installed; here they only steer.

@@ -247,6 +247,13 @@ def test_infinite_turns_are_refused_and_infinite_places_are_not(buffer, said):
     assert {level for level, _ in said} == {"ERROR"}
 
 
+def test_infinite_places_whose_sum_is_no_number_are_taken_as_well(buffer):
+    corner = Transform((math.inf, -math.inf, 0.0))
+    for at in (1, 2):
+        assert buffer.set_transform(TransformStamped(at, "world", "corner", corner), "test")
+        assert buffer.lookup_transform("world", "corner").transform == corner
+
+
 def test_huge_and_tiny_quaternions_mean_their_direction(buffer):
     put(buffer, 1, turn=(0, 0, 3e200, 4e200))
     assert buffer.lookup_transform("world", "turtle1").transform.rotation == pytest.approx(

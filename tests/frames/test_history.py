@@ -1,6 +1,7 @@
 """A link's history against a naive model of tf2's rules: a plain list, newest first."""
 
 import math
+import struct
 
 import pytest
 from hypothesis import given, settings
@@ -13,6 +14,7 @@ from tftool.frames.links import (
     FORWARD,
     KNOWN,
     NO_DATA,
+    ODD,
     RESHAPED,
     STORED,
     TOO_OLD,
@@ -93,7 +95,7 @@ def test_a_naive_model_agrees(steps, limit, questions):
     history, model = History(limit), Model(limit)
     for stamp, parent, x, turn in steps:
         pose = poses(x, turn)
-        accepted = history.insert(stamp, parent, pose) != TOO_OLD
+        accepted = history.insert(stamp, parent, pose, True) != TOO_OLD
         assert accepted is model.insert(stamp, parent, pose)
         assert history.items() == model.items
     assert len(history) == len(model.items)
@@ -212,11 +214,39 @@ def test_the_same_sample_twice_is_one():
 def test_a_stamp_beyond_64_bits_changes_nothing():
     history = History(100)
     history.insert(5, 0, poses(1))
-    with pytest.raises(OverflowError):
+    with pytest.raises(struct.error):
         history.insert(2**63, 0, poses(2))
 
     assert history.items() == [(5, 0, poses(1))]
     assert history.at(0) == poses(1)
+
+
+@given(rotations, st.sampled_from([1.0, -1.0, 1.0 + 1e-9, 0.5, 3e200, 2e-100]))
+def test_a_sample_just_as_it_came_is_kept_scaled_and_with_tf2s_sign(turn, scale):
+    history = History(100)
+    came = tuple(scale * number for number in turn)
+
+    assert history.insert(1, 0, (1.0, 2.0, 3.0, *came)) == RESHAPED
+
+    assert history.at(1)[:3] == (1.0, 2.0, 3.0)
+    assert history.at(1)[3:] == quaternions.canonical(quaternions.unit(came))
+
+
+@pytest.mark.parametrize(
+    "sample",
+    [
+        (math.nan, 0.0, 0.0, *NO_TURN),
+        (0.0, -math.inf, math.inf, 0.0, 0.0, 0.0, 0.0),
+        poses(1, (0.0, 0.0, 0.0, 0.0)),
+        poses(1, (0.0, math.nan, 0.0, 1.0)),
+        poses(1, (0.0, math.inf, 0.0, 1.0)),
+    ],
+)
+def test_a_sample_with_a_number_that_is_none_is_odd(sample):
+    history = History(100)
+
+    assert history.insert(1, 0, sample) == ODD
+    assert history.items() == []
 
 
 def test_a_constant_answers_at_all_times():

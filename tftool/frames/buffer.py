@@ -1,12 +1,13 @@
 """The buffer: remembers transforms over time and answers how frames lie to each other."""
 
+import struct
 from collections.abc import Callable
 from typing import TYPE_CHECKING, Final, Literal
 
 from tftool.errors import TransformException
 from tftool.frames import export, names, refusals, sweep, velocity
 from tftool.frames.forest import Forest
-from tftool.frames.links import RESHAPED, STORED, TOO_OLD, Sample
+from tftool.frames.links import ODD, RESHAPED, STORED, TOO_OLD, Sample
 from tftool.frames.lookups import Lookups
 from tftool.frames.plans import Plan
 from tftool.frames.requests import NEVER, Callback, Requests
@@ -29,7 +30,7 @@ Listener = Callable[[TransformStamped, bool, str], object]
 MAX_FRAMES = 16_384
 """How many names a buffer takes unless it is told to take more."""
 
-_EXACT: Final = 8e-16
+_NOT_PLAIN: Final = (KeyError, TypeError, ValueError, AttributeError, struct.error)
 _NO_PLANS: dict[str, Plan] = {}
 _new: Final = tuple.__new__
 
@@ -90,28 +91,19 @@ class Buffer:
         Raises:
             TypeError: If the stamp is not a whole number.
         """
-        # By index: to unpack a named tuple takes twice the time.
-        stamp, parent, child, pose = transform[0], transform[1], transform[2], transform[3]
-        x, y, z, qx, qy, qz, qw = sample = pose[0] + pose[1]
-        frame = self._moving.get(child)
-        # How far the quaternion is from length one; NaN if a number is not finite.
-        off = qx * qx + qy * qy + qz * qz + qw * qw - 1.0 + 0.0 * (x + y + z)
-        if (
-            frame is None
-            or frame.parent_name != parent
-            or not -_EXACT < off < _EXACT
-            or stamp.__class__ is not int
-        ):
-            return self._set_slowly(transform, authority, False)
-        if qw < -0.5:
-            sample = (x, y, z, -qx, -qy, -qz, -qw)
-        elif qw <= 0.5:
-            sample = (x, y, z, *quaternions.canonical((qx, qy, qz, qw)))
         try:
-            outcome = frame.history.insert(stamp, frame.parent_number, sample)
-        except OverflowError:
+            stamp, parent, child, pose = transform
+            frame = self._moving[child]
+            outcome = ODD
+            if parent == frame.parent_name:
+                outcome = frame.history.insert(
+                    stamp, frame.parent_number, pose.translation + pose.rotation
+                )
+        except _NOT_PLAIN:
             return self._set_slowly(transform, authority, False)
         if outcome != STORED:
+            if outcome == ODD:
+                return self._set_slowly(transform, authority, False)
             if outcome == TOO_OLD:
                 self._log("WARN", refusals.old_data(child, stamp, authority))
                 return False
@@ -119,7 +111,8 @@ class Buffer:
                 self._lookups.drop_plans()
         frame.authority = authority
         if self._listeners:
-            self._tell(sample, stamp, parent, child, authority, False)
+            kept = rigid.canonical(pose)
+            self._tell(TransformStamped(stamp, parent, child, kept), False, authority)
         if self._pending:
             self._requests.changed(child)
         return True
@@ -155,7 +148,7 @@ class Buffer:
         frame = forest.frames[forest.numbers[child]]
         assert frame.link is not None
         sample = pose.translation + rotation
-        outcome = frame.link.insert(stamp, frame.parent_number, sample)
+        outcome = frame.link.insert(stamp, frame.parent_number, sample, True)
         # A name that comes up is news even if the sample is refused; a parent that was
         # known is none, or each new child would wake whoever waits for something below it.
         named = [new.name for new in forest.frames[known:]]
@@ -167,15 +160,12 @@ class Buffer:
         if fresh or outcome == RESHAPED:
             self._lookups.drop_plans()
         if self._listeners:
-            self._tell(sample, stamp, parent, child, authority, static)
+            self._tell(_stamped(parent, child, stamp, sample), static, authority)
         if self._requests.pending:
             self._requests.changed(child, *named)
         return True
 
-    def _tell(
-        self, sample: Sample, stamp: Stamp, parent: str, child: str, authority: str, static: bool
-    ) -> None:
-        told = _stamped(parent, child, stamp, sample)
+    def _tell(self, told: TransformStamped, static: bool, authority: str) -> None:
         for listener in self._listeners:
             listener(told, static, authority)
 
@@ -221,7 +211,7 @@ class Buffer:
             parent, child = names.stripped(parent), names.stripped(child)
             if self._listeners:
                 for stamp, sample in rows.taken(report.accepted):
-                    self._tell(sample, stamp, parent, child, authority, False)
+                    self._tell(_stamped(parent, child, stamp, sample), False, authority)
             if self._requests.pending:
                 grown = len(self._forest.frames) > known
                 self._requests.changed(*((child, parent) if grown else (child,)))

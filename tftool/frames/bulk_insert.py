@@ -12,7 +12,7 @@ from tftool.frames import names, refusals
 from tftool.frames.columns import Column, Stamps, stamps_of
 from tftool.frames.forest import Forest
 from tftool.frames.history import History
-from tftool.frames.links import Sample
+from tftool.frames.links import WORDS, Sample
 from tftool.geometry import batch
 from tftool.geometry.batch import Floats
 
@@ -185,7 +185,7 @@ def merge(history: History, parent: int, stamps: Stamps, samples: Floats) -> Fla
         and bool(np.all(stamps[1:] > stamps[:-1]))
     ):
         kept = slice(int(np.searchsorted(stamps, floor)), n)
-        history.extend(_stamps(stamps[kept]), _numbers(samples[kept]), floor)
+        history.extend(_records(stamps[kept], samples[kept]), floor)
         return old
 
     column = Column(history)
@@ -200,11 +200,7 @@ def merge(history: History, parent: int, stamps: Stamps, samples: Floats) -> Fla
     order = np.argsort(all_stamps, kind="stable")
     order = order[all_stamps[order] >= floor]
     order = order[_first_of_their_kind(all_stamps, all_samples, all_parents, order)]
-    history.replace(
-        _stamps(all_stamps[order]),
-        _numbers(all_samples[order]),
-        _parents(all_parents[order]),
-    )
+    history.replace(_records(all_stamps[order], all_samples[order]), _parents(all_parents[order]))
     return old
 
 
@@ -242,19 +238,16 @@ def _shaped(numbers: npt.ArrayLike, name: str, shape: tuple[int, int]) -> Floats
     return np.asarray(given, dtype=np.float64)
 
 
-def _stamps(values: Stamps) -> "array[int]":
+def _records(stamps: Stamps, samples: Floats) -> "array[int]":
+    records = np.empty((len(stamps), WORDS), dtype=np.int64)
+    records[:, 0] = stamps
+    records.view(np.float64)[:, 1:] = samples
     result: array[int] = array("q")
-    result.frombytes(np.ascontiguousarray(values).tobytes())
+    result.frombytes(records.tobytes())
     return result
 
 
 def _parents(values: npt.NDArray[np.int32]) -> "array[int]":
     result: array[int] = array("i")
     result.frombytes(values.tobytes())
-    return result
-
-
-def _numbers(values: Floats) -> "array[float]":
-    result: array[float] = array("d")
-    result.frombytes(np.ascontiguousarray(values).tobytes())
     return result

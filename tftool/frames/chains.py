@@ -1,15 +1,23 @@
 """Links one after the other: where a lookup spends its time."""
 
+import math
 import struct
-from math import acos, sin
-from typing import Final
+from math import sin
+from typing import Final, TypeAlias
 
-from tftool.frames.links import IDENTITY, NOWHERE, Link, Sample
+from tftool.frames.links import IDENTITY, NOWHERE, RECORD, Link, Sample
 from tftool.geometry import quaternions
 from tftool.stamps import Stamp
 
-_unpack_two: Final = struct.Struct("14d").unpack_from
-_WIDTH: Final = 56
+# Compiled, this is quicker than to look the name up each time; `sin` is C's own there.
+_acos: Final = math.acos
+_unpack_two: Final = struct.Struct("q7dq7d").unpack_from
+
+_Pair: TypeAlias = tuple[
+    Stamp, float, float, float, float, float, float, float,
+    Stamp, float, float, float, float, float, float, float,
+]  # fmt: skip
+"""Two samples next to each other, each with its stamp before it."""
 
 
 def chained(links: tuple[Link, ...], time: Stamp) -> Sample:
@@ -42,6 +50,7 @@ def chained(links: tuple[Link, ...], time: Stamp) -> Sample:
     by: float
     bz: float
     bw: float
+    pair: _Pair
     first = True
     for link in links:
         newest = link.newest_stamp
@@ -55,20 +64,16 @@ def chained(links: tuple[Link, ...], time: Stamp) -> Sample:
                 tx, ty, tz, ax, ay, az, aw = one
                 ux, uy, uz, bx, by, bz, bw = two
             else:
-                stamps = link.stamps
                 # Samples come almost periodically: guess first, search if that is wrong.
-                index = len(stamps) - 2 - int((newest - time) * link.pace)
-                if index < 0:
-                    index = 0
-                before = stamps[index]
-                after = stamps[index + 1]
-                if not before <= time < after:
-                    index = link.index(time)
-                    before = stamps[index]
-                    after = stamps[index + 1]
-                tx, ty, tz, ax, ay, az, aw, ux, uy, uz, bx, by, bz, bw = _unpack_two(
-                    link.samples, _WIDTH * index
-                )
+                index = link.start + (time - link.oldest_stamp) // link.period
+                try:
+                    pair = _unpack_two(link.records, RECORD * index)
+                except struct.error:
+                    # Beyond the newest one.
+                    pair = _unpack_two(link.records, RECORD * link.index(time))
+                if not pair[0] <= time < pair[8]:
+                    pair = _unpack_two(link.records, RECORD * link.index(time))
+                before, tx, ty, tz, ax, ay, az, aw, after, ux, uy, uz, bx, by, bz, bw = pair
             if before != time and not (link.mixed and link.parts(time)):
                 ratio = (time - before) / (after - before)
                 tx += ratio * (ux - tx)
@@ -81,7 +86,7 @@ def chained(links: tuple[Link, ...], time: Stamp) -> Sample:
                     cosine = -cosine
                     take = -1.0
                 if cosine < 1.0:
-                    angle = acos(cosine)
+                    angle = _acos(cosine)
                     sine = sin(angle)
                     keep = sin((1.0 - ratio) * angle) / sine
                     take *= sin(ratio * angle) / sine

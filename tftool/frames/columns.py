@@ -5,7 +5,7 @@ import numpy.typing as npt
 
 from tftool.frames import refusals
 from tftool.frames.history import History
-from tftool.frames.links import Link, Sample
+from tftool.frames.links import WORDS, Link, Sample
 from tftool.geometry.batch import Floats
 from tftool.stamps import whole
 
@@ -25,9 +25,10 @@ class Column:
     __slots__ = ("parents", "samples", "stamps")
 
     def __init__(self, history: History) -> None:
-        stamps, samples, parents = history.columns()
-        self.stamps: Stamps = np.frombuffer(stamps, dtype=np.int64)
-        self.samples: Floats = np.frombuffer(samples, dtype=np.float64).reshape(-1, 7)
+        flat, parents = history.columns()
+        records = np.frombuffer(flat, dtype=np.int64).reshape(-1, WORDS)
+        self.stamps: Stamps = np.ascontiguousarray(records[:, 0])
+        self.samples: Floats = np.ascontiguousarray(records.view(np.float64)[:, 1:])
         self.parents = None if parents is None else np.frombuffer(parents, dtype=np.int32)
 
     @property

@@ -1,13 +1,13 @@
 """One link over time: insert, forget, interpolate, refuse to extrapolate.
 
-Samples lie in flat arrays, oldest first, 64 bytes each, behind a window that slides as old
-ones are forgotten; the last two are kept as tuples too, so that most questions touch no
-array.
+Samples lie as records in one flat array, oldest first, 64 bytes each, behind a window that
+slides as old ones are forgotten; the last two are kept as tuples too, so that most questions
+touch no array.
 """
 
 import struct
 from array import array
-from bisect import bisect_left, bisect_right
+from math import inf
 from typing import Any, Final, TypeAlias
 
 from tftool.frames.chains import chained
@@ -17,26 +17,33 @@ from tftool.frames.links import (
     KNOWN,
     NO_DATA,
     NO_PARENT,
+    ODD,
+    RECORD,
     RESHAPED,
     STORED,
     TOO_OLD,
+    WORDS,
     Link,
     Refusal,
     Sample,
 )
+from tftool.geometry import quaternions
 from tftool.stamps import Duration, Stamp
 
-Columns: TypeAlias = "tuple[array[int], array[float], array[int] | None]"
-"""Stamps, samples flat, and parents (None where there is but one), oldest first."""
+Records: TypeAlias = "tuple[array[int], array[int] | None]"
+"""Records, and a parent for each (None where there is but one), oldest first."""
 
-_pack: Final = struct.Struct("7d").pack
+_pack: Final = struct.Struct("q7d").pack
 _unpack_one: Final = struct.Struct("7d").unpack_from
-_WIDTH: Final = 56
 
 # Forgotten samples, and room in front for ones that arrive backwards, take at most
-# one part in sixteen, like the room that `array` keeps at its end.
+# one part in sixteen, like the room that `array` keeps behind its end.
 _SLACK: Final = 4
 _LEAST_SLACK: Final = 32
+
+# A quaternion whose square lies between these is of length one but for rounding.
+_SHORTEST: Final = 1.0 - 8e-16
+_LONGEST: Final = 1.0 + 8e-16
 
 
 class History(Link):
@@ -46,68 +53,100 @@ class History(Link):
     the last one inserted is the newest.
     """
 
-    __slots__ = ("_full", "_limit", "_parents", "_run", "_start")
+    __slots__ = ("_due", "_full", "_limit", "_parents", "_run")
 
     def __init__(self, limit: Duration) -> None:
         super().__init__(False)
         self._limit = limit
         # One parent serves all, until samples disagree: then one number for each sample.
         self._parents: array[int] | None = None
-        self._start = 0
         # So many forgotten samples are too many to leave where they are.
         self._full = _LEAST_SLACK
+        # A newest stamp beyond this means that the oldest sample is to be forgotten.
+        self._due: Stamp = 0
         # Where the newest samples that share a parent begin; of use while mixed.
         self._run = 0
 
     def __len__(self) -> int:
-        return len(self.stamps) - self._start
+        return len(self.records) // WORDS - self.start
 
     # Remembering
 
-    def insert(self, stamp: Stamp, parent: int, sample: Any) -> int:
+    def insert(self, stamp: Stamp, parent: int, sample: Any, sound: bool = False) -> int:
         """Forget what is too old by now, then remember a sample.
+
+        Args:
+            stamp: Nanoseconds.
+            parent: Number of the parent.
+            sample: Seven floats just as they came, the quaternion not always of length one
+                or of tf2's sign.
+            sound: Whether all that is settled already.
 
         Returns:
             TOO_OLD if it lies further back than the limit, KNOWN if that very sample is
             there, RESHAPED if it changes who the newest parent is or makes the parents
-            mixed, else STORED.
+            mixed, else STORED. ODD, and nothing was done, if the stamp is no `int`, or a
+            number is none.
 
         Raises:
-            OverflowError: If the stamp does not fit 64 bits.
+            struct.error: If the stamp does not fit 64 bits; nothing was done.
         """
-        # A `Sample`; but declared as one, compiled code would take it apart and make it anew.
+        numbers: Sample = sample
+        x, y, z, qx, qy, qz, qw = numbers
+        if not sound:
+            # NaN is not below anything; nor is a place so far off that it cannot be told from it.
+            if not (
+                isinstance(stamp, int)
+                and _SHORTEST < qx * qx + qy * qy + qz * qz + qw * qw < _LONGEST
+                and x + y + z < inf
+            ):
+                return self._insert_odd(stamp, parent, sample)
+            if qw < -0.5 or (qw <= 0.5 and quaternions.leading(qx, qy, qz, qw) < 0.0):
+                qx *= -1.0
+                qy *= -1.0
+                qz *= -1.0
+                qw *= -1.0
+                sample = (x, y, z, qx, qy, qz, qw)
         newest = self.newest_stamp
-        if stamp <= newest or self.newest is None:
-            return self._insert_late(stamp, parent, sample)
-        stamps = self.stamps
-        oldest_kept = newest - self._limit
-        if self.oldest_stamp < oldest_kept:
+        record = _pack(stamp, x, y, z, qx, qy, qz, qw)
+        if stamp <= newest:
+            return self._insert_late(stamp, parent, sample, record)
+        records = self.records
+        if newest > self._due:
             # As a rule every sample that comes lets one go.
-            start = self._start + 1
-            oldest = stamps[start]
-            if oldest < oldest_kept or self.mixed or start >= self._full:
-                self._forget(oldest_kept)
+            start = self.start + 1
+            oldest = records[WORDS * start]
+            due = oldest + self._limit
+            if newest > due or self.mixed or start >= self._full:
+                self._forget(newest - self._limit)
             else:
-                self._start = start
+                self.start = start
                 self.oldest_stamp = oldest
-        stamps.append(stamp)
-        self.samples.frombytes(_pack(*sample))
+                self._due = due
+        records.frombytes(record)
         self.previous_stamp = newest
         self.previous = self.newest
         self.newest_stamp = stamp
         self.newest = sample
-        if parent != self.parent or self.mixed:
-            return self._append_parent(parent)
-        return STORED
+        if parent == self.parent and not self.mixed:
+            return STORED
+        return self._append_parent(parent)
+
+    def _insert_odd(self, stamp: Any, parent: int, sample: Any) -> int:
+        """Insert a sample whose quaternion is to be scaled, if nothing else is odd about it."""
+        x, y, z, qx, qy, qz, qw = sample
+        turn = quaternions.canonical(quaternions.unit((qx, qy, qz, qw)))
+        if stamp.__class__ is not int or x + y + z != x + y + z or turn[3] != turn[3]:
+            return ODD
+        return self.insert(stamp, parent, (x, y, z, *turn), True)
 
     def clear(self) -> None:
         """Forget everything; afterwards any stamp is taken again."""
-        self.stamps = array("q")
-        self.samples = array("d")
+        self.records = array("q")
         self._parents = None
-        self._start = self._run = 0
+        self.start = self._run = 0
         self._full = _LEAST_SLACK
-        self.newest_stamp = self.oldest_stamp = self.previous_stamp = 0
+        self.newest_stamp = self.oldest_stamp = self.previous_stamp = self._due = 0
         self.newest = self.previous = None
         self.parent = NO_PARENT
         self.mixed = False
@@ -117,26 +156,25 @@ class History(Link):
         """How far it remembers back from its newest sample."""
         return self._limit
 
-    def extend(self, stamps: "array[int]", samples: "array[float]", oldest_kept: Stamp) -> None:
-        """Append samples, each newer than the one before, and forget those before a stamp.
+    def extend(self, records: "array[int]", oldest_kept: Stamp) -> None:
+        """Append records, each newer than the one before, and forget those before a stamp.
 
         They have the parent that all samples have; one there is already, and they reach
         beyond what is forgotten.
         """
         if self.newest_stamp < oldest_kept:
-            self.replace(stamps, samples, array("i", [self.parent]) * len(stamps))
+            self.replace(records, array("i", [self.parent]) * (len(records) // WORDS))
             return
-        self.stamps.extend(stamps)
-        self.samples.extend(samples)
+        self.records.extend(records)
         self._note_newest()
         if self.oldest_stamp < oldest_kept:
             self._forget(oldest_kept)
 
-    def replace(self, stamps: "array[int]", samples: "array[float]", parents: "array[int]") -> None:
+    def replace(self, records: "array[int]", parents: "array[int]") -> None:
         """Remember these instead: not none, oldest first, of equal stamps the newest last."""
-        self.stamps, self.samples, self._start = stamps, samples, 0
-        self._full = max(_LEAST_SLACK, len(stamps) >> _SLACK)
-        self.oldest_stamp = stamps[0]
+        self.records = records
+        self._full = max(_LEAST_SLACK, len(parents) >> _SLACK)
+        self._begin(0)
         self._note_newest()
         self.parent = parents[-1]
         self.mixed = parents.count(self.parent) != len(parents)
@@ -150,36 +188,44 @@ class History(Link):
 
     def _note_newest(self) -> None:
         """Keep the last two samples at hand."""
-        count = len(self.stamps)
-        self.newest_stamp, self.newest = self.stamps[-1], self._sample(count - 1)
+        last = self._count() - 1
+        self.newest_stamp, self.newest = self._stamp(last), self._sample(last)
         self.previous_stamp, self.previous = 0, None
-        if count - self._start > 1:
-            self.previous_stamp, self.previous = self.stamps[-2], self._sample(count - 2)
+        if last > self.start:
+            self.previous_stamp, self.previous = self._stamp(last - 1), self._sample(last - 1)
 
     def _forget(self, oldest_kept: Stamp) -> None:
-        """Let go of samples before that stamp."""
-        stamps = self.stamps
-        start = self._start + 1
-        if stamps[start] < oldest_kept:
-            start = bisect_left(stamps, oldest_kept, start)
-        self.oldest_stamp = stamps[start]
+        """Let go of samples before that stamp; the newest is not one of them."""
+        start = self.start + 1
+        if self._stamp(start) < oldest_kept:
+            # Where equal stamps are the oldest, all of them stay.
+            start = self._later(oldest_kept - 1)
         if self.mixed and start >= self._run:
             self._parents = None
             self.mixed = False
         if start >= self._full:
-            self._full = max(_LEAST_SLACK, (len(stamps) - start) >> _SLACK)
-            del stamps[:start]
-            del self.samples[: 7 * start]
+            del self.records[: WORDS * start]
             if self._parents is not None:
                 del self._parents[:start]
             self._run -= start
             start = 0
-        self._start = start
+            self._full = max(_LEAST_SLACK, self._count() >> _SLACK)
+        self._begin(start)
+
+    def _begin(self, start: int) -> None:
+        """Have the window begin at a record."""
+        self.start = start
+        self.oldest_stamp = oldest = self._stamp(start)
+        self._due = oldest + self._limit
 
     def _append_parent(self, parent: int) -> int:
         """Note the parent of the sample just appended."""
-        count = len(self.stamps)
+        count = self._count()
         parents = self._parents
+        if self.parent == NO_PARENT:
+            self.parent = parent
+            self._begin(0)
+            return RESHAPED
         if parents is None:
             parents = self._mix(count - 1)
         parents.append(parent)
@@ -193,53 +239,51 @@ class History(Link):
         """Begin to note a parent for each of the first `count` samples."""
         parents = self._parents = array("i", [self.parent]) * count
         self.mixed = True
-        self._run = self._start
+        self._run = self.start
         return parents
 
-    def _insert_late(self, stamp: Stamp, parent: int, sample: Sample) -> int:
+    def _insert_late(self, stamp: Stamp, parent: int, sample: Any, record: bytes) -> int:
         """Insert the first sample, or one that is not newer than all others."""
-        stamps = self.stamps
+        records = self.records
         newest = self.newest_stamp
         if self.newest is None:
-            stamps.append(stamp)
-            self.samples.frombytes(_pack(*sample))
-            self.oldest_stamp = self.newest_stamp = stamp
+            records.frombytes(record)
+            self._begin(0)
+            self.newest_stamp = stamp
             self.newest = sample
             self.parent = parent
             return RESHAPED
-        if self.oldest_stamp + self._limit < newest:
+        if newest > self._due:
             self._forget(newest - self._limit)
         if stamp < newest - self._limit:
             return TOO_OLD
-        place = bisect_right(stamps, stamp, self._start)
+        place = self._later(stamp)
         behind = place - 1
-        while behind >= self._start and stamps[behind] == stamp:
+        while behind >= self.start and self._stamp(behind) == stamp:
             if self._sample(behind) == sample and self._parent(behind) == parent:
                 return KNOWN
             behind -= 1
 
         was_mixed = self.mixed
         if parent != self.parent and not was_mixed:
-            self._mix(len(stamps))
-        if place == self._start:
+            self._mix(self._count())
+        if place == self.start:
             place = self._make_room_in_front()
-            stamps[place] = stamp
-            self.samples[7 * place : 7 * place + 7] = array("d", sample)
+            records[WORDS * place : WORDS * (place + 1)] = array("q", record)
             if self._parents is not None:
                 self._parents[place] = parent
-            self._start = place
         else:
-            stamps.insert(place, stamp)
-            self.samples[7 * place : 7 * place] = array("d", sample)
+            records[WORDS * place : WORDS * place] = array("q", record)
             if self._parents is not None:
                 self._parents.insert(place, parent)
             if place < self._run:
                 self._run += 1
-        self.oldest_stamp = stamps[self._start]
-        if place >= len(stamps) - 2:
-            self.previous_stamp = stamps[-2]
-            self.previous = sample if place == len(stamps) - 2 else self._sample(len(stamps) - 2)
-        if place == len(stamps) - 1:
+        self._begin(min(place, self.start))
+        last = self._count() - 1
+        if place >= last - 1:
+            self.previous_stamp = self._stamp(last - 1)
+            self.previous = sample if place == last - 1 else self._sample(last - 1)
+        if place == last:
             # Equal to the newest stamp: the one that came last is in front.
             self.newest = sample
             if parent != self.parent:
@@ -252,15 +296,14 @@ class History(Link):
 
     def _make_room_in_front(self) -> int:
         """The free place before the oldest sample; samples that arrive backwards go there."""
-        if self._start == 0:
-            room = max(_LEAST_SLACK, len(self.stamps) >> _SLACK)
-            self.stamps[0:0] = array("q", bytes(8 * room))
-            self.samples[0:0] = array("d", bytes(_WIDTH * room))
+        if self.start == 0:
+            room = max(_LEAST_SLACK, self._count() >> _SLACK)
+            self.records[0:0] = array("q", bytes(RECORD * room))
             if self._parents is not None:
                 self._parents[0:0] = array("i", [self.parent]) * room
-            self._start = room
+            self.start = room
             self._run += room
-        return self._start - 1
+        return self.start - 1
 
     # Answering
 
@@ -281,7 +324,7 @@ class History(Link):
         if self._parents is None:
             return self.parent
         if time == self.oldest_stamp:
-            return self._parents[self._start]
+            return self._parents[self.start]
         return self._parents[self.index(time)]
 
     def refusal(self, time: Stamp) -> Refusal:
@@ -296,33 +339,32 @@ class History(Link):
         """Stamp of the sample that answers for that moment, the older of the two."""
         if time == self.newest_stamp or time == 0:
             return self.newest_stamp
-        return self.stamps[self.index(time)] if time > self.oldest_stamp else self.oldest_stamp
+        return self._stamp(self.index(time)) if time > self.oldest_stamp else self.oldest_stamp
 
     def items(self) -> list[tuple[Stamp, int, Sample]]:
         """Every sample remembered, newest first: stamp, parent's number, pose."""
         return [
-            (self.stamps[index], self._parent(index), self._sample(index))
-            for index in range(len(self.stamps) - 1, self._start - 1, -1)
+            (self._stamp(index), self._parent(index), self._sample(index))
+            for index in range(self._count() - 1, self.start - 1, -1)
         ]
 
-    def columns(self) -> "Columns":
-        """Stamps, samples (seven numbers each) and parents, oldest first: copies.
+    def columns(self) -> "Records":
+        """Records and parents, oldest first: copies.
 
         They are of one moment, even if another thread inserts or forgets meanwhile: what
         was copied is held against what is remembered, and copied again where they differ.
         """
         while True:
-            start, newest, parents = self._start, self.newest_stamp, self._parents
-            stamps, samples = self.stamps[start:], self.samples[7 * start :]
+            start, newest, parents = self.start, self.newest_stamp, self._parents
+            records = self.records[WORDS * start :]
             if parents is not None:
                 parents = parents[start:]
             if (
-                len(samples) == 7 * len(stamps)
-                and (parents is None or len(parents) == len(stamps))
-                and (start, newest) == (self._start, self.newest_stamp)
-                and (not stamps or (stamps[0], stamps[-1]) == (self.oldest_stamp, newest))
+                (parents is None or WORDS * len(parents) == len(records))
+                and (start, newest) == (self.start, self.newest_stamp)
+                and (not records or (records[0], records[-WORDS]) == (self.oldest_stamp, newest))
             ):
-                return stamps, samples, parents
+                return records, parents
 
     def parts(self, time: Stamp) -> bool:
         """Whether the two samples that enclose a moment have different parents."""
@@ -330,35 +372,55 @@ class History(Link):
         parents = self._parents
         return parents is not None and parents[index] != parents[index + 1]
 
+    def _count(self) -> int:
+        """How many records there are, forgotten ones included."""
+        return len(self.records) // WORDS
+
+    def _stamp(self, index: int) -> Stamp:
+        return self.records[WORDS * index]
+
     def _sample(self, index: int) -> Sample:
-        sample: Sample = _unpack_one(self.samples, _WIDTH * index)
+        sample: Sample = _unpack_one(self.records, RECORD * index + 8)
         return sample
 
     def _parent(self, index: int) -> int:
         return self.parent if self._parents is None else self._parents[index]
 
+    def _later(self, time: Stamp) -> int:
+        """Where the first sample after a moment lies; behind the last one if there is none."""
+        if time < self.oldest_stamp:
+            return self.start
+        if time < self.newest_stamp:
+            return self.index(time) + 1
+        return self._count()
+
     def index(self, time: Stamp) -> int:
-        """Where the last sample at or before `time` lies; oldest < time < newest.
+        """Where the last sample at or before `time` lies; oldest <= time < newest.
 
         Guess by the mean rate, correct the guess once, and search only when that fails.
         """
-        stamps = self.stamps
-        start = self._start
-        last = len(stamps) - 1
-        pace = self.pace = (last - start) / (self.newest_stamp - self.oldest_stamp)
-        guess = start + int((time - self.oldest_stamp) * pace)
-        there = stamps[guess]
-        if there <= time:
-            if time < stamps[guess + 1]:
+        records = self.records
+        # The sample at `low` is not later than the moment, the one at `high` is.
+        low, high = self.start, self._count() - 1
+        self.period = period = max(1, (self.newest_stamp - self.oldest_stamp) // (high - low))
+        guess = low + (time - self.oldest_stamp) // period
+        for _ in range(2):
+            guess = min(max(guess, low), high - 1)
+            there = records[WORDS * guess]
+            if there > time:
+                high = guess
+            elif time < records[WORDS * guess + WORDS]:
                 return guess
-            low, high = guess + 1, last
-            guess = min(guess + int((time - there) * pace), last - 1)
-        else:
-            low, high = start, guess
-            guess = max(guess - int((there - time) * pace) - 1, start)
-        if stamps[guess] <= time < stamps[guess + 1]:
-            return guess
-        return bisect_right(stamps, time, low, high) - 1
+            else:
+                low = guess + 1
+            guess += (time - there) // period
+        while high - low > 1:
+            guess = (low + high) >> 1
+            if records[WORDS * guess] <= time:
+                low = guess
+            else:
+                high = guess
+        return low
 
     def exactly(self, time: Stamp) -> Sample | None:
         """The pose at one of the two ends of the history; outside it, none."""
@@ -366,4 +428,4 @@ class History(Link):
             return self.newest
         if time != self.oldest_stamp or self.newest is None:
             return None
-        return self._sample(self._start)
+        return self._sample(self.start)

@@ -4,7 +4,7 @@ from array import array
 from math import nan
 from typing import Any, Final, TypeAlias
 
-from tftool.stamps import Stamp
+from tftool.stamps import Duration, Stamp
 
 Sample: TypeAlias = tuple[float, float, float, float, float, float, float]
 """A pose: x, y, z in metres and a unit quaternion x, y, z, w of tf2's sign."""
@@ -21,6 +21,12 @@ Refusal: TypeAlias = tuple[int, Stamp]
 NO_PARENT: Final = -1
 """In place of a parent's number: none."""
 
+WORDS: Final = 8
+"""How many 64-bit words a record takes."""
+
+RECORD: Final = 8 * WORDS
+"""How many bytes that is."""
+
 # Why a link has no pose at some moment.
 NO_DATA: Final = 1
 FORWARD: Final = 2
@@ -31,6 +37,7 @@ TOO_OLD: Final = 0
 KNOWN: Final = 1
 STORED: Final = 2
 RESHAPED: Final = 3
+ODD: Final = 4
 
 
 class Link:
@@ -45,9 +52,11 @@ class Link:
         previous: That sample itself.
         parent: Number of the newest sample's parent; NO_PARENT when there is none.
         mixed: Whether samples with different parents are remembered.
-        stamps: Of a history, oldest first; some at the beginning may be forgotten ones.
-        samples: Of a history, seven numbers for each stamp.
-        pace: Samples a nanosecond, as last measured; where to look is guessed from it.
+        records: Of a history, oldest first: WORDS words each, a stamp and the seven numbers
+            of a sample bit by bit.
+        start: Number of the first record that is not forgotten.
+        period: Nanoseconds from sample to sample, as last measured; where to look is guessed
+            from it.
     """
 
     __slots__ = (
@@ -56,12 +65,12 @@ class Link:
         "newest",
         "newest_stamp",
         "oldest_stamp",
-        "pace",
         "parent",
+        "period",
         "previous",
         "previous_stamp",
-        "samples",
-        "stamps",
+        "records",
+        "start",
     )
 
     def __init__(self, is_static: bool) -> None:
@@ -73,9 +82,10 @@ class Link:
         self.previous_stamp: Stamp = 0
         self.parent: int = NO_PARENT
         self.mixed: bool = False
-        self.stamps: array[int] = array("q")
-        self.samples: array[float] = array("d")
-        self.pace: float = 0.0
+        # One place to look at for a stamp and its sample: long histories do not fit a cache.
+        self.records: array[int] = array("q")
+        self.start: int = 0
+        self.period: Duration = 1
 
     def __len__(self) -> int:
         raise NotImplementedError
@@ -92,8 +102,11 @@ class Link:
         """Why there is no pose at that moment; only asked when there is none."""
         raise NotImplementedError
 
-    def insert(self, stamp: Stamp, parent: int, sample: Any) -> int:
-        """Remember a sample; says TOO_OLD, KNOWN, STORED, or RESHAPED when the parent changed."""
+    def insert(self, stamp: Stamp, parent: int, sample: Any, sound: bool = False) -> int:
+        """Remember a sample; says TOO_OLD, KNOWN, STORED, or RESHAPED when the parent changed.
+
+        One that was not found `sound` before is looked at first, and may turn out ODD.
+        """
         raise NotImplementedError
 
     def clear(self) -> None:
@@ -140,7 +153,7 @@ class Constant(Link):
         """Never asked for: a constant refuses nothing."""
         return NO_DATA, 0
 
-    def insert(self, stamp: Stamp, parent: int, sample: Any) -> int:
+    def insert(self, stamp: Stamp, parent: int, sample: Any, sound: bool = True) -> int:
         """Put the sample in place of the one that was there."""
         if parent == self.parent and sample == self.newest:
             return KNOWN

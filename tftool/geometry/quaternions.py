@@ -87,12 +87,17 @@ def canonical(quaternion: Quad) -> Quad:
     negative.
     """
     x, y, z, w = quaternion
+    return (-x, -y, -z, -w) if leading(x, y, z, w) < 0.0 else quaternion
+
+
+def leading(x: float, y: float, z: float, w: float) -> float:
+    """The number of a unit quaternion that tf2 makes positive; see `canonical`."""
     if w * w > 0.25:
-        lead = w
-    else:
-        xx, yy, zz = x * x, y * y, z * z
-        lead = (z if yy < zz else y) if xx < yy else (z if xx < zz else x)
-    return (-x, -y, -z, -w) if lead < 0.0 else quaternion
+        return w
+    xx, yy, zz = x * x, y * y, z * z
+    if xx < yy:
+        return z if yy < zz else y
+    return z if xx < zz else x
 
 
 def slerp(start: Quad, end: Quad, fraction: float) -> Quad:
