@@ -11,13 +11,15 @@ from tftool.ros.workspace import Workspace
 HEAD = """
 import launch, launch.actions, launch.conditions, launch.event_handlers, launch.events
 import launch.substitutions, launch_ros.actions, launch_ros.parameter_descriptions
+import launch_ros.substitutions
 for module in (launch, launch.actions, launch.conditions, launch.event_handlers,
-               launch.substitutions, launch_ros.actions, launch_ros.parameter_descriptions):
+               launch.substitutions, launch_ros.actions, launch_ros.parameter_descriptions,
+               launch_ros.substitutions):
     globals().update({k: v for k, v in vars(module).items() if not k.startswith('_')})
 """
 
 
-def described(tmp_path, *actions, seconds=2.0, arguments=None, expect_failure=False) -> Launched:
+def described(tmp_path, *actions, seconds=2.0, arguments=None, start=TUTORIAL) -> Launched:
     """Launch a Python file made of these actions."""
     file = tmp_path / "some.launch.py"
     body = ",\n        ".join(actions)
@@ -25,7 +27,7 @@ def described(tmp_path, *actions, seconds=2.0, arguments=None, expect_failure=Fa
         f"{HEAD}\ndef generate_launch_description():\n    return LaunchDescription([\n"
         f"        {body}\n    ])\n"
     )
-    return launch(file, seconds=seconds, arguments=arguments)
+    return launch(file, seconds=seconds, arguments=arguments, start=start)
 
 
 @pytest.mark.parametrize(

@@ -11,6 +11,7 @@ import threading
 from collections import UserList
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
+from difflib import get_close_matches
 from importlib.abc import Loader, MetaPathFinder
 from pathlib import Path
 from types import ModuleType
@@ -49,8 +50,10 @@ class _Face(ModuleType):
         if name.startswith("__"):
             raise AttributeError(name)
         known = ", ".join(self._known) or "nothing by itself, only modules below it"
+        near = get_close_matches(name, self._known, n=1)
+        hint = f"; did you mean '{near[0]}'?" if near else "."
         sentence = (
-            f"'{name}' of {self.__name__} is not covered: {self.__name__} has {known} here. "
+            f"'{name}' of {self.__name__} is not covered: {self.__name__} has {known} here{hint} "
             f"{WHERE_TO_LOOK[0].upper()}{WHERE_TO_LOOK[1:]}"
         )
         if _is_import_from(sys._getframe(1)):

@@ -10,6 +10,7 @@ from tftool.ros.launching.composition import IncludeLaunchDescription
 from tftool.ros.launching.context import LaunchContext
 from tftool.ros.launching.description import LaunchDescription
 from tftool.ros.launching.settings import DeclareLaunchArgument
+from tftool.ros.launching.substitutions import perform
 
 
 def declared(description: LaunchDescription, context: LaunchContext) -> list[DeclareLaunchArgument]:
@@ -23,9 +24,9 @@ def declared(description: LaunchDescription, context: LaunchContext) -> list[Dec
                 if entity.default_value is not None:
                     context.launch_configurations.setdefault(entity.name, "")
             elif isinstance(entity, IncludeLaunchDescription):
-                passed = {str(name) for name, _ in entity.launch_arguments}
                 before = set(found)
                 try:
+                    passed = {perform(context, name) for name, _ in entity.launch_arguments}
                     inner, _ = entity.source.load(context)
                 except TftoolError:
                     continue  # it is said when the file is really included

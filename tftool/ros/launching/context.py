@@ -50,9 +50,10 @@ class LaunchContext:
 
     def enter_file(self, path: Path) -> None:
         """Be in a launch file from now on."""
+        whole = path.absolute()
         self.locals = {
-            "current_launch_file_path": str(path),
-            "current_launch_file_directory": str(path.parent),
+            "current_launch_file_path": str(whole),
+            "current_launch_file_directory": str(whole.parent),
         }
 
     def kept(self) -> tuple[Any, ...]:

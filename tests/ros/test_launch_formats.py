@@ -1,0 +1,276 @@
+"""One content in Python, XML and YAML; and what each says of its mistakes."""
+
+from pathlib import Path
+
+import pytest
+
+from tests.ros.test_launch import described
+from tests.ros.tutorial import TUTORIAL, launch
+from tftool.errors import InputError, NodeFailed
+from tftool.ros.hosting import show_arguments
+from tftool.ros.importing import ros_free
+from tftool.ros.workspace import Workspace
+
+FILES = Path(__file__).parent / "launch_files"
+FORMATS = ["py", "xml", "yaml"]
+
+
+def whole(ending, **arguments):
+    return launch(FILES / f"whole.launch.{ending}", seconds=10, arguments=arguments)
+
+
+@pytest.mark.parametrize("ending", FORMATS)
+def test_a_file_says_the_same_in_each_language(ending):
+    done = whole(ending)
+
+    assert done.lines == whole("py").lines
+    assert done.said("launch") == ["part: 14", "late news", "shutting down: enough"]
+    assert done.said("told-4")[1] == "shape round,flat"
+    assert done.nodes["one/sim"].parameters.values() == {
+        "background_r": 3,
+        "background_g": 5,
+        "background_b": 7,
+        "holonomic": False,
+    }
+    assert "Result: -0.4800 after 31 feedbacks" in done.texts("turner")
+    assert "two/sim" in done.nodes
+    assert done.failed == []
+    assert done.elapsed == 3
+
+
+@pytest.mark.parametrize("ending", FORMATS)
+def test_conditions_and_arguments_mean_the_same_in_each_language(ending):
+    done = whole(ending, colour="9", second="false")
+
+    assert done.said("launch")[0] == "part: 18"
+    assert "two/sim" not in done.nodes
+    assert done.said("rotate-2") == []
+    assert done.said("told-2")[0] == "process started: echo shape round,flat"
+
+
+@pytest.mark.parametrize("ending", FORMATS)
+def test_show_args_is_laid_out_as_ros2_launch_does(ending):
+    with ros_free():
+        shown = show_arguments(FILES / f"whole.launch.{ending}", Workspace(TUTORIAL))
+
+    # What the included file is given is none of the arguments of this one.
+    assert shown == (
+        "Arguments (pass arguments as '<name>:=<value>'):\n\n"
+        "    'colour':\n        How blue. Valid choices are: ['7', '9']\n        (default: '7')\n\n"
+        "    'second':\n        no description given\n        (default: 'true')"
+    )
+
+
+def test_show_args_shows_defaults_that_are_still_to_be_made(tmp_path):
+    file = tmp_path / "a.launch.py"
+    file.write_text(
+        "from launch import LaunchDescription\n"
+        "from launch.actions import DeclareLaunchArgument\n"
+        "from launch.substitutions import EnvironmentVariable, LaunchConfiguration\n"
+        "from launch.substitutions import PathJoinSubstitution\n"
+        "def generate_launch_description():\n"
+        "    return LaunchDescription([\n"
+        "        DeclareLaunchArgument('a', default_value=LaunchConfiguration('colour')),\n"
+        "        DeclareLaunchArgument('b', default_value=PathJoinSubstitution(\n"
+        "            [EnvironmentVariable('ART'), 'logs'])),\n"
+        "        DeclareLaunchArgument('c', description='Said.', choices=['x'])])\n"
+    )
+    with ros_free():
+        shown = show_arguments(file, Workspace(tmp_path))
+
+    assert "(default: LaunchConfig('colour'))" in shown
+    assert "(default: PathJoinSubstitution('EnvVar('ART'), 'logs''))" in shown
+    assert shown.endswith("    'c':\n        Said. Valid choices are: ['x']")
+
+
+WRONG = {
+    "py": "from launch import LaunchDescription\nfrom launch.actions import LogInfo\n"
+    "from launch.substitutions import LaunchConfiguration\n"
+    "def generate_launch_description():\n"
+    "    return LaunchDescription([\n        LogInfo(msg=LaunchConfiguration('gone'))])\n",
+    "xml": "<launch>\n\n\n\n\n<log message='$(var gone)'/></launch>",
+    "yaml": "launch:\n\n\n\n\n- log: {message: $(var gone)}\n",
+}
+
+
+@pytest.mark.parametrize("ending", FORMATS)
+def test_what_goes_wrong_later_is_told_with_the_line_that_says_it(tmp_path, ending):
+    file = tmp_path / f"a.launch.{ending}"
+    file.write_text(WRONG[ending])
+
+    with pytest.raises(NodeFailed) as refused:
+        launch(file, seconds=1)
+
+    assert str(refused.value.__cause__) == (
+        f"{file}:6: launch configuration 'gone' does not exist: declare it with "
+        "DeclareLaunchArgument, or pass gone:=…"
+    )
+
+
+@pytest.mark.parametrize(
+    ("text", "told"),
+    [
+        ("<node pkg='p' exec='e'>\n<parm name='a' value='1'/></node>",
+         ":3: 'node' has no 'parm' inside; did you mean 'param'?"),
+        ("<node pkg='p' exec='e'>\n<param name='a' vale='1' value='1'/></node>",
+         ":3: 'param' has no attribute 'vale'; did you mean 'value'?"),
+        ("<node pkg='p' exec='e'><remap frm='a' to='b'/></node>", ":2: 'remap' needs 'from'"),
+        ("<node pkg='p' exec='e'><param name='a' value='1' type='itn'/></node>",
+         "a type is str, int, float, bool, not 'itn'; did you mean 'int'?"),
+        ("<node pkg='p' exec='e' on_exit='stop'/>", "on_exit may be 'shutdown', not 'stop'"),
+        ("<node_container pkg='p' exec='e'/>", "'node_container' is not covered: composable nodes"),
+        ("<load_composable_node target='x'/>", "'load_composable_node' is not covered"),
+        ("<arg name='a'><choise value='1'/></arg>", "'choise' inside; did you mean 'choice'?"),
+        ("<log message='$(find-pkg-shar x)'/>", "mean '$(find-pkg-share …)'?"),
+    ],
+)  # fmt: skip
+def test_a_mistake_in_xml_is_told_with_its_line_and_the_nearest_word(tmp_path, text, told):
+    file = tmp_path / "a.launch.xml"
+    file.write_text(f"<launch>\n{text}\n</launch>")
+
+    with pytest.raises(InputError) as refused:
+        launch(file, seconds=1)
+
+    assert str(file) in str(refused.value)
+    assert told in str(refused.value)
+
+
+@pytest.mark.parametrize(
+    ("line", "told"),
+    [
+        ("from launch_ros.actions import ComposableNodeContainer", "of launch_ros.actions is not"),
+        ("from launch_ros.actions import LifecycleNode", "of launch_ros.actions is not covered"),
+        ("from launch.event_handlers import OnProcessIO", "of launch.event_handlers is not"),
+        ("from launch.actions import GroupActon", "here; did you mean 'GroupAction'?"),
+        ("import launch_ros.events", "launch_ros.events is not covered: of launch_ros there is"),
+    ],
+)
+def test_what_is_not_covered_is_named_with_where_to_look(tmp_path, line, told):
+    file = tmp_path / "a.launch.py"
+    file.write_text(f"{line}\n")
+
+    with pytest.raises(InputError) as refused:
+        launch(file, seconds=1)
+
+    assert told in str(refused.value)
+    assert "table 'The tutorial, line by line' in tftool's README" in str(refused.value)
+    assert f"a.launch.py:1, in <module>: {line}" in str(refused.value)
+
+
+# Actions that only some files use
+
+
+@pytest.fixture
+def brief(tmp_path):
+    """A package with a node that tells its parameters and ends after 0.7 s."""
+    nodes = tmp_path / "mine" / "scripts"
+    nodes.mkdir(parents=True)
+    (tmp_path / "mine" / "package.xml").write_text("<package><name>mine</name></package>")
+    (nodes / "brief.py").write_text(
+        "import rclpy\nrclpy.init()\n"
+        "node = rclpy.create_node('brief', automatically_declare_parameters_from_overrides=True)\n"
+        "told = sorted(f'{name}={one.value}' for name, one in\n"
+        "              node.get_parameters_by_prefix('').items() if name != 'use_sim_time'\n"
+        "              or one.value)\n"
+        "node.get_logger().info(' '.join(told))\n"
+        "node.create_timer(0.7, rclpy.shutdown)\nrclpy.spin(node)\n"
+    )
+    return tmp_path
+
+
+def test_a_node_that_ended_is_started_again(brief):
+    done = described(
+        brief,
+        "Node(package='mine', executable='brief.py', respawn=True, respawn_delay=2.0)",
+        seconds=6,
+        start=brief,
+    )
+
+    started = [record.stamp - 1000 * 10**9 for record in done.records if record.node == "brief"]
+    assert started == [0, 2_700_000_000, 5_400_000_000]
+    assert done.said("brief.py-1").count("process started") == 3
+    assert done.failed == []
+
+
+def test_a_command_that_ends_at_once_is_not_started_for_ever(tmp_path):
+    done = described(tmp_path, "ExecuteProcess(cmd=['true'], respawn=True)", seconds=1)
+
+    assert done.said("true-1").count("process started: true") == 10 + 1
+
+
+def test_a_node_that_ended_may_end_the_launch(brief):
+    done = described(
+        brief,
+        "Node(package='mine', executable='brief.py', respawn=True, "
+        "on_exit=[LogInfo(msg='over'), Shutdown(reason=['that ', 'was it'])])",
+        seconds=6,
+        start=brief,
+    )
+
+    assert done.said("launch") == ["over", "shutting down: that was it"]
+    assert done.elapsed == 0.7
+
+
+def test_parameters_of_each_kind_and_place_arrive(brief):
+    (brief / "one.yaml").write_text("brief:\n  ros__parameters:\n    late: $(var who)\n")
+    (brief / "all.yaml").write_text("/**:\n  ros__parameters:\n    everywhere: 1.5\n")
+    done = described(
+        brief,
+        "SetLaunchConfiguration('who', 'me')",
+        "SetUseSimTime(True)",
+        f"SetParametersFromFile(r'{brief}/all.yaml')",
+        "Node(package='mine', executable='brief.py', parameters=["
+        "{'a': 1, 'b': {'c': 2.5}, 'names': ['x', 'y'], 'flag': True, "
+        "'one': ['x', LaunchConfiguration('who')]}, "
+        f"ParameterFile(r'{brief}/one.yaml', allow_substs=True)])",
+        start=brief,
+    )
+
+    assert done.texts("brief") == [
+        "a=1 b.c=2.5 everywhere=1.5 flag=True late=me names=['x', 'y'] one=xme use_sim_time=True"
+    ]
+
+
+def test_what_has_no_effect_on_nodes_of_one_process_is_said(brief):
+    done = described(
+        brief,
+        "Node(package='mine', executable='brief.py', prefix='xterm -e', cwd='/', output='screen', "
+        "emulate_tty=True)",
+        start=brief,
+    )
+
+    assert done.said("launch") == ["prefix and cwd of a Node have no effect here"]
+
+
+def test_a_group_forwards_what_it_is_told_to(tmp_path):
+    done = described(
+        tmp_path,
+        "SetLaunchConfiguration('who', 'me')",
+        "GroupAction([LogInfo(msg=[LaunchConfiguration('who', default='nobody'), ' ', "
+        "LaunchConfiguration('given')])], forwarding=False, "
+        "launch_configurations={'given': LaunchConfiguration('who')})",
+        "ResetLaunchConfigurations({'left': LaunchConfiguration('who')})",
+        "LogInfo(msg=[LaunchConfiguration('left'), LaunchConfiguration('who', default=' alone')])",
+    )
+
+    assert done.said("launch") == ["nobody me", "me alone"]
+
+
+def test_rarer_substitutions_give_texts_too(tmp_path):
+    asked = {
+        "AnySubstitution('false', 'true')": "true",
+        "AllSubstitution('false', 'true')": "false",
+        "PythonExpression([\"os.path.basename('/a/b')\"], python_modules=['os.path'])": "b",
+        "FindPackageShare('pkg_tf').find('pkg_tf')": str(TUTORIAL),
+    }
+    done = described(
+        tmp_path,
+        "AppendEnvironmentVariable('SHAPES', 'round', separator=',')",
+        "AppendEnvironmentVariable('SHAPES', 'flat', prepend=True, separator=',')",
+        *(f"LogInfo(msg={text})" for text in asked),
+        "LogInfo(msg=EnvironmentVariable('SHAPES'))",
+        "OpaqueFunction(function=lambda context: LogInfo("
+        "msg=context.perform_substitution(EnvironmentVariable('SHAPES'))))",
+    )
+
+    assert done.said("launch") == [*asked.values(), "flat,round", "flat,round"]
