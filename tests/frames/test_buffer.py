@@ -13,8 +13,9 @@ from tftool.errors import (
     NoDataForExtrapolationException,
     TransformException,
 )
-from tftool.frames.buffer import MAX_FRAMES, Buffer
+from tftool.frames.buffer import Buffer
 from tftool.frames.sample import TransformStamped
+from tftool.frames.store import MAX_FRAMES
 from tftool.geometry.rigid import Transform
 from tftool.stamps import seconds
 
@@ -300,6 +301,58 @@ def test_listeners_are_told_every_accepted_sample_as_it_is_kept(buffer):
     ]
     assert heard[0][0].transform.rotation == (0, 0, 0, 1)
     assert (heard[2][0].frame_id, heard[2][0].child_frame_id) == ("world", "post")
+
+
+def test_a_callback_that_fails_keeps_nobody_else_from_being_told(buffer, said):
+    heard = []
+
+    def failing(*told):
+        heard.append("failing")
+        raise RuntimeError(f"mistake {len(heard)}")
+
+    buffer.listen(failing)
+    buffer.listen(lambda *told: heard.append("listener"))
+    buffer.request(failing, "world", "turtle1", seconds(1))
+    buffer.request(lambda *told: heard.append("waiter"), "world", "turtle1", seconds(1))
+
+    with pytest.raises(RuntimeError, match="mistake 1"):
+        put(buffer, 1)
+
+    assert heard == ["failing", "listener", "failing", "waiter"]
+    assert said == [("ERROR", "another callback failed as well: RuntimeError: mistake 3")]
+    assert buffer.can_transform("world", "turtle1")
+
+
+@pytest.mark.parametrize("static", [False, True])
+@pytest.mark.parametrize(
+    "sample",
+    [
+        "x",
+        "abcd",
+        None,
+        Transform(),
+        TransformStamped(1, "world", "turtle1", None),
+        TransformStamped(1, "world", "turtle1", ((0, 0, 0), (0, 0, 0, 1))),
+    ],
+)
+def test_what_is_no_sample_is_refused_by_what_one_is(buffer, sample, static):
+    put(buffer, 0.5)
+    setter = buffer.set_transform_static if static else buffer.set_transform
+
+    with pytest.raises(TypeError, match=r"what is set is a TransformStamped\(stamp, .* not "):
+        setter(sample, "me")
+
+    assert buffer.snapshot(0).frame("turtle1").samples == 1
+
+
+def test_a_cache_time_that_looks_like_seconds_is_warned_of_with_the_remedy(said):
+    Buffer(10, log=lambda level, text: said.append((level, text)))
+    Buffer(0, log=lambda level, text: said.append((level, text)))
+    Buffer(seconds(0.001), log=lambda level, text: said.append((level, text)))
+
+    assert [level for level, _ in said] == ["WARN"]
+    assert "a cache_time of 10 ns forgets nearly everything at once" in said[0][1]
+    assert "seconds(10) makes one of 10 s" in said[0][1]
 
 
 def test_a_listener_may_stop_itself_and_others(buffer):

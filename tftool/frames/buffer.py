@@ -1,237 +1,34 @@
 """The buffer: remembers transforms over time and answers how frames lie to each other."""
 
-import struct
-from collections.abc import Callable
 from typing import TYPE_CHECKING, Final, Literal
 
 from tftool.errors import TransformException
 from tftool.frames import export, names, refusals, sweep, velocity
-from tftool.frames.forest import Forest
-from tftool.frames.links import ODD, RESHAPED, STORED, TOO_OLD, Sample
-from tftool.frames.lookups import Lookups
 from tftool.frames.plans import Plan
-from tftool.frames.requests import NEVER, Callback, Requests
+from tftool.frames.requests import NEVER, Callback
 from tftool.frames.sample import FrameInfo, Snapshot, TransformStamped
-from tftool.geometry import quaternions, rigid
+from tftool.frames.store import Store
+from tftool.geometry import rigid
 from tftool.geometry.rigid import Transform
-from tftool.stamps import Duration, Stamp, seconds, whole
+from tftool.stamps import Duration, Stamp, whole
 
 if TYPE_CHECKING:
     import numpy.typing as npt
 
     from tftool.frames.arrays import TransformArray
-    from tftool.frames.bulk_insert import Insertion
 
 __all__ = ["NEVER", "Buffer"]
 
-Listener = Callable[[TransformStamped, bool, str], object]
-"""Is told each accepted sample, whether it is static, and who sent it."""
-
-MAX_FRAMES = 16_384
-"""How many names a buffer takes unless it is told to take more."""
-
-_NOT_PLAIN: Final = (KeyError, TypeError, ValueError, AttributeError, struct.error)
 _NO_PLANS: dict[str, Plan] = {}
 _new: Final = tuple.__new__
 
 
-class Buffer:
+class Buffer(Store):
     """Named frames over time, as tf2 keeps them.
 
     It knows no clock and waits for nothing: time comes in with the samples and with
     the questions, in nanoseconds, and 0 in a question means the latest.
     """
-
-    def __init__(
-        self,
-        cache_time: Duration = seconds(10),
-        *,
-        log: Callable[[str, str], None] | None = None,
-        max_frames: int = MAX_FRAMES,
-    ) -> None:
-        """Make an empty buffer.
-
-        Args:
-            cache_time: How far each moving link remembers back from its newest sample.
-            log: Is told why a sample is refused: level ("WARN", "ERROR") and sentence.
-                Without one, Python's own `logging` is.
-            max_frames: How many names it takes; strangers choose names.
-
-        Raises:
-            ValueError: If `cache_time` is negative.
-        """
-        cache_time = whole(cache_time)
-        if cache_time < 0:
-            raise ValueError(f"cache_time must not be negative, but is {cache_time} ns")
-        self.cache_time = cache_time
-        self.max_frames = max_frames
-        self._log = log or refusals.log_to_logging
-        self._forest = Forest(cache_time)
-        self._moving = self._forest.moving
-        self._lookups = Lookups(self._forest, cache_time)
-
-        self._plans = self._lookups.plans
-        self._requests = Requests(self._lookups.examine)
-        self._pending = self._requests.pending
-        self._listeners: tuple[Listener, ...] = ()
-
-    # Setting
-
-    def set_transform(self, transform: TransformStamped, authority: str = "") -> bool:
-        """Remember a sample of a link that moves.
-
-        Args:
-            transform: The pose of a child in its parent. One leading slash is taken off
-                either name; any finite quaternion but zero is scaled to length one.
-            authority: Who sent it.
-
-        Returns:
-            Whether it was taken. If not, the log was told why, and nothing is lost.
-
-        Raises:
-            TypeError: If the stamp is not a whole number.
-        """
-        try:
-            stamp, parent, child, pose = transform
-            frame = self._moving[child]
-            outcome = ODD
-            if parent == frame.parent_name:
-                outcome = frame.history.insert(
-                    stamp, frame.parent_number, pose.translation + pose.rotation
-                )
-        except _NOT_PLAIN:
-            return self._set_slowly(transform, authority, False)
-        if outcome != STORED:
-            if outcome == ODD:
-                return self._set_slowly(transform, authority, False)
-            if outcome == TOO_OLD:
-                self._log("WARN", refusals.old_data(child, stamp, authority))
-                return False
-            if outcome == RESHAPED:
-                self._lookups.drop_plans()
-        frame.authority = authority
-        if self._listeners:
-            kept = rigid.canonical(pose)
-            self._tell(TransformStamped(stamp, parent, child, kept), False, authority)
-        if self._pending:
-            self._requests.changed(child)
-        return True
-
-    def set_transform_static(self, transform: TransformStamped, authority: str = "") -> bool:
-        """Set a link that holds at all times; it takes the place of all the child had before.
-
-        Returns:
-            Whether it was taken. If not, the log was told why, and nothing is lost.
-
-        Raises:
-            TypeError: If the stamp is not a whole number.
-        """
-        return self._set_slowly(transform, authority, True)
-
-    def _set_slowly(self, transform: TransformStamped, authority: str, static: bool) -> bool:
-        """Set what is new, odd or static: every check, each with its own line in the log."""
-        stamp, parent, child, pose = transform
-        stamp = whole(stamp)
-        parent, child = names.stripped(parent), names.stripped(child)
-        rotation = quaternions.canonical(quaternions.unit(pose.rotation))
-        errors = refusals.objections(child, parent, stamp, pose.translation, rotation, authority)
-        forest = self._forest
-        if not errors and not forest.has_room(child, parent, self.max_frames):
-            errors = [refusals.too_many_frames(child, authority, len(forest.frames))]
-        if errors:
-            for error in errors:
-                self._log("ERROR", error)
-            return False
-
-        known = len(forest.frames)
-        fresh = forest.hang(child, parent, static)
-        frame = forest.frames[forest.numbers[child]]
-        assert frame.link is not None
-        sample = pose.translation + rotation
-        outcome = frame.link.insert(stamp, frame.parent_number, sample, True)
-        # A name that comes up is news even if the sample is refused; a parent that was
-        # known is none, or each new child would wake whoever waits for something below it.
-        named = [new.name for new in forest.frames[known:]]
-        if outcome == TOO_OLD:
-            self._log("WARN", refusals.old_data(child, stamp, authority))
-            self._requests.changed(*named)
-            return False
-        frame.authority = authority
-        if fresh or outcome == RESHAPED:
-            self._lookups.drop_plans()
-        if self._listeners:
-            self._tell(_stamped(parent, child, stamp, sample), static, authority)
-        if self._requests.pending:
-            self._requests.changed(child, *named)
-        return True
-
-    def _tell(self, told: TransformStamped, static: bool, authority: str) -> None:
-        for listener in self._listeners:
-            listener(told, static, authority)
-
-    def set_transforms(
-        self,
-        parent: str,
-        child: str,
-        stamps: "npt.ArrayLike",
-        translations: "npt.ArrayLike",
-        rotations: "npt.ArrayLike",
-        authority: str = "",
-    ) -> "Insertion":
-        """Remember many samples of one link that moves, as if set one by one in their order.
-
-        Whoever listens is told each of them, and whoever waits is asked again, once all
-        are in.
-
-        Args:
-            parent: The frame the poses are given in.
-            child: The frame whose poses they are.
-            stamps: Whole nanoseconds, shape (n,), in any order.
-            translations: Metres, shape (n, 3).
-            rotations: Quaternions in xyzw order, shape (n, 4); any finite one but zero.
-            authority: Who sent them.
-
-        Returns:
-            Which rows were taken, and why the others were not; true if all were. The log
-            is told of the first ten.
-
-        Raises:
-            TypeError: If the stamps are no whole numbers.
-            ValueError: If a shape does not fit.
-        """
-        from tftool.frames import bulk_insert
-
-        known = len(self._forest.frames)
-        link = (parent, child, authority)
-        report, rows = bulk_insert.insert(
-            self._forest, self._log, self.max_frames, link, stamps, translations, rotations
-        )
-        self._lookups.drop_plans()
-        if report.accepted.any():
-            parent, child = names.stripped(parent), names.stripped(child)
-            if self._listeners:
-                for stamp, sample in rows.taken(report.accepted):
-                    self._tell(_stamped(parent, child, stamp, sample), False, authority)
-            if self._requests.pending:
-                grown = len(self._forest.frames) > known
-                self._requests.changed(*((child, parent) if grown else (child,)))
-        return report
-
-    def clear(self) -> None:
-        """Forget all that moves; names, statics and pending requests stay."""
-        for frame in self._forest.frames:
-            if frame.link is not None:
-                frame.link.clear()
-        self._lookups.drop_plans()
-
-    def listen(self, callback: Listener) -> Callable[[], None]:
-        """Have `callback` called after each accepted sample; call what is returned to stop."""
-        self._listeners = (*self._listeners, callback)
-
-        def stop() -> None:
-            self._listeners = tuple(one for one in self._listeners if one is not callback)
-
-        return stop
 
     # Looking up
 
@@ -259,7 +56,7 @@ class Buffer:
             time = whole(time)
         pose: Transform | None = None
         try:
-            plan = self._plans[target_frame][source_frame]
+            plan = self._lookups.plans[target_frame][source_frame]
         except KeyError:
             pass
         else:
@@ -367,7 +164,7 @@ class Buffer:
         Raises:
             TransformException: If a name is unknown or invalid, or nothing joins the two.
         """
-        plan = self._plans.get(target_frame, _NO_PLANS).get(source_frame)
+        plan = self._lookups.plans.get(target_frame, _NO_PLANS).get(source_frame)
         if plan is not None:
             return plan.latest()
         call = "get_latest_common_time"
@@ -445,7 +242,7 @@ class Buffer:
         """Whether `lookup_transform` would answer; it never raises for a name or a time."""
         if time.__class__ is not int:
             time = whole(time)
-        plan = self._plans.get(target_frame, _NO_PLANS).get(source_frame)
+        plan = self._lookups.plans.get(target_frame, _NO_PLANS).get(source_frame)
         if plan is not None and plan.covers(time or plan.latest()):
             return True
         return self._lookups.why_not(target_frame, source_frame, time) is None
@@ -499,6 +296,7 @@ class Buffer:
         Args:
             callback: Called from inside the set that makes it possible, in the order of the
                 requests: with the handle, and True; or False once that moment is forgotten.
+                What it raises goes where what a listener raises does; see `listen`.
             target_frame: As in `lookup_transform`.
             source_frame: As in `lookup_transform`.
             time: As in `lookup_transform`; 0 is never forgotten.
@@ -581,8 +379,3 @@ class Buffer:
 
     def _infos(self) -> tuple[FrameInfo, ...]:
         return self.snapshot(0).frames
-
-
-def _stamped(target: str, source: str, stamp: Stamp, sample: Sample) -> TransformStamped:
-    x, y, z, qx, qy, qz, qw = sample
-    return TransformStamped(stamp, target, source, rigid.transform((x, y, z), (qx, qy, qz, qw)))

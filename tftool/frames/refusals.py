@@ -12,7 +12,7 @@ from tftool.errors import (
     NoDataForExtrapolationException,
 )
 from tftool.frames.links import BACKWARD, FORWARD, NO_DATA, Refusal
-from tftool.stamps import Stamp, display
+from tftool.stamps import Duration, Stamp, display
 
 # Stamps are kept in 64 bits.
 _LONGEST = 2**63
@@ -229,6 +229,19 @@ def too_many_frames(child: str, authority: str, limit: int) -> str:
         f'"{authority}" because the buffer holds {limit} frame names, as many as it takes; '
         "Buffer(max_frames=…) raises that"
     )
+
+
+def short_cache(cache_time: Duration) -> str:
+    """A memory so short that its unit was probably mistaken."""
+    return (
+        f"a cache_time of {cache_time} ns forgets nearly everything at once: it is given in "
+        f"nanoseconds, and seconds({cache_time}) makes one of {cache_time} s"
+    )
+
+
+def also_failed(failure: Exception) -> str:
+    """One callback more than the one whose exception is raised."""
+    return f"another callback failed as well: {type(failure).__name__}: {failure}"
 
 
 def _plain(numbers: Iterable[float]) -> str:

@@ -29,6 +29,14 @@ later, as in tf2, expiry is looked at first.
 """
 
 
+def attempt(failures: list[Exception], callback: Callable[..., object], *told: object) -> None:
+    """Call back; what is raised is noted, and keeps nobody else from being called."""
+    try:
+        callback(*told)
+    except Exception as failure:
+        failures.append(failure)
+
+
 class Request:
     """One pending request."""
 
@@ -81,11 +89,16 @@ class Requests:
         if request is not None:
             self._unwatch(request)
 
-    def changed(self, *frames: str) -> None:
-        """Ask again whatever waits for one of these frames, oldest request first."""
+    def changed(self, *frames: str) -> list[Exception]:
+        """Ask again whatever waits for one of these frames, oldest request first.
+
+        Returns:
+            What callbacks raised; it kept no other from being called.
+        """
         due: set[int] = set()
         for frame in frames:
             due.update(self._watchers.get(frame, ()))
+        failures: list[Exception] = []
         for handle in sorted(due):
             # A callback may have cancelled it.
             request = self.pending.get(handle)
@@ -95,7 +108,8 @@ class Requests:
             status = self._ask(request, False)
             if status != PENDING:
                 del self.pending[handle]
-                request.callback(handle, status == AVAILABLE)
+                attempt(failures, request.callback, handle, status == AVAILABLE)
+        return failures
 
     def _ask(self, request: Request, first: bool) -> int:
         """Ask every question; while one has no answer, watch what keeps it from having one."""
