@@ -124,6 +124,21 @@ def test_demo_without_a_terminal_shares_nothing_and_says_so(tftool):
     assert "which nobody can share" in result.err
 
 
+@pytest.mark.parametrize(
+    ("words", "purpose"),
+    [
+        (["static", "--frame-id", "a", "--child-frame-id", "b"], "publish"),
+        (["teleop", "--keys", "up"], "drive"),
+        (["follow"], "drive"),
+    ],
+)
+def test_who_does_something_cannot_only_look(tftool, words, purpose):
+    result = tftool(*words, "--read-only")
+
+    assert result.status == 2
+    assert f"--read-only publishes nothing, and to {purpose} is all {words[0]} does." in result.err
+
+
 def test_session_has_nothing_to_host(tftool):
     result = tftool("session", "--host")
 

@@ -51,11 +51,15 @@ def test_three_terminals_play_the_tutorial(terminal):
     teleop.press("r")
     demo.until(lambda screen: "Rotation goal completed" in screen, "a turn")
 
-    teleop.press("q")
-    teleop.shows("ended with 0")
     demo.press("q")
     demo.shows("ended with 0")
     echo.has_shown("which hosted, has left")
+    echo.has_shown("Waiting for turtle1 in turtle2")
+    teleop.shows("has left; what it sent stays as it was.")
+    told = "there is no turtle 'turtle1' here"
+    teleop.until(lambda screen: teleop.press("Up") or told in screen, told)
+    teleop.press("q")
+    teleop.shows("ended with 0")
     echo.signal(signal.SIGINT)
     echo.shows("ended with 130")
 

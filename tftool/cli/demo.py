@@ -101,7 +101,7 @@ def demo(
         async def life() -> None:
             await live(None if duration is None else world.clock.now() + duration)
 
-        driver: Teleop | None = driver_of(world, "turtle1")
+        driver: Teleop | None = None if choice().read_only else driver_of(world, "turtle1")
         title = f"tftool demo, in {joined.name}"
     else:
         link = host_link(scenario or HOME)

@@ -104,6 +104,7 @@ def follow(
     from tftool.cli import console_log
     from tftool.cli.onscreen import simulator_of
     from tftool.cli.session import notice, open_session
+    from tftool.cli.sharing import refuse_read_only
     from tftool.errors import UsageError
     from tftool.motion.pid import Gains
     from tftool.nodes.broadcasters import Broadcaster
@@ -112,6 +113,7 @@ def follow(
     from tftool.stamps import as_seconds
     from tftool.views.escaping import visible
 
+    refuse_read_only("follow", "drive")
     session = open_session(
         place,
         head_start=0,

@@ -75,6 +75,7 @@ def run_app(
         NodeFailed: If a node raised.
         KeyboardInterrupt: If a signal or Ctrl-C ended it.
     """
+    from tftool.nodes.far_turtles import FarTurtles
     from tftool.runtime.clock import run
     from tftool.screens.scene import Scene
     from tftool.screens.setting import setting_from
@@ -82,7 +83,7 @@ def run_app(
     from tftool.screens.terminal import TurtleApp
 
     setting = setting_from(os.environ, sys.stdout.encoding or "ascii", setting)
-    scene = Scene(world, simulator_of(world))
+    scene = Scene(world, simulator_of(world) or FarTurtles(world))
     app = TurtleApp(scene, None if driver is None else _press_of(scene, driver), setting)
     run(world.clock, show(app, life))
 

@@ -75,6 +75,16 @@ class Choice:
         return Options(self.command, self.domain, reach, self.read_only)
 
 
+def refuse_read_only(command: str, purpose: str) -> None:
+    """Say so to whoever wants to look only with a command that does more.
+
+    Raises:
+        UsageError: If that was asked for.
+    """
+    if choice().read_only:
+        raise UsageError(f"--read-only publishes nothing, and to {purpose} is all {command} does.")
+
+
 _choice: ContextVar[Choice | None] = ContextVar("choice", default=None)
 _open: list["Link"] = []
 

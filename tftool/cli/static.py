@@ -71,11 +71,10 @@ def publish(said: "StaticArguments", *, spin: bool) -> None:
         UsageError: If no buffer would take it, or nothing is to be published.
     """
     from tftool.cli.session import open_empty_session
-    from tftool.cli.sharing import choice
+    from tftool.cli.sharing import refuse_read_only
     from tftool.errors import UsageError
 
-    if choice().read_only:
-        raise UsageError("--read-only publishes nothing, and to publish is all static does.")
+    refuse_read_only("static", "publish")
     if not any(said.transform.rotation):
         raise UsageError("A quaternion of four zeros is no rotation: 0 0 0 1 turns nothing.")
 

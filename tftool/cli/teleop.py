@@ -33,8 +33,10 @@ def teleop(
     """
     from tftool.cli.onscreen import driver_of, has_terminal, run_app
     from tftool.cli.session import open_session
+    from tftool.cli.sharing import refuse_read_only
     from tftool.nodes.teleop import BANNER
 
+    refuse_read_only("teleop", "drive")
     if keys is not None:
         from tftool.cli.pressing import press_all
 

@@ -83,7 +83,8 @@ class Question:
         """The pair asked for, until its frames are overdue and nobody picked another."""
         asked, snapshot = (self.target, self.source), moment.snapshot
         names = [info.frame for info in snapshot.frames if info.parent is not None]
-        soon = self.scene.simulator is not None and moment.elapsed < PATIENCE
+        simulator = self.scene.simulator
+        soon = simulator is not None and bool(simulator.turtles) and moment.elapsed < PATIENCE
         if self._picked or soon or not names or all(name in snapshot for name in asked):
             return asked
         source = self.source if self.source in snapshot else names[-1]

@@ -2,13 +2,15 @@
 
 import math
 from collections import deque
+from collections.abc import Mapping
 from dataclasses import dataclass, replace
+from typing import Protocol
 
 from tftool.errors import TransformException
 from tftool.frames.sample import Snapshot, TransformStamped
 from tftool.geometry.planar import heading
-from tftool.messages import Color
-from tftool.nodes.turtlesim import Turtlesim
+from tftool.messages import Color, Pose2D
+from tftool.nodes.trail import Trail
 from tftool.runtime.world import World
 from tftool.stamps import LATEST, Duration, Stamp, as_seconds, seconds
 from tftool.views import canvas
@@ -51,6 +53,37 @@ class Moment:
     pair: Pair
 
 
+class Drawn(Protocol):
+    """A turtle as far as it is drawn."""
+
+    @property
+    def name(self) -> str:
+        """Its name."""
+
+    @property
+    def pose(self) -> Pose2D:
+        """Where it is."""
+
+    @property
+    def wall_hits(self) -> int:
+        """How often it met the wall."""
+
+
+class Simulator(Protocol):
+    """Who draws turtles: the simulator itself, or what is seen of one elsewhere."""
+
+    trail: Trail
+    revision: int
+
+    @property
+    def turtles(self) -> Mapping[str, Drawn]:
+        """Every turtle by its name."""
+
+    @property
+    def background(self) -> Color:
+        """The field's colour."""
+
+
 @dataclass(frozen=True, slots=True)
 class _Seen:
     """What only the simulator knows of the field at `stamp`: the trail by its length."""
@@ -74,7 +107,7 @@ class Scene:
         start: The moment from which seconds are counted on the screen.
     """
 
-    def __init__(self, world: World, simulator: Turtlesim | None = None) -> None:
+    def __init__(self, world: World, simulator: Simulator | None = None) -> None:
         self.world = world
         self.simulator = simulator
         self.start: Stamp = world.clock.epoch
@@ -91,7 +124,7 @@ class Scene:
         """Remember how things stand; called a few dozen times a second."""
         now = self.world.clock.now()
         simulator = self.simulator
-        if simulator is None:
+        if simulator is None or not (simulator.turtles or self._seen):
             return
         trail = simulator.trail
         before = self._seen[-1] if self._seen else None

@@ -234,7 +234,7 @@ class TurtleApp(App[None]):
         if question.at is None or self._stale or moment is None:
             frames = 0 if moment is None else len(moment.snapshot.frames)
             simulator = self.scene.simulator
-            painted = None if simulator is None else simulator.revision
+            painted = simulator.revision if simulator and simulator.turtles else None
             if not (panels_too or painted != self._painted or painted is None):
                 return
             self._painted = painted
