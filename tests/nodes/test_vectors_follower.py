@@ -1,11 +1,10 @@
-import math
-
 import pytest
 
 from tests.nodes.harness import After, Before, log_texts, new_world, play
-from tests.nodes.vectors import STRICT, VECTORS, close, ids, rows
+from tests.nodes.loop import BEARING_COUNTS_ABOVE, HEAD_START, Loop
+from tests.nodes.vectors import STRICT, VECTORS, ids, rows
 from tftool.frames.buffer import Buffer
-from tftool.messages import Kill, Spawn, Twist2D
+from tftool.messages import Kill, Spawn
 from tftool.nodes.broadcasters import Broadcaster, FixedCarrot
 from tftool.nodes.follower import Follower
 from tftool.nodes.squares import DrawSquare
@@ -13,92 +12,6 @@ from tftool.nodes.turtlesim import Turtlesim
 from tftool.runtime.clock import SimClock
 from tftool.runtime.world import World
 from tftool.stamps import seconds
-
-HEAD_START = 2.0
-"""Seconds before t = 0 in which the simulator idles: 125 whole ticks."""
-
-BEARING_COUNTS_ABOVE = 0.01
-
-
-class Loop:
-    """A closed loop whose t = 0 lies a head start after the epoch; rows as it is lived."""
-
-    def __init__(self, world):
-        self.world = world
-        self.sim = None
-        self.commands = {}
-        self.found = {}
-        world.topic("turtle2/cmd_vel", Twist2D).subscribe(self._command)
-
-    def now(self):
-        return round(self.world.clock.elapsed() / 1e9 - HEAD_START, 6)
-
-    def _command(self, twist):
-        self.commands[self.now()] = twist
-
-    def sample(self):
-        turtles = {name: turtle.place for name, turtle in self.sim.turtles.items()}
-        # Where turtle1 was five seconds ago, between two ticks as the buffer has it.
-        then = self.world.clock.now() - seconds(5)
-        if self.world.buffer.can_transform("world", "turtle1", then):
-            past = self.world.buffer.lookup_transform("world", "turtle1", then)
-            turtles["past"] = past.transform.translation
-        self.found[self.now()] = turtles
-
-    def sample_at(self, times):
-        After(self.world, *((HEAD_START + t, self.sample) for t in times), name="sampler")
-
-    def errors(self, expected):
-        """What of the expected rows was not met, by time."""
-        missed = {}
-        for row in expected:
-            t = row["t"]
-            wrong = list(self._errors(row, self.found[t], self.commands.get(t)))
-            if wrong:
-                missed[t] = wrong
-        return missed
-
-    def _errors(self, row, places, command):
-        goal = self._goal(row, places)
-        distance = row.get("distance_to_carrot", row.get("distance_to_where_turtle1_was"))
-        if distance is None:
-            distance = row.get("distance", math.inf)
-        bearing_counts = distance > BEARING_COUNTS_ABOVE
-        for short, name in (("t1", "turtle1"), ("t2", "turtle2")):
-            if f"{short}_x" not in row:
-                continue
-            place = places[name]
-            for what, kind in (("x", "xy"), ("y", "xy"), ("theta", "theta")):
-                if what == "theta" and name == "turtle2" and not bearing_counts:
-                    continue
-                if not close(getattr(place, what), row[f"{short}_{what}"], kind):
-                    yield f"{name}.{what}", getattr(place, what), row[f"{short}_{what}"]
-        for column, found in goal.items():
-            if not close(found, row[column], "distance"):
-                yield column, found, row[column]
-        if row["cmd_linear"] is None:
-            if command is not None:
-                yield "command", command, None
-            return
-        if not close(command.linear_x, row["cmd_linear"], "linear"):
-            yield "linear", command.linear_x, row["cmd_linear"]
-        if bearing_counts and not close(command.angular_z, row["cmd_angular"], "angular"):
-            yield "angular", command.angular_z, row["cmd_angular"]
-
-    def _goal(self, row, places):
-        two = places["turtle2"]
-        found = {}
-        for column in ("distance", "distance_to_turtle1"):
-            if column in row:
-                one = places["turtle1"]
-                found[column] = math.dist(one[:2], two[:2])
-        if "distance_to_carrot" in row:
-            one = places["turtle1"]
-            found["distance_to_carrot"] = math.dist((one.x, one.y + 2.0), two[:2])
-        if row.get("distance_to_where_turtle1_was") is not None:
-            past = places["past"]
-            found["distance_to_where_turtle1_was"] = math.dist(past[:2], two[:2])
-        return found
 
 
 def stage(last, period, *, square=False, carrot=False, follow=None, times=()):
@@ -180,13 +93,12 @@ def test_the_demo_starts_up_and_steers_as_the_reference_does(case):
     expected = rows(case)
     last = expected[-1]["t"]
     world = new_world()
-    loop = Loop(world)
-    loop.now = lambda: round(world.clock.elapsed() / 1e9, 6)
+    loop = Loop(world, head_start=0.0)
     loop.sim = Turtlesim(world)
     for number in (1, 2):
         Broadcaster(world, f"broadcaster{number}", turtle=f"turtle{number}")
     Follower(world, "listener", period=seconds(case["period"]))
-    After(world, *((row["t"], loop.sample) for row in expected), name="sampler")
+    loop.sample_at(row["t"] for row in expected)
     play(world, last)
 
     assert loop.errors(expected) == {}

@@ -23,6 +23,7 @@ setup(
             'static_turtle = pkg_tf.static_turtle:main',
             'fixed_carrot = pkg_tf.fixed_carrot:main',
             'dynamic_carrot = pkg_tf.dynamic_carrot:main',
+            'first_time_travel = pkg_tf.first_time_travel:main',
             'time_travel = pkg_tf.time_travel:main',
             'point_listener = pkg_tf.point_listener:main',
             'point_sender = pkg_tf.point_sender:main',

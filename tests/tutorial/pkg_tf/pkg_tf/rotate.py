@@ -7,10 +7,11 @@ from turtlesim.action import RotateAbsolute
 
 
 class Rotate(Node):
-    """Turn turtle1 to a heading, and say when it is there."""
+    """Turn turtle1 to a heading, and say when it is there; or lose patience on the way."""
 
-    def __init__(self):
+    def __init__(self, patience=None):
         super().__init__('rotate')
+        self.patience = patience
         self._action_client = ActionClient(self, RotateAbsolute, '/turtle1/rotate_absolute')
         self.feedbacks = 0
 
@@ -27,6 +28,7 @@ class Rotate(Node):
         if not goal_handle.accepted:
             self.get_logger().info('Goal rejected')
             return
+        self.goal_handle = goal_handle
         self.get_logger().info('Goal accepted')
         self._get_result_future = goal_handle.get_result_async()
         self._get_result_future.add_done_callback(self.get_result_callback)
@@ -34,6 +36,8 @@ class Rotate(Node):
     def feedback_callback(self, feedback_msg):
         self.feedbacks += 1
         self.remaining = feedback_msg.feedback.remaining
+        if self.feedbacks == self.patience:
+            self.goal_handle.cancel_goal_async()
 
     def get_result_callback(self, future):
         result = future.result().result
@@ -43,6 +47,7 @@ class Rotate(Node):
 
 def main(args=None):
     rclpy.init(args=args)
-    node = Rotate()
-    node.send_goal(float(sys.argv[1]))
+    words = rclpy.utilities.remove_ros_args(sys.argv)
+    node = Rotate(int(words[2]) if len(words) > 2 else None)
+    node.send_goal(float(words[1]))
     rclpy.spin(node)

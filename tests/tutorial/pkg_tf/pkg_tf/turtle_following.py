@@ -29,7 +29,8 @@ class TurtleFollowing(Node):
 
         self.publisher = self.create_publisher(Twist, 'turtle2/cmd_vel', 1)
 
-        self.timer = self.create_timer(1.0, self.on_timer)
+        period = self.declare_parameter('period', 1.0).value
+        self.timer = self.create_timer(period, self.on_timer)
 
     def on_timer(self):
         to_frame_rel = 'turtle2'
