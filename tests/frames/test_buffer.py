@@ -319,7 +319,7 @@ def test_a_callback_that_fails_keeps_nobody_else_from_being_told(buffer, said):
         put(buffer, 1)
 
     assert heard == ["failing", "listener", "failing", "waiter"]
-    assert said == [("ERROR", "another callback failed as well: RuntimeError: mistake 3")]
+    assert said == [("ERROR", "callbacks failed, 1 more, first RuntimeError: mistake 3")]
     assert buffer.can_transform("world", "turtle1")
 
 

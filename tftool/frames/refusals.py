@@ -1,6 +1,6 @@
 """What the buffer says when it refuses, in tf2's words."""
 
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Sequence
 
 from tftool.errors import (
     BackwardExtrapolationException,
@@ -239,9 +239,10 @@ def short_cache(cache_time: Duration) -> str:
     )
 
 
-def also_failed(failure: Exception) -> str:
-    """One callback more than the one whose exception is raised."""
-    return f"another callback failed as well: {type(failure).__name__}: {failure}"
+def also_failed(failures: Sequence[Exception]) -> str:
+    """Callbacks that failed beside the one whose exception is raised."""
+    first = failures[0]
+    return f"callbacks failed, {len(failures)} more, first {type(first).__name__}: {first}"
 
 
 def _plain(numbers: Iterable[float]) -> str:

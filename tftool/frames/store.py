@@ -103,9 +103,11 @@ class Store:
             if outcome == RESHAPED:
                 self._lookups.drop_plans()
         frame.authority = authority
-        if self._listeners or self._pending:
+        if self._listeners:
             kept = TransformStamped(stamp, parent, child, rigid.canonical(pose))
             self._tell((kept,), False, authority, (child,))
+        elif self._pending:
+            self._tell((), False, authority, (child,))
         return True
 
     def set_transform_static(self, transform: TransformStamped, authority: str = "") -> bool:
@@ -150,8 +152,9 @@ class Store:
         frame.authority = authority
         if fresh or outcome == RESHAPED:
             self._lookups.drop_plans()
-        kept = _stamped(parent, child, stamp, sample)
-        self._tell((kept,), static, authority, (child, *named))
+        if self._listeners or self._pending:
+            kept = _stamped(parent, child, stamp, sample)
+            self._tell((kept,), static, authority, (child, *named))
         return True
 
     def _tell(
@@ -166,13 +169,13 @@ class Store:
         One that raises keeps nobody else from being told.
         """
         failures: list[Exception] = []
-        for sample in samples if self._listeners else ():
+        for sample in samples:
             for listener in self._listeners:
                 attempt(failures, listener, sample, static, authority)
         if self._pending:
             failures += self._requests.changed(*changed)
-        for failure in failures[1:]:
-            self._log("ERROR", refusals.also_failed(failure))
+        if len(failures) > 1:
+            self._log("ERROR", refusals.also_failed(failures[1:]))
         if failures:
             raise failures[0]
 
@@ -221,7 +224,8 @@ class Store:
                 for stamp, sample in rows.taken(report.accepted)
             )
             grown = len(self._forest.frames) > known
-            self._tell(taken, False, authority, (child, parent) if grown else (child,))
+            news = (child, parent) if grown else (child,)
+            self._tell(taken if self._listeners else (), False, authority, news)
         return report
 
     def clear(self) -> None:
@@ -235,7 +239,7 @@ class Store:
         """Have `callback` called after each accepted sample; call what is returned to stop.
 
         What it raises, whoever set the sample is given, once all others are told: the first
-        such exception, while the log has the others. The sample stays.
+        such exception, while the log is told of the others. The sample stays.
         """
         self._listeners = (*self._listeners, callback)
 
