@@ -50,22 +50,27 @@ ACTIONS = {
 }
 
 
+def empty_store():
+    """A rosbags type store that knows nothing yet."""
+    return get_typestore(Stores.EMPTY)
+
+
 def store():
     """A rosbags type store that knows every type above, parts included."""
     types = get_typestore(Stores.ROS2_JAZZY)
     # Its gid is written char[16]; ROS 2 hashes what that becomes in IDL, uint8[16].
     del types.fielddefs["service_msgs/msg/ServiceEventInfo"]
     del types.types["service_msgs/msg/ServiceEventInfo"]
-    _register(types, "service_msgs/msg/ServiceEventInfo", EVENT_INFO)
+    register(types, "service_msgs/msg/ServiceEventInfo", EVENT_INFO)
     for name, text in MESSAGES.items():
-        _register(types, name, text)
+        register(types, name, text)
     for name, (request, response) in SERVICES.items():
         _service(types, name, request, response)
     for name, (goal, result, feedback) in ACTIONS.items():
         uuid = "unique_identifier_msgs/UUID goal_id\n"
-        _register(types, f"{name}_Goal", goal)
-        _register(types, f"{name}_Result", result)
-        _register(types, f"{name}_Feedback", feedback)
+        register(types, f"{name}_Goal", goal)
+        register(types, f"{name}_Result", result)
+        register(types, f"{name}_Feedback", feedback)
         _service(
             types,
             f"{name}_SendGoal",
@@ -73,20 +78,20 @@ def store():
             "bool accepted\nbuiltin_interfaces/Time stamp",
         )
         _service(types, f"{name}_GetResult", uuid, f"int8 status\n{name}_Result result")
-        _register(types, f"{name}_FeedbackMessage", f"{uuid}{name}_Feedback feedback")
+        register(types, f"{name}_FeedbackMessage", f"{uuid}{name}_Feedback feedback")
     return types
 
 
 def _service(types, name, request, response):
-    _register(types, f"{name}_Request", request)
-    _register(types, f"{name}_Response", response)
-    _register(
+    register(types, f"{name}_Request", request)
+    register(types, f"{name}_Response", response)
+    register(
         types,
         f"{name}_Event",
         "service_msgs/ServiceEventInfo info\n"
         f"{name}_Request[<=1] request\n{name}_Response[<=1] response",
     )
-    _register(
+    register(
         types,
         name,
         f"{name}_Request request_message\n{name}_Response response_message\n"
@@ -94,7 +99,8 @@ def _service(types, name, request, response):
     )
 
 
-def _register(types, name, text):
+def register(types, name, text):
+    """Tell a type store of a structure, whatever folder it is of."""
     if name not in types.fielddefs:
         found = get_types_from_msg(text, name)
         # rosbags files what is in a srv folder under srv/msg; ROS 2 hashes it under srv.
@@ -103,5 +109,5 @@ def _register(types, name, text):
 
 def _plain(part):
     if isinstance(part, str):
-        return part.replace("/srv/msg/", "/srv/")
+        return part.replace("/srv/msg/", "/srv/").replace("/action/msg/", "/action/")
     return type(part)(_plain(one) for one in part) if isinstance(part, tuple | list) else part

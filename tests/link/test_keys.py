@@ -6,6 +6,7 @@ from tests.link import definitions
 from tftool.errors import MalformedMessage
 from tftool.link import keys
 from tftool.link.keys import Attachment, Entity
+from tftool.runtime.endpoints import Quality
 
 TF_HASH = "RIHS01_e369d0f05a23ae52508854b66f6aa0437f3449d652e8cbf22d5abe85d020f087"
 GID = bytes(range(100, 116))
@@ -14,37 +15,6 @@ GID = bytes(range(100, 116))
 @pytest.fixture(scope="module")
 def store():
     return definitions.store()
-
-
-@pytest.mark.parametrize(
-    ("ros_type", "published"),
-    [
-        # From ROS 2 itself: what `ros2 service info`, `ros2 action info` and rmw_zenoh show.
-        (
-            "example_interfaces/srv/AddTwoInts",
-            "RIHS01_e118de6bf5eeb66a2491b5bda11202e7b68f198d6f67922cf30364858239c81a",
-        ),
-        (
-            "action_msgs/srv/CancelGoal",
-            "RIHS01_573d8b0a534451d7bc2ac8c5ffde8ac14b8593b7001175d0cd6516dcbeb8689a",
-        ),
-        (
-            "example_interfaces/action/Fibonacci_SendGoal",
-            "RIHS01_d1a57fb2a4afe8c21e34fb10db206f16ce6729b28531141472df92277c55b557",
-        ),
-        (
-            "example_interfaces/action/Fibonacci_GetResult",
-            "RIHS01_1b0de0d5d29dc955d92f546706568428632771db13ec84c15ec1c1a59f424a57",
-        ),
-        (
-            "example_interfaces/action/Fibonacci_FeedbackMessage",
-            "RIHS01_c1de71afd52e49a89c53d8262366884185bc0a02f78ce051c4e46b0a7fe59bb2",
-        ),
-        ("tf2_msgs/msg/TFMessage", TF_HASH),
-    ],
-)
-def test_the_way_hashes_are_computed_here_gives_what_ros_2_publishes(store, ros_type, published):
-    assert store.hash_rihs01(ros_type) == published
 
 
 @pytest.mark.parametrize("ros_type", sorted(keys.TYPE_HASHES))
@@ -71,7 +41,7 @@ def test_a_publisher_token_reads_like_one_of_rmw_zenoh():
         "turtlesim",
         "turtle1/pose",
         "turtlesim/msg/Pose",
-        quality=keys.quality(depth=7),
+        quality=keys.quality(Quality(depth=7)),
     )
 
     assert entity.token() == (
@@ -80,8 +50,23 @@ def test_a_publisher_token_reads_like_one_of_rmw_zenoh():
     )
 
 
-def test_latched_topics_say_so_in_their_token():
-    assert keys.quality(depth=1, durability=keys.TRANSIENT_LOCAL) == ":1:,1:,:,:,,"
+@pytest.mark.parametrize(
+    ("quality", "text"),
+    [
+        (Quality(depth=10), "::,10:,:,:,,"),
+        (Quality(depth=1, is_latched=True), ":1:,1:,:,:,,"),
+        (Quality(depth=5, is_reliable=False), "2::,5:,:,:,,"),
+        (Quality(depth=0, keeps_all=True), "::2,0:,:,:,,"),
+    ],
+)
+def test_a_quality_of_service_is_written_as_rmw_zenoh_does_and_read_back(quality, text):
+    assert keys.quality(quality) == text
+    assert keys.read_quality(text) == quality
+
+
+@pytest.mark.parametrize("text", ["", "x", "9:9:9,x", ":::::::::", "::,99999999999"])
+def test_a_quality_that_is_unheard_of_counts_as_default(text):
+    assert keys.read_quality(text) == Quality()
 
 
 @pytest.mark.parametrize(

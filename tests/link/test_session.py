@@ -14,9 +14,11 @@ from tftool.link.graph import Role, hosts
 from tftool.link.membership import Options
 from tftool.link.reach import Certificates, Reach
 from tftool.link.session import Link
+from tftool.link.topics import TF
 from tftool.messages import (
     Clear,
     Color,
+    Kill,
     Pose2D,
     RotateAbsolute,
     Rotated,
@@ -115,7 +117,7 @@ def test_what_came_in_is_not_sent_out_again():
                 two.there.topic("turtle1/cmd_vel", Twist2D).publish(Twist2D(float(step)))
             await until(lambda: len(echoes) >= 5 and len(commands) >= 5)
             # Anything that came back would have come before the answer to this.
-            two.here.serve("clear", lambda request: None)
+            two.here.serve("clear", lambda request: None, Clear)
             await until(lambda: two.there.has_service("clear"))
             await two.there.call("clear", Clear())
 
@@ -193,7 +195,7 @@ def test_a_service_of_the_host_is_one_of_the_guests_world():
                 asked.append(request)
                 return Spawned(request.name)
 
-            stop = two.here.serve("spawn", spawn)
+            stop = two.here.serve("spawn", spawn, Spawn)
             await until(lambda: two.there.has_service("spawn"))
 
             answer = await two.there.call("spawn", Spawn(4.0, 2.0, 0.0, "turtle2"))
@@ -213,7 +215,7 @@ def test_a_refusal_of_a_service_comes_back_as_a_sentence():
             def refuse(request):
                 raise TftoolError("no room for another turtle")
 
-            two.here.serve("spawn", refuse)
+            two.here.serve("spawn", refuse, Spawn)
             await until(lambda: two.there.has_service("spawn"))
 
             with pytest.raises(LinkError, match="'spawn': it was refused: no room for another"):
@@ -231,8 +233,8 @@ def test_a_question_whose_server_leaves_ends():
             waits.set()
             await asyncio.get_running_loop().create_future()
 
-        two.here.serve("kill", never)
-        two.here.serve("clear", never)
+        two.here.serve("kill", never, Kill)
+        two.here.serve("clear", never, Clear)
         await until(lambda: two.there.has_service("clear"))
         question = asyncio.ensure_future(two.there.call("clear", Clear()))
         await waits.wait()
@@ -250,7 +252,7 @@ class Rotation:
 
     def __init__(self, world):
         self.goals = []
-        world.serve_action("turtle1/rotate_absolute", self.goals.append)
+        world.serve_action("turtle1/rotate_absolute", self.goals.append, RotateAbsolute)
 
 
 def test_a_goal_travels_with_its_feedback_and_its_end():
@@ -354,7 +356,7 @@ def test_who_only_looks_shows_nothing_and_sends_nothing():
         async with Two(guest=Options("monitor", read_only=True)) as two:
             heard = []
             two.here.tf.subscribe(heard.append)
-            two.here.serve("clear", lambda request: None)
+            two.here.serve("clear", lambda request: None, Clear)
             two.there.broadcast([sample(1)], "sneaky")
             two.there.topic("turtle1/cmd_vel", Twist2D).publish(Twist2D(1.0))
             steps = iter(range(2, 10_000))
@@ -406,11 +408,11 @@ def test_a_guest_that_comes_and_goes_is_told():
 def test_the_second_host_of_the_same_turtle_is_told():
     async def host():
         async with Two() as two:
-            two.here.serve("spawn", lambda request: Spawned("turtle1"))
+            two.here.serve("spawn", lambda request: Spawned("turtle1"), Spawn)
             await until(lambda: two.there.has_service("spawn"))
             with Link(Options("demo")) as second:
                 world = new_world()
-                world.serve("spawn", lambda request: Spawned("turtle1"))
+                world.serve("spawn", lambda request: Spawned("turtle1"), Spawn)
                 second.attach(world, role=Role.HOST)
 
                 (told,) = texts(world)
@@ -425,7 +427,7 @@ def test_bytes_that_are_no_message_are_counted_and_said_once():
     async def send():
         async with Two() as two:
             await until(lambda: two.host.graph.entities("MS", name="tf"))
-            outlet = two.host.publisher("tf", "tf2_msgs/msg/TFMessage")
+            outlet = two.host.publisher("tf", "tf2_msgs/msg/TFMessage", TF)
             for _ in range(5):
                 outlet.put(b"\x00\x01\x00\x00\xff\xff\xff\xff", two.host.attachment(1, bytes(16)))
             two.here.broadcast([sample(3)], "fine")

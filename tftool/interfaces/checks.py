@@ -80,7 +80,7 @@ def typecode(kind: str | type[Any]) -> str | None:
     return INTEGERS[kind] if kind in INTEGERS else FLOATS.get(kind)
 
 
-def packed(kind: str | type[Any], size: int, values: list[Any]) -> Any:
+def packed(kind: str | type[Any], size: int, values: Sequence[Any]) -> Any:
     """Several values as a field keeps them."""
     code = typecode(kind)
     if code is None:

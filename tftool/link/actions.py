@@ -1,17 +1,22 @@
-"""The rotate action: three services and two topics on the wire, one action in a world."""
+"""An action: three services and two topics on the wire, one action in a world."""
 
+import asyncio
 import secrets
 from typing import Any, Final, cast
 
 from tftool.errors import LinkError, MalformedMessage
+from tftool.interfaces.classes import INTERFACES, Message
 from tftool.link import keys, types
+from tftool.link.codec import codec
 from tftool.link.keys import Entity
 from tftool.link.membership import Membership
 from tftool.link.services import Asking, Endpoint, Tasks
 from tftool.link.topics import Sender
 from tftool.link.transport import Arrived
-from tftool.messages import RotateAbsolute, Rotated, Rotating
+from tftool.link.types import ActionType
+from tftool.runtime.endpoints import Quality
 from tftool.runtime.topics import GoalHandle, Status
+from tftool.stamps import NANOSECONDS, Stamp
 
 KEPT: Final = 100
 """Goals whose ends are remembered, for who asks late."""
@@ -19,26 +24,68 @@ KEPT: Final = 100
 LONGEST: Final = 3600.0
 """Seconds a client waits for a goal's end."""
 
+CANCEL_GOAL: Final = "action_msgs/srv/CancelGoal"
+STATUS: Final = "action_msgs/msg/GoalStatusArray"
+
+_EXECUTING, _CANCELING, _ABORTED = 2, 3, 6
+_NUMBERS: Final = {"succeeded": 4, "canceled": 5, "aborted": _ABORTED}
+_NAMES: Final = {number: name for name, number in _NUMBERS.items()}
+
+_FEEDBACK: Final = Quality(depth=10)
+_STATUS: Final = Quality(depth=1, is_latched=True)
+
 _EVERY_GOAL = bytes(16)
 _NO_ERROR, _UNKNOWN_GOAL, _ENDED = 0, 2, 3
+
+
+def _message(ros_type: str, **fields: Any) -> Any:
+    return INTERFACES.part(ros_type)(**fields)
+
+
+def _bytes(message: Any) -> bytes:
+    return codec(type(message)).encode(message)
+
+
+def _read(ros_type: str, payload: bytes) -> Any:
+    return codec(INTERFACES.part(ros_type)).decode(payload)
+
+
+def _id(goal_id: bytes) -> Any:
+    return _message("unique_identifier_msgs/msg/UUID", uuid=goal_id)
+
+
+def _time(stamp: Stamp) -> Any:
+    sec, nanosec = divmod(stamp, NANOSECONDS)
+    return _message("builtin_interfaces/msg/Time", sec=sec, nanosec=nanosec)
+
+
+def _info(goal_id: bytes, accepted: Stamp) -> Any:
+    return _message("action_msgs/msg/GoalInfo", goal_id=_id(goal_id), stamp=_time(accepted))
 
 
 class ActionServer:
     """An action of our world, for everybody."""
 
-    def __init__(self, link: Membership, name: str) -> None:
+    def __init__(self, link: Membership, name: str, node: str, kind: ActionType) -> None:
         self._link = link
         self._name = name
-        self._goals: dict[bytes, tuple[GoalHandle, int]] = {}
+        self._kind = kind
+        self._type = kind.ros_type
+        self._goals: dict[bytes, tuple[GoalHandle, Stamp]] = {}
         self._tasks = Tasks()
-        node, base = link.main_node, f"{name}/_action"
+        node, base = node or link.main_node, f"{name}/_action"
         self._parts = [
-            Endpoint(link, node, f"{base}/send_goal", types.SEND_GOAL, self._send_goal),
-            Endpoint(link, node, f"{base}/cancel_goal", types.CANCEL_GOAL, self._cancel_goal),
-            Endpoint(link, node, f"{base}/get_result", types.GET_RESULT, self._get_result),
+            Endpoint(link, node, f"{base}/{part}", ros_type, handler)
+            for part, ros_type, handler in (
+                ("send_goal", f"{self._type}_SendGoal", self._send_goal),
+                ("cancel_goal", CANCEL_GOAL, self._cancel_goal),
+                ("get_result", f"{self._type}_GetResult", self._get_result),
+            )
         ]
-        self._feedback = Sender(link, node, f"{base}/feedback", types.FEEDBACK, 10, latched=False)
-        self._status = Sender(link, node, f"{base}/status", types.STATUS, 1, latched=True)
+        self._feedback = Sender(
+            link, node, f"{base}/feedback", f"{self._type}_FeedbackMessage", _FEEDBACK
+        )
+        self._status = Sender(link, node, f"{base}/status", STATUS, _STATUS)
 
     def close(self) -> None:
         """Take no goals any more; those under way are given up."""
@@ -51,90 +98,110 @@ class ActionServer:
             goal.cancel()
 
     async def _send_goal(self, payload: bytes) -> bytes:
-        goal_id, theta = types.SEND_GOAL_REQUEST.decode(payload)
+        asked = _read(f"{self._type}_SendGoal_Request", payload)
+        goal_id = bytes(asked.goal_id.uuid)
         now = self._link.world.clock.now()
-        if goal_id in self._goals:
-            return types.SEND_GOAL_RESPONSE.encode((False, *divmod(now, 1_000_000_000)))
+        accepted = goal_id not in self._goals
+        if accepted:
+            accepted = await self._start(goal_id, self._kind.goal.received(asked.goal), now)
+        answer = f"{self._type}_SendGoal_Response"
+        return _bytes(_message(answer, accepted=accepted, stamp=_time(now)))
 
-        def feed(value: Rotating) -> None:
-            self._feedback.put(types.FEEDBACK_MESSAGE.encode((goal_id, value.remaining)))
+    async def _start(self, goal_id: bytes, request: Any, now: Stamp) -> bool:
+        """Hand a goal to its server; whether it takes it."""
+        feedback = self._kind.feedback
 
-        goal = await self._link.world.send_goal(self._name, RotateAbsolute(theta), feed)
+        def feed(value: Any) -> None:
+            said = _message(
+                f"{self._type}_FeedbackMessage", goal_id=_id(goal_id), feedback=feedback.sent(value)
+            )
+            self._feedback.put(_bytes(said))
+
+        goal = await self._link.world.send_goal(self._name, request, feed)
+        if goal.decided is not None and not await goal.decided:
+            return False
         self._goals[goal_id] = goal, now
         while len(self._goals) > KEPT:
             del self._goals[next(iter(self._goals))]
         self._publish_status()
         self._tasks.start(self._see_through(goal))
-        return types.SEND_GOAL_RESPONSE.encode((True, *divmod(now, 1_000_000_000)))
+        return True
 
     async def _see_through(self, goal: GoalHandle) -> None:
         await goal.result()
         self._publish_status()
 
     async def _cancel_goal(self, payload: bytes) -> bytes:
-        goal_id, _, _ = types.CANCEL_REQUEST.decode(payload)
+        asked = _read(f"{CANCEL_GOAL}_Request", payload)
+        goal_id = bytes(asked.goal_info.goal_id.uuid)
         chosen = list(self._goals) if goal_id == _EVERY_GOAL else [goal_id]
         canceled = []
         for each in chosen:
             goal, accepted = self._goals.get(each, (None, 0))
             if goal is not None and not goal.done:
                 goal.cancel()
-                canceled.append((each, *divmod(accepted, 1_000_000_000)))
+                canceled.append(_info(each, accepted))
         if canceled or goal_id == _EVERY_GOAL:
             code = _NO_ERROR
         else:
             code = _ENDED if goal_id in self._goals else _UNKNOWN_GOAL
-        return types.CANCEL_RESPONSE.encode((code, canceled))
+        answer = f"{CANCEL_GOAL}_Response"
+        return _bytes(_message(answer, return_code=code, goals_canceling=canceled))
 
     async def _get_result(self, payload: bytes) -> bytes:
-        (goal_id,) = types.GET_RESULT_REQUEST.decode(payload)
-        goal, _ = self._goals.get(goal_id, (None, 0))
+        asked = _read(f"{self._type}_GetResult_Request", payload)
+        goal, _ = self._goals.get(bytes(asked.goal_id.uuid), (None, 0))
+        answer = f"{self._type}_GetResult_Response"
         if goal is None:
-            return types.GET_RESULT_RESPONSE.encode((0, 0.0))
-        result = await goal.result()
-        return types.GET_RESULT_RESPONSE.encode(
-            (types.STATUS_NUMBERS[result.status], result.value.delta)
-        )
+            return _bytes(_message(answer))
+        end = await goal.result()
+        result = self._kind.result.sent(end.value)
+        return _bytes(_message(answer, status=_NUMBERS[end.status], result=result))
 
     def _publish_status(self) -> None:
         entries = []
         for goal_id, (goal, accepted) in self._goals.items():
             if not goal.done:
-                number = types.CANCELING if goal.cancel_requested else types.EXECUTING
+                number = _CANCELING if goal.cancel_requested else _EXECUTING
             else:
-                number = types.STATUS_NUMBERS[goal.ended.status] if goal.ended else types.ABORTED
-            entries.append((goal_id, *divmod(accepted, 1_000_000_000), number))
-        self._status.put(types.STATUS_MESSAGE.encode((entries,)))
+                number = _NUMBERS[goal.ended.status] if goal.ended else _ABORTED
+            entries.append(
+                _message(
+                    "action_msgs/msg/GoalStatus", goal_info=_info(goal_id, accepted), status=number
+                )
+            )
+        self._status.put(_bytes(_message(STATUS, status_list=entries)))
 
 
 class ActionClient:
-    """An action of another process, as one of our world."""
+    """An action of another process, as one of our world: it takes values and messages alike."""
 
     def __init__(self, link: Membership, name: str, server: Entity) -> None:
         self._link = link
         self._name = name
+        self._type = server.ros_type.removesuffix("_SendGoal")
         self._goals: dict[bytes, GoalHandle] = {}
         self._tasks = Tasks()
-        package = server.ros_type.partition("/")[0]
         base = f"{name}/_action"
 
         def part(what: str, ros_type: str) -> Asking:
             known = next(iter(link.graph.entities(keys.SERVER, name=f"{base}/{what}")), None)
-            type_hash = keys.TYPE_HASHES[ros_type] if known is None else known.type_hash
-            own = ros_type.replace("turtlesim/", f"{package}/", 1)
+            type_hash = keys.type_hash(ros_type) if known is None else known.type_hash
             return Asking(
                 link,
                 f"{base}/{what}",
-                Entity(0, "", 0, 0, "SS", "", f"{base}/{what}", own, type_hash),
+                Entity(0, "", 0, 0, "SS", "", f"{base}/{what}", ros_type, type_hash),
             )
 
-        self._send = part("send_goal", types.SEND_GOAL)
-        self._cancel = part("cancel_goal", types.CANCEL_GOAL)
-        self._result = part("get_result", types.GET_RESULT)
-        feedback = types.FEEDBACK.replace("turtlesim/", f"{package}/", 1)
+        self._send = part("send_goal", f"{self._type}_SendGoal")
+        self._cancel = part("cancel_goal", CANCEL_GOAL)
+        self._result = part("get_result", f"{self._type}_GetResult")
+        feedback = f"{self._type}_FeedbackMessage"
         key = keys.any_hash_key(link.options.domain, f"{base}/feedback", feedback)
         self._stop_feedback = link.wire.subscriber(key, self._on_feedback)
-        self._withdraw = link.world.serve_action(name, self._accept)
+        self._withdraw = link.world.serve_action(
+            name, self._accept, self._type, node=server.node, is_remote=True
+        )
 
     def close(self) -> None:
         """Take it out of our world; goals under way end as aborted."""
@@ -147,40 +214,59 @@ class ActionClient:
     def _accept(self, goal: GoalHandle) -> None:
         goal_id = secrets.token_bytes(16)
         self._goals[goal_id] = goal
+        goal.decided = asyncio.get_running_loop().create_future()
         goal.on_cancel = lambda: self._tasks.start(self._call_off(goal_id))
-        self._tasks.start(self._follow(goal_id, goal))
+        self._tasks.start(self._follow(goal_id, goal, goal.decided))
 
-    async def _follow(self, goal_id: bytes, goal: GoalHandle) -> None:
+    async def _follow(
+        self, goal_id: bytes, goal: GoalHandle, decided: "asyncio.Future[bool]"
+    ) -> None:
         """Send a goal, and see it to its end."""
         status: Status = "aborted"
-        delta = 0.0
+        kind = self._as(goal)
+        result: Any = INTERFACES.part(f"{self._type}_Result")()
         try:
-            payload = types.SEND_GOAL_REQUEST.encode((goal_id, goal.request.theta))
-            accepted, _, _ = types.SEND_GOAL_RESPONSE.decode(await self._send.ask(payload))
+            asked = _message(
+                f"{self._type}_SendGoal_Request",
+                goal_id=_id(goal_id),
+                goal=kind.goal.sent(goal.request),
+            )
+            answer = await self._send.ask(_bytes(asked))
+            accepted = _read(f"{self._type}_SendGoal_Response", answer).accepted
+            decided.set_result(accepted)
             if accepted:
-                answer = await self._result.ask(
-                    types.GET_RESULT_REQUEST.encode((goal_id,)), LONGEST
-                )
-                number, delta = types.GET_RESULT_RESPONSE.decode(answer)
-                status = cast("Status", types.STATUS_NAMES.get(number, "aborted"))
-        except (LinkError, MalformedMessage) as error:
+                question = _message(f"{self._type}_GetResult_Request", goal_id=_id(goal_id))
+                answer = await self._result.ask(_bytes(question), LONGEST)
+                ended = _read(f"{self._type}_GetResult_Response", answer)
+                status = cast("Status", _NAMES.get(ended.status, "aborted"))
+                result = ended.result
+        except (LinkError, MalformedMessage, AssertionError) as error:
             self._link.world.log.warn("link", f"{self._name}: {error}")
         finally:
             self._goals.pop(goal_id, None)
-            goal.finish(status, Rotated(delta))
+            if not decided.done():
+                decided.set_result(False)
+            goal.finish(status, kind.result.received(result))
+
+    def _as(self, goal: GoalHandle) -> ActionType:
+        """The action, in our values or in messages, as the goal is."""
+        return types.named_action(
+            self._type, None if isinstance(goal.request, Message) else type(goal.request)
+        )
 
     async def _call_off(self, goal_id: bytes) -> None:
+        info = _info(goal_id, 0)
         try:
-            await self._cancel.ask(types.CANCEL_REQUEST.encode((goal_id, 0, 0)))
+            await self._cancel.ask(_bytes(_message(f"{CANCEL_GOAL}_Request", goal_info=info)))
         except LinkError as error:
             self._link.world.log.warn("link", f"{self._name}: {error}")
 
     def _on_feedback(self, message: Arrived) -> None:
         try:
-            goal_id, remaining = types.FEEDBACK_MESSAGE.decode(message.payload)
+            said = _read(f"{self._type}_FeedbackMessage", message.payload)
         except MalformedMessage as refusal:
             self._link.refuse(f"{self._name}/_action/feedback", refusal)
             return
-        goal: Any = self._goals.get(goal_id)
+        goal = self._goals.get(bytes(said.goal_id.uuid))
         if goal is not None:
-            goal.publish_feedback(Rotating(remaining))
+            goal.publish_feedback(self._as(goal).feedback.received(said.feedback))

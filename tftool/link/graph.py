@@ -166,16 +166,15 @@ class Graph:
             guests.add(one.session)
         return any(one.session not in guests for one in self._entities.values())
 
-    def publisher(self, gid: bytes, topic: str) -> str:
-        """The node behind a message's sender: by its gid, else the only one it can be."""
-        publishers = self.entities(keys.PUBLISHER, name=topic)
+    def publisher(self, gid: bytes, topic: str) -> Entity | None:
+        """Who sent a message: by its gid, else the only one it can be; None if that is unclear."""
         unknown = []
-        for one in publishers:
+        for one in self.entities(keys.PUBLISHER, name=topic):
             if keys.gid_of(one.token()) == gid:
-                return one.node
+                return one
             if self.process(one.session) is None:
                 unknown.append(one)
-        return unknown[0].node if len(unknown) == 1 else f"publisher_{gid[:4].hex()}"
+        return unknown[0] if len(unknown) == 1 else None
 
 
 def hosts(processes: Iterable[Process]) -> list[Process]:

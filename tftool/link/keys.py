@@ -10,6 +10,9 @@ from dataclasses import dataclass
 from typing import Final, Literal
 
 from tftool.errors import MalformedMessage
+from tftool.interfaces import hashes
+from tftool.interfaces.classes import INTERFACES
+from tftool.runtime.endpoints import Quality
 from tftool.stamps import Stamp
 
 TYPE_HASHES: Final = {
@@ -59,7 +62,7 @@ TYPE_HASHES: Final = {
         "RIHS01_6e9e54cb05e1a789f982bf8c93d27fc899cee099746c4ea8c7cb64e8a90297d6"
     ),
 }
-"""Hash of each type's definition (RIHS01); a test computes them anew from the definitions."""
+"""Hashes (RIHS01) of what every session carries; a test computes them from the definitions."""
 
 LIVELINESS: Final = "@ros2_lv"
 OURS: Final = "@tftool"
@@ -71,17 +74,26 @@ SERVER: Final = "SS"
 CLIENT: Final = "SC"
 KINDS: Final = (NODE, PUBLISHER, SUBSCRIBER, SERVER, CLIENT)
 
-VOLATILE: Final = 2
-TRANSIENT_LOCAL: Final = 1
+_BEST_EFFORT, _TRANSIENT_LOCAL, _KEEP_ALL = "2", "1", "2"
 
 
 # Types and keys
 
 
+def type_hash(ros_type: str) -> str:
+    """The hash of a type.
+
+    Raises:
+        InputError: If its definition is not known.
+    """
+    return TYPE_HASHES.get(ros_type) or hashes.type_hash(INTERFACES, ros_type)
+
+
 def dds_name(ros_type: str) -> str:
     """A type as keys write it: "tf2_msgs/msg/TFMessage" is `tf2_msgs::msg::dds_::TFMessage_`."""
-    package, folder, name = ros_type.split("/")
-    return f"{package}::{folder}::dds_::{name}_"
+    parts = ros_type.split("/")
+    # What `ros_name` could not read goes back as it came.
+    return f"{parts[0]}::{parts[1]}::dds_::{parts[2]}_" if len(parts) == 3 else ros_type
 
 
 def ros_name(dds_type: str) -> str:
@@ -94,7 +106,7 @@ def ros_name(dds_type: str) -> str:
 
 def data_key(domain: int, name: str, ros_type: str) -> str:
     """The key that a topic's messages, or a service's questions, travel under."""
-    return f"{domain}/{name.strip('/')}/{dds_name(ros_type)}/{TYPE_HASHES[ros_type]}"
+    return f"{domain}/{name.strip('/')}/{dds_name(ros_type)}/{type_hash(ros_type)}"
 
 
 def any_hash_key(domain: int, name: str, ros_type: str) -> str:
@@ -102,10 +114,24 @@ def any_hash_key(domain: int, name: str, ros_type: str) -> str:
     return f"{domain}/{name.strip('/')}/{dds_name(ros_type)}/*"
 
 
-def quality(*, depth: int, durability: int = VOLATILE) -> str:
-    """A reliable keep-last quality of service as tokens write it; defaults are left empty."""
-    latched = "" if durability == VOLATILE else str(durability)
-    return f":{latched}:,{depth}:,:,:,,"
+def quality(stated: Quality) -> str:
+    """A quality of service as tokens write it; defaults are left empty."""
+    reliability = "" if stated.is_reliable else _BEST_EFFORT
+    durability = _TRANSIENT_LOCAL if stated.is_latched else ""
+    history = _KEEP_ALL if stated.keeps_all else ""
+    return f"{reliability}:{durability}:{history},{stated.depth}:,:,:,,"
+
+
+def read_quality(text: str) -> Quality:
+    """The quality of service that a token tells; what is left out or unheard of is default."""
+    parts = [*text.split(":"), "", "", ""]
+    history, _, depth = parts[2].partition(",")
+    return Quality(
+        int(depth) if depth.isascii() and depth.isdigit() and len(depth) < 10 else Quality().depth,
+        is_reliable=parts[0] != _BEST_EFFORT,
+        is_latched=parts[1] == _TRANSIENT_LOCAL,
+        keeps_all=history == _KEEP_ALL,
+    )
 
 
 # Tokens
@@ -157,7 +183,7 @@ class Entity:
             parts += [
                 _mangle("/" + self.name),
                 dds_name(self.ros_type),
-                self.type_hash or TYPE_HASHES[self.ros_type],
+                self.type_hash or type_hash(self.ros_type),
                 self.quality,
             ]
         return "/".join(parts)

@@ -14,6 +14,7 @@ from tftool.link.graph import Graph
 from tftool.link.keys import Attachment, Entity
 from tftool.link.reach import Reach
 from tftool.link.transport import Outlet, Wire
+from tftool.runtime.endpoints import Endpoint, Quality
 from tftool.runtime.world import World
 
 NAME: Final = "link"
@@ -58,7 +59,8 @@ class Membership:
         self._nodes: dict[str, tuple[int, Callable[[], None]]] = {}
         self._entity_ids = 0
         self._said: set[str] = set()
-        self._authorities: dict[bytes, str] = {}
+        self._senders: dict[bytes, Entity | None] = {}
+        self._endpoints: dict[Entity, tuple[Endpoint, Callable[[], None]]] = {}
 
     @property
     def world(self) -> World:
@@ -73,12 +75,9 @@ class Membership:
         shown = (node.name for node in self.world.nodes if node.is_shown)
         return next(shown, f"tftool_{self.options.command}")
 
-    def entity(
-        self, kind: str, node: str, name: str, ros_type: str, *, depth: int, latched: bool = False
-    ) -> Entity:
+    def entity(self, kind: str, node: str, name: str, ros_type: str, quality: Quality) -> Entity:
         """Describe something new of ours."""
         self._entity_ids += 1
-        durability = keys.TRANSIENT_LOCAL if latched else keys.VOLATILE
         return Entity(
             self.options.domain,
             self.wire.zid,
@@ -88,7 +87,7 @@ class Membership:
             plain(node),
             name,
             ros_type,
-            quality=keys.quality(depth=depth, durability=durability),
+            quality=keys.quality(quality),
         )
 
     def show(self, entity: Entity) -> Callable[[], None]:
@@ -97,11 +96,9 @@ class Membership:
             return _nothing
         return self.wire.token(entity.token())
 
-    def publisher(self, name: str, ros_type: str, *, latched: bool = False) -> Outlet:
+    def publisher(self, name: str, ros_type: str, quality: Quality) -> Outlet:
         """Declare that messages of a topic go out."""
-        return self.wire.publisher(
-            keys.data_key(self.options.domain, name, ros_type), latched=latched
-        )
+        return self.wire.publisher(keys.data_key(self.options.domain, name, ros_type), quality)
 
     def attachment(self, sequence: int, gid: bytes) -> bytes:
         """What travels beside a message of ours."""
@@ -109,12 +106,20 @@ class Membership:
 
     def authority(self, gid: bytes, topic: str) -> str:
         """The node that sent a message, by what stood beside it."""
-        found = self._authorities.get(gid)
-        if found is None:
-            if len(self._authorities) > 1000:
-                self._authorities.clear()
-            found = self._authorities[gid] = self.graph.publisher(gid, topic)
-        return found
+        entity = self._sender(gid, topic)
+        return f"publisher_{gid[:4].hex()}" if entity is None else entity.node
+
+    def endpoint(self, gid: bytes, topic: str) -> Endpoint | None:
+        """The publisher that sent a message; None when it cannot be told."""
+        entity = self._sender(gid, topic)
+        return None if entity is None else self._endpoints.get(entity, (None,))[0]
+
+    def _sender(self, gid: bytes, topic: str) -> Entity | None:
+        if gid not in self._senders:
+            if len(self._senders) > 1000:
+                self._senders.clear()
+            self._senders[gid] = self.graph.publisher(gid, topic)
+        return self._senders[gid]
 
     def refuse(self, topic: str, refusal: MalformedMessage) -> None:
         """Count a message that is not what it should be, and say the first of each topic."""

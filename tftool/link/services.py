@@ -5,14 +5,16 @@ from collections.abc import Callable, Coroutine
 from typing import Any, Final
 
 from tftool.errors import LinkError, MalformedMessage, TftoolError
-from tftool.link import keys
+from tftool.interfaces.classes import Message
+from tftool.link import keys, types
 from tftool.link.keys import Attachment, Entity
 from tftool.link.membership import Membership
 from tftool.link.transport import Question
 from tftool.link.types import ServiceType
+from tftool.runtime.endpoints import Quality
 
-DEPTH: Final = 10
-"""ROS 2's depth of a service's queue."""
+QUALITY: Final = Quality(depth=10)
+"""ROS 2's quality of services."""
 
 PATIENCE: Final = 5.0
 """Seconds to wait for an answer."""
@@ -53,7 +55,7 @@ class Endpoint:
         self._tasks = Tasks()
         key = keys.any_hash_key(link.options.domain, name, ros_type)
         self._stop = link.wire.server(key, self._asked)
-        self._hide = link.show(link.entity(keys.SERVER, node, name, ros_type, depth=DEPTH))
+        self._hide = link.show(link.entity(keys.SERVER, node, name, ros_type, QUALITY))
 
     def close(self) -> None:
         """Answer nobody any more."""
@@ -92,9 +94,9 @@ class Asking:
         self._key = (
             f"{link.options.domain}/{name}/{keys.dds_name(server.ros_type)}/{server.type_hash}"
         )
-        entity = link.entity(keys.CLIENT, link.main_node, name, server.ros_type, depth=DEPTH)
-        self._gid = keys.gid_of(entity.token())
-        self._hide = link.show(entity)
+        self._entity = link.entity(keys.CLIENT, link.main_node, name, server.ros_type, QUALITY)
+        self._gid = keys.gid_of(self._entity.token())
+        self._hide: Callable[[], None] | None = None
         self._sequence = 0
 
     async def ask(self, payload: bytes, timeout: float = PATIENCE) -> bytes:
@@ -103,6 +105,8 @@ class Asking:
         Raises:
             LinkError: If there is none.
         """
+        # Whoever never asks is no client.
+        self._hide = self._hide or self._link.show(self._entity)
         self._sequence += 1
         try:
             return await self._link.wire.ask(
@@ -116,17 +120,19 @@ class Asking:
 
     def close(self) -> None:
         """Ask no more."""
-        self._hide()
+        if self._hide is not None:
+            self._hide()
 
 
 class ServiceServer:
     """A service of our world, for everybody."""
 
-    def __init__(self, link: Membership, name: str, kind: ServiceType) -> None:
+    def __init__(self, link: Membership, name: str, node: str, kind: ServiceType) -> None:
         self._link = link
         self._name = name
         self._kind = kind
-        self._endpoint = Endpoint(link, link.main_node, name, kind.ros_type, self._serve)
+        node = node or link.main_node
+        self._endpoint = Endpoint(link, node, name, kind.ros_type, self._serve)
 
     def close(self) -> None:
         """Answer nobody any more."""
@@ -138,12 +144,15 @@ class ServiceServer:
 
 
 class ServiceClient:
-    """A service of another process, as one of our world."""
+    """A service of another process, as one of our world: it takes values and messages alike."""
 
-    def __init__(self, link: Membership, name: str, kind: ServiceType, server: Entity) -> None:
-        self._kind = kind
+    def __init__(self, link: Membership, name: str, server: Entity) -> None:
+        self._name = name
+        self._type = server.ros_type
         self._asking = Asking(link, name, server)
-        self._withdraw = link.world.serve(name, self._call)
+        self._withdraw = link.world.serve(
+            name, self._call, server.ros_type, node=server.node, is_remote=True
+        )
 
     def close(self) -> None:
         """Take it out of our world."""
@@ -151,6 +160,11 @@ class ServiceClient:
         self._asking.close()
 
     async def _call(self, request: Any) -> Any:
-        return self._kind.response.decode(
-            await self._asking.ask(self._kind.request.encode(request))
-        )
+        kind = types.named_service(self._type)
+        if not types.is_same(request, kind.request):
+            raise LinkError(
+                f"service '{self._name}' is of type {self._type}, which takes no "
+                f"{type(request).__name__}"
+            )
+        answer = kind.response.decode(await self._asking.ask(kind.request.encode(request)))
+        return answer if isinstance(request, Message) else types.answer_to(request, answer)

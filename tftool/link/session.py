@@ -11,9 +11,10 @@ import os
 import re
 import threading
 from collections.abc import Callable
-from typing import Final
+from typing import Any, Final, TypeVar
 
-from tftool.errors import LinkError
+from tftool.errors import InputError, LinkError, MalformedMessage
+from tftool.interfaces.classes import INTERFACES
 from tftool.link import keys
 from tftool.link.actions import ActionClient, ActionServer
 from tftool.link.graph import Process, Role, hosts
@@ -23,9 +24,13 @@ from tftool.link.rendezvous import Rendezvous
 from tftool.link.services import ServiceClient, ServiceServer
 from tftool.link.topics import StaticBridge, TopicBridge, TransformBridge
 from tftool.link.transport import Wire
-from tftool.link.types import BY_ROS_TYPE, MESSAGES, SEND_GOAL, service_type
+from tftool.link.types import VALUES, action_type, service_type, topic_type
 from tftool.runtime.clock import WallClock
+from tftool.runtime.endpoints import PUBLISHER, SUBSCRIPTION, Endpoint
+from tftool.runtime.offers import Offer
 from tftool.runtime.world import TransformMessage, World
+
+T = TypeVar("T")
 
 REACHING: Final = 3.0
 """Seconds to wait for somebody at the other end of `connect`."""
@@ -78,7 +83,7 @@ class Link(Membership):
         self._take_in_tokens(len(others))
         self._stops: list[Callable[[], None]] = []
         self._bridges: dict[str, TopicBridge | TransformBridge] = {}
-        self._servers: dict[str, ServiceServer | ActionServer] = {}
+        self._servers: dict[str, tuple[Offer[Any], ServiceServer | ActionServer]] = {}
         self._clients: dict[str, ServiceClient | ActionClient] = {}
         self._closed = False
         self._settling = False
@@ -124,7 +129,7 @@ class Link(Membership):
         self._closed = True
         for bridge in self._bridges.values():
             bridge.close()
-        for server in self._servers.values():
+        for _, server in self._servers.values():
             server.close()
         for client in self._clients.values():
             client.close()
@@ -153,6 +158,7 @@ class Link(Membership):
         self._settling = True
         try:
             self._match_nodes()
+            self._match_endpoints()
             self._match_topics()
             self._match_servers()
             self._match_clients()
@@ -172,12 +178,29 @@ class Link(Membership):
             entity = Entity(self.options.domain, self.wire.zid, number, number, "NN", plain(name))
             self._nodes[name] = number, self.wire.token(entity.token())
 
+    def _match_endpoints(self) -> None:
+        """Enter in the world who else publishes and subscribes."""
+        there = set(self.graph.entities(keys.PUBLISHER, keys.SUBSCRIBER))
+        for entity in self._endpoints.keys() - there:
+            self._endpoints.pop(entity)[1]()
+        for entity in there - self._endpoints.keys():
+            endpoint = Endpoint(
+                PUBLISHER if entity.kind == keys.PUBLISHER else SUBSCRIPTION,
+                entity.node,
+                entity.name,
+                entity.ros_type,
+                keys.read_quality(entity.quality),
+                is_remote=True,
+            )
+            self._endpoints[entity] = endpoint, self.world.endpoints.add(endpoint)
+
     def _match_topics(self) -> None:
+        values = {ros_type: value for value, ros_type in VALUES.items()}
         for entity in self.graph.entities(keys.PUBLISHER):
-            known = BY_ROS_TYPE.get(entity.ros_type)
+            value = values.get(entity.ros_type)
             # Named here, so that whoever looks through the world's topics sees it.
-            if known and entity.name not in self.world.topics() and is_plain(entity.name):
-                self.world.topic(entity.name, known[0])
+            if value and entity.name not in self.world.topics() and is_plain(entity.name):
+                self.world.topic(entity.name, value)
         topics = self.world.topics()
         for name in [name for name in self._bridges if name not in topics]:
             self._bridges.pop(name).close()
@@ -189,27 +212,42 @@ class Link(Membership):
             if topic.kind is TransformMessage:
                 made = StaticBridge if name == "tf_static" else TransformBridge
                 self._bridges[name] = made(self, topic)
-            elif topic.kind in MESSAGES:
-                self._bridges[name] = TopicBridge(self, topic, MESSAGES[topic.kind])
+            else:
+                kind = self._known(name, topic_type, topic.kind)
+                if kind is not None:
+                    self._bridges[name] = TopicBridge(self, topic, kind)
+
+    def _known(self, name: str, find: Callable[[Any], T | None], kind: Any) -> T | None:
+        """How something travels; None, and a word about it, for what cannot."""
+        try:
+            return find(kind)
+        except (InputError, MalformedMessage) as error:
+            self.say_once(f"type {name}", f"'{name}' stays inside this process: {error}.")
+            return None
 
     def _match_servers(self) -> None:
         if self.options.read_only:
             return
+        offers: dict[str, Offer[Any]] = {**self.world.services(), **self.world.actions()}
         own = {
-            name
-            for name in [*self.world.services(), *self.world.actions()]
-            if name not in self._clients and is_plain(name)
+            name: offer for name, offer in offers.items() if not offer.is_remote and is_plain(name)
         }
-        for name in set(self._servers) - own:
-            self._servers.pop(name).close()
-        for name in sorted(own - set(self._servers)):
-            kind = service_type(name)
+        for name, (offer, server) in list(self._servers.items()):
+            if own.get(name) is not offer:
+                del self._servers[name]
+                server.close()
+        for name in sorted(own.keys() - self._servers.keys()):
+            offer = own[name]
             if name in self.world.actions():
-                if name.rpartition("/")[2] == "rotate_absolute":
-                    self._servers[name] = ActionServer(self, name)
+                action = self._known(name, action_type, offer.kind)
+                if action is not None:
+                    made = ActionServer(self, name, offer.node, action)
+                    self._servers[name] = offer, made
                     self._warn_of_rival(name, f"{name}/_action/send_goal")
-            elif kind is not None:
-                self._servers[name] = ServiceServer(self, name, kind)
+                continue
+            service = self._known(name, service_type, offer.kind)
+            if service is not None:
+                self._servers[name] = offer, ServiceServer(self, name, offer.node, service)
                 self._warn_of_rival(name, name)
 
     def _match_clients(self) -> None:
@@ -217,22 +255,24 @@ class Link(Membership):
             return
         wanted: dict[str, Entity] = {}
         for entity in self.graph.entities(keys.SERVER):
-            action = entity.name.removesuffix("/_action/send_goal")
-            if entity.ros_type == SEND_GOAL or entity.ros_type.endswith("/RotateAbsolute_SendGoal"):
-                wanted[action] = entity
-            elif service_type(entity.name) is not None:
+            action, found, part = entity.name.partition("/_action/")
+            if not found and INTERFACES.has(entity.ros_type):
                 wanted[entity.name] = entity
-        for name in [name for name in self._clients if name not in wanted]:
-            self._clients.pop(name).close()
+            elif part == "send_goal" and INTERFACES.has(entity.ros_type.removesuffix("_SendGoal")):
+                wanted[action] = entity
+        for name, client in list(self._clients.items()):
+            if name not in wanted or self._is_served_here(name):
+                del self._clients[name]
+                client.close()
         for name, entity in wanted.items():
-            taken = name in self.world.services() or name in self.world.actions()
-            if name in self._clients or taken or not is_plain(name):
+            if name in self._clients or self._is_served_here(name) or not is_plain(name):
                 continue
-            kind = service_type(name)
-            if kind is None:
-                self._clients[name] = ActionClient(self, name, entity)
-            else:
-                self._clients[name] = ServiceClient(self, name, kind, entity)
+            made = ServiceClient if name == entity.name else ActionClient
+            self._clients[name] = made(self, name, entity)
+
+    def _is_served_here(self, name: str) -> bool:
+        offers = (self.world.services().get(name), self.world.actions().get(name))
+        return any(offer is not None and not offer.is_remote for offer in offers)
 
     def _warn_of_rival(self, name: str, served: str) -> None:
         for rival in self.graph.entities(keys.SERVER, name=served):
@@ -269,7 +309,7 @@ class Link(Membership):
 
     def _graph_changed(self) -> None:
         """Reconcile soon: tokens come in crowds, and one look serves them all."""
-        self._authorities.clear()
+        self._senders.clear()
         if not self._reconciling:
             self._reconciling = True
             asyncio.get_running_loop().call_soon(self._reconcile)

@@ -6,20 +6,23 @@ from typing import Any, Final
 from tftool.errors import MalformedMessage
 from tftool.frames.sample import TransformStamped
 from tftool.link import keys
-from tftool.link.cdr import decode_transforms, encode_transforms
 from tftool.link.membership import Membership
-from tftool.link.transport import Arrived, Outlet
+from tftool.link.transforms import decode_transforms, encode_transforms
+from tftool.link.transport import Arrived
 from tftool.link.types import TRANSFORMS, MessageType
-from tftool.messages import Color
+from tftool.runtime.endpoints import PUBLISHER, SUBSCRIPTION, Endpoint, Quality
 from tftool.runtime.topics import Topic
 from tftool.runtime.world import TransformMessage
 from tftool.stamps import as_seconds, seconds
 
-DEPTH: Final = 7
-"""turtlesim's depth of its topics."""
+USUAL: Final = Quality(depth=7)
+"""What turtlesim offers; ours for whoever states nothing."""
 
-TF_DEPTH: Final = 100
-"""tf2's depth of /tf."""
+TF: Final = Quality(depth=100)
+"""tf2's quality of /tf."""
+
+TF_STATIC: Final = Quality(depth=1, is_latched=True)
+"""tf2's quality of /tf_static."""
 
 YEAR: Final = seconds(365.25 * 24 * 3600)
 
@@ -30,15 +33,20 @@ class Sender:
     """Who publishes one topic under one name: an outlet, a token, a running number."""
 
     def __init__(
-        self, link: Membership, node: str, name: str, ros_type: str, depth: int, *, latched: bool
+        self, link: Membership, node: str, name: str, ros_type: str, quality: Quality
     ) -> None:
-        entity = link.entity(keys.PUBLISHER, node, name, ros_type, depth=depth, latched=latched)
+        entity = link.entity(keys.PUBLISHER, node, name, ros_type, quality)
         self.gid = keys.gid_of(entity.token())
         self._link = link
         self._sequence = 0
-        # The latched one of a name keeps its own last message, so each sender has its own.
-        self._outlet: Outlet = link.publisher(name, ros_type, latched=latched)
+        # The latched one of a name keeps its own last messages, so each sender has its own.
+        self._outlet = link.publisher(name, ros_type, quality)
         self._hide = link.show(entity)
+
+    @property
+    def is_wanted(self) -> bool:
+        """Whether a message would reach anybody, now or later."""
+        return self._outlet.is_wanted
 
     def put(self, payload: bytes) -> None:
         """Send one message."""
@@ -52,56 +60,87 @@ class Sender:
 
 
 class TopicBridge:
-    """A topic whose values are messages of their own: poses, commands, colours."""
+    """A topic whose values are messages of their own.
+
+    Nodes that state what they publish and subscribe, and with what quality, are shown one
+    by one; all others together as the first node of the world. What comes in is taken once
+    for all, except by latched subscriptions: each is sent what was there before it.
+    """
 
     def __init__(self, link: Membership, topic: Topic[Any], kind: MessageType) -> None:
         self._link = link
         self._topic = topic
         self._kind = kind
-        self._sender: Sender | None = None
-        self._stop_out: Callable[[], None] | None = None
+        self._senders: dict[Endpoint | None, Sender] = {}
+        self._subscriptions: dict[Endpoint | None, Callable[[], None]] = {}
         self._stop_in: Callable[[], None] | None = None
         self._inbound: Any = None
         topic.on_demand = self.refresh
+        if not link.options.read_only:
+            topic.relay = self._send
         self.refresh()
 
     def refresh(self) -> None:
-        """Listen where somebody wants to hear: here for others, there for us."""
-        # Nobody computes colours while nobody looks, so colours wait to be asked for.
-        name = self._topic.name
-        out = not self._link.options.read_only and (
-            self._topic.kind is not Color
-            or bool(self._link.graph.entities(keys.SUBSCRIBER, name=name))
+        """Show what there is, and listen where somebody here wants to hear."""
+        topic, endpoints = self._topic, self._link.world.endpoints
+        # Nobody computes colours while nobody looks: whoever does is counted.
+        topic.far_subscribers = sum(
+            one.ros_type == self._kind.ros_type
+            for one in self._link.graph.entities(keys.SUBSCRIBER, name=topic.name)
         )
-        if out and self._stop_out is None:
-            # Set first: subscribing calls this again.
-            self._stop_out = _nothing
-            self._stop_out = self._topic.subscribe(self._publish)
-        elif not out and self._stop_out is not None:
-            stop, self._stop_out = self._stop_out, None
-            stop()
-        listeners = self._topic.subscribers - (self._stop_out is not None)
-        if listeners > 0 and self._stop_in is None:
-            self._stop_in = self._listen()
-        elif listeners <= 0 and self._stop_in is not None:
-            stop, self._stop_in = self._stop_in, None
-            stop()
+        publishers = _here(endpoints.of(topic.name, PUBLISHER))
+        for gone in self._senders.keys() - {None, *publishers}:
+            self._senders.pop(gone).close()
+        if not self._link.options.read_only:
+            for one in publishers:
+                if one not in self._senders:
+                    self._senders[one] = self._sender(one)
+
+        subscriptions = _here(endpoints.of(topic.name, SUBSCRIPTION))
+        latched = sum(one.deliver is not None for one in subscriptions)
+        if topic.near_subscribers > latched:
+            self._stop_in = self._stop_in or self._listen(self._arrived)
+        elif self._stop_in is not None:
+            self._stop_in()
+            self._stop_in = None
+        shown: set[Endpoint | None] = set(subscriptions)
+        if topic.near_subscribers > len(subscriptions):
+            shown.add(None)
+        for gone in self._subscriptions.keys() - shown:
+            self._subscriptions.pop(gone)()
+        for new in shown - self._subscriptions.keys():
+            self._subscriptions[new] = self._subscribe(new)
 
     def close(self) -> None:
         """Neither send nor listen any more."""
-        self._topic.on_demand = None
-        for stop in (self._stop_out, self._stop_in):
+        self._topic.on_demand = self._topic.relay = None
+        self._topic.far_subscribers = 0
+        for stop in (self._stop_in, *self._subscriptions.values()):
             if stop is not None:
                 stop()
-        if self._sender is not None:
-            self._sender.close()
+        for sender in self._senders.values():
+            sender.close()
 
-    def _listen(self) -> Callable[[], None]:
+    # In
+
+    def _subscribe(self, stated: Endpoint | None) -> Callable[[], None]:
+        """Show a subscription, and ask for what was sent before if it is latched."""
         link, name, ros_type = self._link, self._topic.name, self._kind.ros_type
-        entity = link.entity(keys.SUBSCRIBER, link.main_node, name, ros_type, depth=DEPTH)
-        key = keys.any_hash_key(link.options.domain, name, ros_type)
+        node = link.main_node if stated is None else stated.node
+        quality = USUAL if stated is None else stated.quality
+        entity = link.entity(keys.SUBSCRIBER, node, name, ros_type, quality)
+        deliver = None if stated is None else stated.deliver
+        if deliver is None:
+            return link.show(entity)
+        hand_over = deliver
+
+        def arrived(message: Arrived) -> None:
+            read = self._read(message)
+            if read is not None:
+                hand_over(*read)
+
         # The token goes after: whoever sees it may send at once and is heard.
-        stop = link.wire.subscriber(key, self._arrived)
+        stop = self._listen(arrived, latched=True)
         hide = link.show(entity)
 
         def both() -> None:
@@ -110,61 +149,89 @@ class TopicBridge:
 
         return both
 
-    def _publish(self, value: Any) -> None:
+    def _listen(
+        self, arrived: Callable[[Arrived], object], *, latched: bool = False
+    ) -> Callable[[], None]:
+        key = keys.any_hash_key(self._link.options.domain, self._topic.name, self._kind.ros_type)
+        return self._link.wire.subscriber(key, arrived, latched=latched)
+
+    def _arrived(self, message: Arrived) -> None:
+        read = self._read(message)
+        if read is None:
+            return
+        self._inbound, sender = read
+        try:
+            self._topic.publish(self._inbound, sender)
+        finally:
+            self._inbound = None
+
+    def _read(self, message: Arrived) -> tuple[Any, Endpoint | None] | None:
+        """What a message says and who sent it; None for one that is refused."""
+        try:
+            value = self._kind.decode(message.payload)
+            beside = keys.parse_attachment(message.attachment) if message.attachment else None
+        except MalformedMessage as refusal:
+            self._link.refuse(self._topic.name, refusal)
+            return None
+        self._link.received += 1
+        name = self._topic.name
+        return value, None if beside is None else self._link.endpoint(beside.gid, name)
+
+    # Out
+
+    def _send(self, value: Any) -> None:
         if value is self._inbound:
             return
-        if self._sender is None:
-            self._sender = Sender(
-                self._link,
-                self._link.main_node,
-                self._topic.name,
-                self._kind.ros_type,
-                DEPTH,
-                latched=False,
-            )
+        stated = self._topic.sender
+        sender = self._senders.get(stated)
+        if sender is None:
+            sender = self._senders[stated] = self._sender(stated)
+        # Nothing is turned into bytes for nobody.
+        if not sender.is_wanted:
+            return
         try:
-            self._sender.put(self._kind.encode(value))
+            sender.put(self._kind.encode(value))
         except MalformedMessage as refusal:
             self._link.refuse(self._topic.name, refusal)
 
-    def _arrived(self, message: Arrived) -> None:
-        try:
-            value = self._kind.decode(message.payload)
-        except MalformedMessage as refusal:
-            self._link.refuse(self._topic.name, refusal)
-            return
-        self._link.received += 1
-        self._inbound = value
-        try:
-            self._topic.publish(value)
-        finally:
-            self._inbound = None
+    def _sender(self, stated: Endpoint | None) -> Sender:
+        node = self._link.main_node if stated is None else stated.node
+        quality = USUAL if stated is None else stated.quality
+        return Sender(self._link, node, self._topic.name, self._kind.ros_type, quality)
+
+
+def _here(endpoints: list[Endpoint]) -> list[Endpoint]:
+    return [one for one in endpoints if not one.is_remote]
 
 
 class TransformBridge:
     """`tf`: transforms of many nodes, each of them a publisher of its own."""
 
-    latched = False
-    depth = TF_DEPTH
+    quality = TF
 
     def __init__(self, link: Membership, topic: Topic[TransformMessage]) -> None:
         self._link = link
         self._topic = topic
         self._senders: dict[str, Sender] = {}
         self._inbound: TransformMessage | None = None
-        self._stops = [topic.subscribe(self._publish)]
+        topic.relay = self._publish
         key = keys.any_hash_key(link.options.domain, topic.name, TRANSFORMS)
-        self._stops.append(link.wire.subscriber(key, self._arrived, latched=self.latched))
-        entity = link.entity(
-            keys.SUBSCRIBER, link.main_node, topic.name, TRANSFORMS, depth=TF_DEPTH
-        )
-        self._stops.append(link.show(entity))
+        entity = link.entity(keys.SUBSCRIBER, link.main_node, topic.name, TRANSFORMS, self.quality)
+        self._stops = [
+            link.wire.subscriber(key, self._arrived, latched=self.quality.is_latched),
+            link.show(entity),
+        ]
+        self.refresh()
 
     def refresh(self) -> None:
-        """The buffer always listens."""
+        """The buffer always listens; whoever else does is counted."""
+        others = self._link.graph.entities(keys.SUBSCRIBER, name=self._topic.name)
+        self._topic.far_subscribers = len(others)
 
     def close(self) -> None:
         """Neither send nor listen any more."""
+        self._topic.relay = None
+        self._topic.far_subscribers = 0
         for stop in self._stops:
             stop()
         for sender in self._senders.values():
@@ -180,9 +247,10 @@ class TransformBridge:
                 message.authority,
                 self._topic.name,
                 TRANSFORMS,
-                self.depth,
-                latched=self.latched,
+                self.quality,
             )
+        if not sender.is_wanted:
+            return
         try:
             sender.put(encode_transforms(message.transforms))
         except MalformedMessage as refusal:
@@ -229,15 +297,10 @@ class TransformBridge:
 class StaticBridge(TransformBridge):
     """`tf_static`: who comes later gets all statics of everybody who is there."""
 
-    latched = True
-    depth = 1
+    quality = TF_STATIC
 
     def _store(
         self, transforms: tuple[TransformStamped, ...], authority: str
     ) -> tuple[TransformStamped, ...]:
         store = self._link.world.buffer.set_transform_static
         return tuple(one for one in transforms if store(one, authority))
-
-
-def _nothing() -> None:
-    """Stop nothing."""

@@ -11,6 +11,7 @@ from tftool.link.cdr import LARGEST
 from tftool.link.inbox import Inbox
 from tftool.link.outbox import Outbox
 from tftool.link.reach import Reach, import_zenoh, open_zenoh
+from tftool.runtime.endpoints import Quality
 
 
 class Arrived(NamedTuple):
@@ -46,9 +47,15 @@ class Question:
 class Outlet:
     """Where messages of one key go out."""
 
-    def __init__(self, publisher: Any, outbox: Outbox) -> None:
+    def __init__(self, publisher: Any, outbox: Outbox, *, keeps: bool) -> None:
         self._publisher = publisher
         self._outbox = outbox
+        self._keeps = keeps
+
+    @property
+    def is_wanted(self) -> bool:
+        """Whether a message would reach anybody, or be kept for those who come late."""
+        return self._keeps or bool(self._publisher.matching_status.matching)
 
     def put(self, payload: bytes, attachment: bytes) -> None:
         """Send one message.
@@ -114,34 +121,35 @@ class Wire:
 
     # Messages
 
-    def publisher(self, key: str, *, latched: bool = False) -> Outlet:
+    def publisher(self, key: str, quality: Quality) -> Outlet:
         """Declare that messages of `key` go out.
 
         Args:
             key: The key, without wildcards.
-            latched: Whether who comes later gets the last message too.
+            quality: Whether they may be lost, and how many are kept for those who come late.
         """
+        congestion, reliability = self._zenoh.CongestionControl, self._zenoh.Reliability
+        reliable = quality.is_reliable
         options = {
-            "congestion_control": self._zenoh.CongestionControl.BLOCK,
-            "reliability": self._zenoh.Reliability.RELIABLE,
+            "congestion_control": congestion.BLOCK if reliable else congestion.DROP,
+            "reliability": reliability.RELIABLE if reliable else reliability.BEST_EFFORT,
             # At once: by default zenoh waits up to a millisecond for company.
             "express": True,
             "allowed_destination": self._zenoh.Locality.REMOTE,
         }
-        if not latched:
-            return Outlet(self._session.declare_publisher(key, **options), self._outbox)
+        if not quality.is_latched:
+            publisher = self._session.declare_publisher(key, **options)
+            return Outlet(publisher, self._outbox, keeps=False)
         import zenoh.ext as advanced
 
-        return Outlet(
-            advanced.declare_advanced_publisher(
-                self._session,
-                key,
-                cache=advanced.CacheConfig(max_samples=1),
-                publisher_detection=True,
-                **options,
-            ),
-            self._outbox,
+        publisher = advanced.declare_advanced_publisher(
+            self._session,
+            key,
+            cache=advanced.CacheConfig(max_samples=max(1, quality.depth)),
+            publisher_detection=True,
+            **options,
         )
+        return Outlet(publisher, self._outbox, keeps=True)
 
     def subscriber(
         self, key: str, on_message: Callable[[Arrived], object], *, latched: bool = False

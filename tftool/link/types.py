@@ -1,17 +1,28 @@
-"""Our values as ROS messages and back: one entry for every type a link carries."""
+"""Our own values as ROS messages and back, and how whatever travels is turned into bytes.
+
+The simulator publishes `Pose2D`; on the wire, and to code written for ROS 2, that is a
+turtlesim/msg/Pose. Values have the fields of their messages under the same names, but
+for a few that are converted by hand. Anything else that is a message travels as it is.
+"""
 
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, fields
+from functools import cache
 from typing import Any, Final
 
 from tftool.errors import MalformedMessage
-from tftool.link.cdr import Layout
+from tftool.interfaces.classes import INTERFACES, Message, as_float32, duplicate
+from tftool.link.codec import codec
 from tftool.messages import (
     Clear,
     Color,
     Kill,
+    PointStamped,
     Pose2D,
     Reset,
+    RotateAbsolute,
+    Rotated,
+    Rotating,
     SetPen,
     Spawn,
     Spawned,
@@ -19,41 +30,158 @@ from tftool.messages import (
     TeleportRelative,
     Twist2D,
 )
+from tftool.runtime.world import TransformMessage
+from tftool.stamps import NANOSECONDS
 
 TRANSFORMS: Final = "tf2_msgs/msg/TFMessage"
+
+VALUES: Final[dict[type[Any], str]] = {
+    Pose2D: "turtlesim/msg/Pose",
+    Color: "turtlesim/msg/Color",
+    Twist2D: "geometry_msgs/msg/Twist",
+    PointStamped: "geometry_msgs/msg/PointStamped",
+}
+"""The message type of each of our values that travels on topics."""
+
+SERVICES: Final[dict[type[Any], tuple[str, type[Any] | None]]] = {
+    Spawn: ("turtlesim/srv/Spawn", Spawned),
+    Kill: ("turtlesim/srv/Kill", None),
+    Clear: ("std_srvs/srv/Empty", None),
+    Reset: ("std_srvs/srv/Empty", None),
+    SetPen: ("turtlesim/srv/SetPen", None),
+    TeleportAbsolute: ("turtlesim/srv/TeleportAbsolute", None),
+    TeleportRelative: ("turtlesim/srv/TeleportRelative", None),
+}
+"""The service type of each of our requests, and the answer to it."""
+
+ACTIONS: Final[dict[type[Any], tuple[str, type[Any], type[Any]]]] = {
+    RotateAbsolute: ("turtlesim/action/RotateAbsolute", Rotated, Rotating),
+}
+"""The action type of each of our goals, its result and its feedback."""
+
+
+@dataclass(frozen=True, slots=True)
+class WholeTwist(Twist2D):
+    """A Twist that says more than a turtle reads."""
+
+    message: Any = None
+
+
+# Values and messages
+
+
+def as_value(message: Any, kind: type[Any]) -> Any:
+    """Our value that says the same as a message."""
+    by_hand = _BY_HAND.get(kind)
+    if by_hand is not None:
+        return by_hand[0](message)
+    if kind is type(None):
+        return None
+    return kind(**{field.name: getattr(message, field.name) for field in fields(kind)})
+
+
+def as_message(value: Any, kind: type[Message]) -> Any:
+    """The message of a class that says the same as one of our values; None says nothing."""
+    by_hand = _BY_HAND.get(type(value))
+    if by_hand is not None:
+        return by_hand[1](value)
+    message = kind()
+    for field in kind.fields__:
+        given = getattr(value, field.name, None)
+        if given is not None:
+            single = field.kind == "float32"
+            setattr(message, field.name, as_float32(float(given)) if single else given)
+    return message
+
+
+def _twist_value(message: Any) -> Twist2D:
+    linear, angular = message.linear, message.angular
+    if linear.z or angular.x or angular.y:
+        return WholeTwist(linear.x, angular.z, linear.y, duplicate(message))
+    return Twist2D(linear.x, angular.z, linear.y)
+
+
+def _twist_message(value: Twist2D) -> Any:
+    if isinstance(value, WholeTwist):
+        return duplicate(value.message)
+    message: Any = INTERFACES.message(VALUES[Twist2D])()
+    message.linear.x = float(value.linear_x)
+    message.linear.y = float(value.linear_y)
+    message.angular.z = float(value.angular_z)
+    return message
+
+
+def _point_value(message: Any) -> PointStamped:
+    stamp, point = message.header.stamp, message.point
+    moment = stamp.sec * NANOSECONDS + stamp.nanosec
+    return PointStamped(moment, message.header.frame_id, point.x, point.y, point.z)
+
+
+def _point_message(value: PointStamped) -> Any:
+    message: Any = INTERFACES.message(VALUES[PointStamped])()
+    message.header.stamp.sec, message.header.stamp.nanosec = divmod(value.stamp, NANOSECONDS)
+    message.header.frame_id = value.frame_id
+    message.point.x, message.point.y, message.point.z = value.x, value.y, value.z
+    return message
+
+
+_BY_HAND: Final[dict[type[Any], tuple[Callable[[Any], Any], Callable[[Any], Any]]]] = {
+    Twist2D: (_twist_value, _twist_message),
+    WholeTwist: (_twist_value, _twist_message),
+    PointStamped: (_point_value, _point_message),
+}
+
+
+# What travels
 
 
 @dataclass(frozen=True, slots=True)
 class MessageType:
-    """How one of our values travels.
+    """How what a topic carries, or a part of a service or an action, travels.
 
     Attributes:
-        ros_type: The type's ROS name.
-        layout: Its bytes.
-        pack: Our value to the layout's fields.
-        unpack: The layout's fields to our value.
+        message: The message's class.
+        value: Our type for it; None where the message itself is what is exchanged.
     """
 
-    ros_type: str
-    layout: Layout
-    pack: Callable[[Any], tuple[Any, ...]]
-    unpack: Callable[..., Any]
+    message: type[Message]
+    value: type[Any] | None = None
+
+    @property
+    def ros_type(self) -> str:
+        """The message's full name."""
+        return self.message.interface__
+
+    def sent(self, value: Any) -> Any:
+        """The message of a value of ours, or the message that is given."""
+        if isinstance(value, Message):
+            return value
+        try:
+            return as_message(value, self.message)
+        except AssertionError as error:
+            raise MalformedMessage(self.ros_type, str(error)) from error
+
+    def received(self, message: Any) -> Any:
+        """Our value of a message, or the message itself."""
+        return message if self.value is None else as_value(message, self.value)
 
     def encode(self, value: Any) -> bytes:
-        """The bytes of `value`.
+        """The bytes of a message, or of a value that stands for one.
 
         Raises:
             MalformedMessage: If it does not fit.
         """
-        return self.layout.encode(self.pack(value))
+        # A value with the fields of its message is written as if it were one.
+        same_fields = value is not None and type(value) not in _BY_HAND
+        return codec(self.message).encode(value if same_fields else self.sent(value))
 
     def decode(self, payload: bytes) -> Any:
-        """The value of some bytes.
+        """What some bytes say.
 
         Raises:
-            MalformedMessage: If they are not one.
+            MalformedMessage: If they are not such a message.
         """
-        return self.unpack(*self.layout.decode(payload))
+        return self.received(codec(self.message).decode(payload))
 
 
 @dataclass(frozen=True, slots=True)
@@ -65,137 +193,103 @@ class ServiceType:
     response: MessageType
 
 
-def _twist(value: Twist2D) -> tuple[float, ...]:
-    return value.linear_x, value.linear_y, 0.0, 0.0, 0.0, value.angular_z
+@dataclass(frozen=True, slots=True)
+class ActionType:
+    """An action: the types of its three services and its feedback, and of what is in them."""
+
+    ros_type: str
+    goal: MessageType
+    result: MessageType
+    feedback: MessageType
 
 
-MESSAGES: Final = {
-    Pose2D: MessageType(
-        "turtlesim/msg/Pose",
-        Layout("turtlesim/msg/Pose", "fffff"),
-        lambda pose: (pose.x, pose.y, pose.theta, pose.linear_velocity, pose.angular_velocity),
-        Pose2D,
-    ),
-    Color: MessageType(
-        "turtlesim/msg/Color",
-        Layout("turtlesim/msg/Color", "BBB"),
-        lambda color: (color.r, color.g, color.b),
-        Color,
-    ),
-    Twist2D: MessageType(
-        "geometry_msgs/msg/Twist",
-        Layout("geometry_msgs/msg/Twist", "dddddd"),
-        _twist,
-        lambda x, y, _z, _roll, _pitch, yaw: Twist2D(x, yaw, y),
-    ),
-}
-"""Types of topics, by the type of our value."""
-
-BY_ROS_TYPE: Final = {kind.ros_type: (value, kind) for value, kind in MESSAGES.items()}
-
-
-def _service(
-    ros_type: str, request: type, fields: str, names: str, answer: type | None = None
-) -> ServiceType:
-    asked = names.split()
-    return ServiceType(
-        ros_type,
-        MessageType(
-            ros_type,
-            Layout(f"{ros_type}_Request", fields),
-            lambda value: tuple(getattr(value, name) for name in asked),
-            request,
-        ),
-        MessageType(
-            ros_type,
-            Layout(f"{ros_type}_Response", "s" if answer else ""),
-            (lambda value: (value.name,)) if answer else (lambda value: ()),
-            answer or (lambda: None),
-        ),
-    )
-
-
-SERVICES: Final = {
-    "spawn": _service("turtlesim/srv/Spawn", Spawn, "fffs", "x y theta name", Spawned),
-    "kill": _service("turtlesim/srv/Kill", Kill, "s", "name"),
-    "clear": _service("std_srvs/srv/Empty", Clear, "", ""),
-    "reset": _service("std_srvs/srv/Empty", Reset, "", ""),
-    "teleport_absolute": _service(
-        "turtlesim/srv/TeleportAbsolute", TeleportAbsolute, "fff", "x y theta"
-    ),
-    "teleport_relative": _service(
-        "turtlesim/srv/TeleportRelative", TeleportRelative, "ff", "linear angular"
-    ),
-    "set_pen": _service("turtlesim/srv/SetPen", SetPen, "BBBBB", "r g b width off"),
-}
-"""Types of services, by the last part of their name."""
-
-
-def service_type(name: str) -> ServiceType | None:
-    """The type of a service, known by the last part of its name; None for a strange one."""
-    return SERVICES.get(name.rpartition("/")[2])
-
-
-# The rotate action: three services and two topics.
-
-ROTATE: Final = "turtlesim/action/RotateAbsolute"
-SEND_GOAL: Final = f"{ROTATE}_SendGoal"
-GET_RESULT: Final = f"{ROTATE}_GetResult"
-FEEDBACK: Final = f"{ROTATE}_FeedbackMessage"
-CANCEL_GOAL: Final = "action_msgs/srv/CancelGoal"
-STATUS: Final = "action_msgs/msg/GoalStatusArray"
-
-SEND_GOAL_REQUEST: Final = Layout(f"{SEND_GOAL}_Request", "uf")
-SEND_GOAL_RESPONSE: Final = Layout(f"{SEND_GOAL}_Response", "?iI")
-GET_RESULT_REQUEST: Final = Layout(f"{GET_RESULT}_Request", "u")
-GET_RESULT_RESPONSE: Final = Layout(f"{GET_RESULT}_Response", "bf")
-FEEDBACK_MESSAGE: Final = Layout(FEEDBACK, "uf")
-CANCEL_REQUEST: Final = Layout(f"{CANCEL_GOAL}_Request", "uiI")
-CANCEL_RESPONSE: Final = Layout(f"{CANCEL_GOAL}_Response", "b[uiI]")
-STATUS_MESSAGE: Final = Layout(STATUS, "[uiIb]")
-
-ACCEPTED, EXECUTING, CANCELING, SUCCEEDED, CANCELED, ABORTED = 1, 2, 3, 4, 5, 6
-STATUS_NUMBERS: Final = {"succeeded": SUCCEEDED, "canceled": CANCELED, "aborted": ABORTED}
-STATUS_NAMES: Final = {number: name for name, number in STATUS_NUMBERS.items()}
-
-
-# Parameters: what a turtlesim is asked for its background.
-
-PARAMETER_FIELDS: Final = "B?qds[B][?][q][d][s]"
-GET_PARAMETERS_REQUEST: Final = Layout("rcl_interfaces/srv/GetParameters_Request", "[s]")
-GET_PARAMETERS_RESPONSE: Final = Layout(
-    "rcl_interfaces/srv/GetParameters_Response", f"[{PARAMETER_FIELDS}]"
-)
-SET_PARAMETERS_REQUEST: Final = Layout(
-    "rcl_interfaces/srv/SetParameters_Request", f"[s{PARAMETER_FIELDS}]"
-)
-SET_PARAMETERS_RESPONSE: Final = Layout("rcl_interfaces/srv/SetParameters_Response", "[?s]")
-
-_NOTHING = (0, False, 0, 0.0, "", (), (), (), (), ())
-_PLACES = {bool: (1, 1), int: (2, 2), float: (3, 3), str: (4, 4)}
-
-
-def parameter_fields(value: bool | int | float | str | None) -> tuple[Any, ...]:
-    """A setting as the fields of rcl_interfaces/ParameterValue; None is "not set"."""
-    if value is None:
-        return _NOTHING
-    kind, place = _PLACES[type(value)]
-    fields = list(_NOTHING)
-    fields[0], fields[place] = kind, value
-    return tuple(fields)
-
-
-def parameter_value(fields: tuple[Any, ...]) -> bool | int | float | str:
-    """The setting that the fields of rcl_interfaces/ParameterValue tell.
+@cache
+def topic_type(kind: type[Any]) -> MessageType | None:
+    """How the values of a topic travel; None for what stays inside the process.
 
     Raises:
-        MalformedMessage: If it is a list or nothing: no setting of ours is one.
+        MalformedMessage: If it is a message that nobody else could read.
     """
-    for kind, place in _PLACES.values():
-        if fields[0] == kind:
-            value: bool | int | float | str = fields[place]
-            return value
-    raise MalformedMessage(
-        "rcl_interfaces/msg/ParameterValue",
-        f"type {fields[0]} is none of bool, integer, double and string",
+    if kind in VALUES:
+        return MessageType(INTERFACES.message(VALUES[kind]), kind)
+    if not issubclass(kind, Message):
+        return None
+    codec(kind)
+    return MessageType(kind)
+
+
+def topic_name(kind: type[Any]) -> str:
+    """The ROS name of what a topic carries; "" for what is nothing to ROS."""
+    if kind is TransformMessage:
+        return TRANSFORMS
+    return VALUES.get(kind, "") or str(getattr(kind, "interface__", ""))
+
+
+@cache
+def service_type(kind: Any) -> ServiceType | None:
+    """How a service travels, by the type of our request or by its ROS class; None if not at all."""
+    if kind in SERVICES:
+        ros_type, answer = SERVICES[kind]
+        found = named_service(ros_type)
+        return ServiceType(
+            ros_type,
+            MessageType(found.request.message, kind),
+            MessageType(found.response.message, answer or type(None)),
+        )
+    return named_service(kind.interface__) if hasattr(kind, "Request") else None
+
+
+@cache
+def action_type(kind: Any) -> ActionType | None:
+    """How an action travels, by the type of our goal or by its ROS class; None if not at all."""
+    if kind in ACTIONS:
+        return named_action(ACTIONS[kind][0], kind)
+    return named_action(kind.interface__) if hasattr(kind, "Feedback") else None
+
+
+def named_service(ros_type: str) -> ServiceType:
+    """A service by its type's name, with messages for what is asked and answered.
+
+    Raises:
+        InputError: If there is none of that name.
+    """
+    request, response = (
+        MessageType(INTERFACES.part(f"{ros_type}_{part}")) for part in ("Request", "Response")
     )
+    return ServiceType(ros_type, request, response)
+
+
+def named_action(ros_type: str, goal: type[Any] | None = None) -> ActionType:
+    """An action by its type's name, in messages, or in our values for a goal of ours.
+
+    Raises:
+        InputError: If there is none of that name.
+    """
+    values = (None, None, None) if goal is None else (goal, *ACTIONS[goal][1:])
+    parts = (
+        MessageType(INTERFACES.part(f"{ros_type}_{part}"), value)
+        for part, value in zip(("Goal", "Result", "Feedback"), values, strict=True)
+    )
+    return ActionType(ros_type, *parts)
+
+
+def is_same(request: Any, kind: MessageType) -> bool:
+    """Whether a request, a message or a value of ours, is of a service's type."""
+    known = SERVICES.get(type(request))
+    if known is not None:
+        return plain_name(f"{known[0]}_Request") == plain_name(kind.ros_type)
+    return isinstance(request, Message) and plain_name(request.interface__) == plain_name(
+        kind.ros_type
+    )
+
+
+def answer_to(request: Any, answer: Any) -> Any:
+    """The answer, a message, as those expect it who asked with a request of ours."""
+    kind = SERVICES[type(request)][1]
+    return None if kind is None else as_value(answer, kind)
+
+
+def plain_name(ros_type: str) -> str:
+    """A type's name, the same for turtlesim's types of every release."""
+    # Newer ROS 2 releases moved turtlesim's interfaces to a package of their own.
+    return ros_type.replace("turtlesim_msgs/", "turtlesim/")

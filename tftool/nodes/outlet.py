@@ -34,6 +34,7 @@ class Outlet:
     def __init__(
         self,
         world: World,
+        node: str,
         prefix: str,
         turtle: Turtle,
         inbox: Inbox,
@@ -44,6 +45,7 @@ class Outlet:
 
         Args:
             world: Where.
+            node: The simulator's name.
             prefix: Put before the turtle's name; empty, or ends with a slash.
             turtle: Whose.
             inbox: Where work waits for the next tick.
@@ -59,10 +61,17 @@ class Outlet:
         commands = world.topic(f"{self._prefix}cmd_vel", Twist2D)
         self._stops = [
             commands.subscribe(self._on_command),
-            world.serve(f"{self._prefix}teleport_absolute", self._on_teleport_absolute),
-            world.serve(f"{self._prefix}teleport_relative", self._on_teleport_relative),
-            world.serve(f"{self._prefix}set_pen", self._on_set_pen),
-            world.serve_action(f"{self._prefix}rotate_absolute", self._on_rotate),
+            *(
+                world.serve(self._prefix + name, handler, kind, node=node)
+                for name, handler, kind in (
+                    ("teleport_absolute", self._on_teleport_absolute, TeleportAbsolute),
+                    ("teleport_relative", self._on_teleport_relative, TeleportRelative),
+                    ("set_pen", self._on_set_pen, SetPen),
+                )
+            ),
+            world.serve_action(
+                f"{self._prefix}rotate_absolute", self._on_rotate, RotateAbsolute, node=node
+            ),
         ]
 
     def close(self) -> None:

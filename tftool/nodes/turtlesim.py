@@ -125,13 +125,13 @@ class Turtlesim(Node):
         # Two simulators in one world carry their namespace in their names as well.
         name = self.name.removeprefix(self._prefix)
         self.info(f"Starting turtlesim with node name /{self._prefix}{name}")
-        for service, handler in (
-            ("spawn", self._on_spawn),
-            ("kill", self._on_kill),
-            ("clear", self._on_clear),
-            ("reset", self._on_reset),
+        for service, handler, kind in (
+            ("spawn", self._on_spawn, Spawn),
+            ("kill", self._on_kill, Kill),
+            ("clear", self._on_clear, Clear),
+            ("reset", self._on_reset, Reset),
         ):
-            self.serve(self._prefix + service, handler)
+            self.serve(self._prefix + service, handler, kind)
         start = self.clock.now()
         self._turtles, self._counter = {}, 0
         self._spawn(Placement(CENTRE, CENTRE, 0.0), "", start)
@@ -192,7 +192,7 @@ class Turtlesim(Node):
         # Kept in the order of the names: that is the order of updates and of drawing.
         self._turtles = dict(sorted({**self._turtles, name: turtle}.items()))
         self._outlets[name] = Outlet(
-            self.world, self._prefix, turtle, self._inbox, self._say, self._is_holonomic
+            self.world, self.name, self._prefix, turtle, self._inbox, self._say, self._is_holonomic
         )
         self.revision += 1
         self.info(

@@ -5,24 +5,20 @@ A message type we have no value for travels as it is.
 """
 
 from collections.abc import Callable
-from dataclasses import dataclass, fields
+from dataclasses import dataclass
+from functools import partial
 from typing import Any
 
-from tftool import messages
+from tftool.errors import TftoolError
 from tftool.frames.sample import TransformStamped
 from tftool.geometry.rigid import Transform
-from tftool.interfaces.classes import INTERFACES, Message, as_float32, duplicate
+from tftool.interfaces.classes import INTERFACES, Message, duplicate
+from tftool.link import types
+from tftool.runtime.offers import Offer
 from tftool.runtime.world import TransformMessage
 from tftool.stamps import NANOSECONDS, Stamp
 
 TF_TOPICS = ("tf", "tf_static")
-
-
-@dataclass(frozen=True, slots=True)
-class WholeTwist(messages.Twist2D):
-    """A Twist that says more than a turtle reads."""
-
-    message: Any = None
 
 
 @dataclass(frozen=True, slots=True)
@@ -42,57 +38,22 @@ class Converter:
 
 def converter(kind: type[Message], topic: str) -> Converter:
     """How messages of a class travel on a topic (full name)."""
-    name = kind.interface__.replace("turtlesim_msgs/", "turtlesim/")
-    if name == "geometry_msgs/msg/Twist":
-        return Converter(messages.Twist2D, _pack_twist, _unpack_twist)
-    if name == "turtlesim/msg/Pose":
-        return _by_fields(kind, messages.Pose2D)
-    if name == "turtlesim/msg/Color":
-        return _by_fields(kind, messages.Color)
-    if name == "geometry_msgs/msg/PointStamped":
-        return Converter(messages.PointStamped, _pack_point, _unpack_point)
-    if name == "tf2_msgs/msg/TFMessage" and topic in TF_TOPICS:
+    name = types.plain_name(kind.interface__)
+    if name == types.TRANSFORMS and topic in TF_TOPICS:
         return Converter(TransformMessage, _pack_transforms, unpack_transforms)
+    for value, ros_type in types.VALUES.items():
+        if name == ros_type:
+            # By way of a copy, whose 32-bit fields are rounded.
+            return Converter(
+                value,
+                partial(_as_value, kind=value),
+                partial(types.as_message, kind=kind),
+            )
     return Converter(kind, duplicate, duplicate)
 
 
-def _by_fields(kind: type[Message], value_kind: type[Any]) -> Converter:
-    names = [field.name for field in fields(value_kind)]
-    single = {field.name for field in kind.fields__ if field.kind == "float32"}
-
-    def pack(message: Any) -> Any:
-        return value_kind(
-            *(
-                as_float32(getattr(message, name)) if name in single else getattr(message, name)
-                for name in names
-            )
-        )
-
-    def unpack(value: Any) -> Any:
-        message = kind()
-        for name in names:
-            given = getattr(value, name)
-            setattr(message, name, as_float32(float(given)) if name in single else given)
-        return message
-
-    return Converter(value_kind, pack, unpack)
-
-
-def _pack_twist(message: Any) -> messages.Twist2D:
-    linear, angular = message.linear, message.angular
-    if linear.z or angular.x or angular.y:
-        return WholeTwist(linear.x, angular.z, linear.y, duplicate(message))
-    return messages.Twist2D(linear.x, angular.z, linear.y)
-
-
-def _unpack_twist(value: messages.Twist2D) -> Any:
-    if isinstance(value, WholeTwist):
-        return duplicate(value.message)
-    message: Any = INTERFACES.message("geometry_msgs/Twist")()
-    message.linear.x = float(value.linear_x)
-    message.linear.y = float(value.linear_y)
-    message.angular.z = float(value.angular_z)
-    return message
+def _as_value(message: Any, kind: type[Any]) -> Any:
+    return types.as_value(duplicate(message), kind)
 
 
 def stamp_of(message: Any) -> Stamp:
@@ -104,19 +65,6 @@ def time_message(stamp: Stamp, kind: str = "Time") -> Any:
     """A builtin_interfaces Time (or Duration) of so many nanoseconds."""
     seconds, rest = divmod(stamp, NANOSECONDS)
     return INTERFACES.message(f"builtin_interfaces/{kind}")(sec=seconds, nanosec=rest)
-
-
-def _pack_point(message: Any) -> messages.PointStamped:
-    header, point = message.header, message.point
-    return messages.PointStamped(stamp_of(header.stamp), header.frame_id, point.x, point.y, point.z)
-
-
-def _unpack_point(value: messages.PointStamped) -> Any:
-    message: Any = INTERFACES.message("geometry_msgs/PointStamped")()
-    message.header.stamp = time_message(value.stamp)
-    message.header.frame_id = value.frame_id
-    message.point.x, message.point.y, message.point.z = value.x, value.y, value.z
-    return message
 
 
 def pack_transform(message: Any) -> TransformStamped:
@@ -154,77 +102,38 @@ def unpack_transforms(value: TransformMessage) -> Any:
 
 # Services and actions
 
-_SERVICES: dict[str, tuple[type[Any], type[Any] | None]] = {
-    "turtlesim/srv/Spawn": (messages.Spawn, messages.Spawned),
-    "turtlesim/srv/Kill": (messages.Kill, None),
-    "turtlesim/srv/SetPen": (messages.SetPen, None),
-    "turtlesim/srv/TeleportAbsolute": (messages.TeleportAbsolute, None),
-    "turtlesim/srv/TeleportRelative": (messages.TeleportRelative, None),
-}
-_EMPTY = {"clear": messages.Clear, "reset": messages.Reset}
-_ACTIONS: dict[str, dict[str, type[Any]]] = {
-    "turtlesim/action/RotateAbsolute": {
-        "Goal": messages.RotateAbsolute,
-        "Feedback": messages.Rotating,
-        "Result": messages.Rotated,
-    }
-}
+
+def pack_request(offer: Offer[Any], request: Any) -> Any:
+    """A request or a goal, a message, as whoever answers takes it.
+
+    Raises:
+        TftoolError: If it is of another type.
+    """
+    known = type_of(offer.kind)
+    given = request.interface__.rpartition("_")[0]
+    if known and types.plain_name(given) != types.plain_name(known):
+        raise TftoolError(f"what is asked is of type {known}, the question of type {given}")
+    is_ours = offer.kind in types.SERVICES or offer.kind in types.ACTIONS
+    return _as_value(request, offer.kind) if is_ours else duplicate(request)
 
 
-def _known(kind: Any) -> str:
-    return str(kind.interface__).replace("turtlesim_msgs/", "turtlesim/")
+def unpack(value: Any, kind: type[Message]) -> Any:
+    """A part of a service or an action as a message of a class; None says nothing."""
+    return duplicate(value) if isinstance(value, Message) else types.as_message(value, kind)
 
 
-def pack_request(kind: type[Any], service: str, request: Any) -> Any:
-    """A service's request as our own servers take it; others get a copy."""
-    known = _SERVICES.get(_known(kind))
-    if known is not None:
-        return _packed(request, known[0])
-    if _known(kind) == "std_srvs/srv/Empty" and service.rpartition("/")[2] in _EMPTY:
-        return _EMPTY[service.rpartition("/")[2]]()
-    return duplicate(request)
+def answer(request: Any, response: Any) -> Any:
+    """A response, a message, as whoever sent the request expects it."""
+    copy = duplicate(response)
+    return copy if isinstance(request, Message) else types.answer_to(request, copy)
 
 
-def unpack_request(kind: Any, request: Any) -> Any:
-    """The ROS 2 request of a service's class that one of our own nodes sent."""
-    return _unpacked(request, kind.Request)
-
-
-def pack_response(kind: type[Any], response: Any, *, ours: bool) -> Any:
-    """A response as the asking side takes it."""
-    known = _SERVICES.get(_known(kind))
-    if not ours or known is None:
-        return duplicate(response)
-    return None if known[1] is None else _packed(response, known[1])
-
-
-def unpack_response(kind: Any, response: Any) -> Any:
-    """The ROS 2 response of a service's class."""
-    return _unpacked(response, kind.Response)
-
-
-def pack_part(kind: type[Any], part: str, message: Any) -> Any:
-    """A part ("Goal", "Feedback", "Result") of an action as our own nodes take it."""
-    known = _ACTIONS.get(_known(kind))
-    return duplicate(message) if known is None else _packed(message, known[part])
-
-
-def unpack_part(kind: Any, part: str, value: Any) -> Any:
-    """The ROS 2 message of a part of an action."""
-    return _unpacked(value, getattr(kind, part))
-
-
-def _packed(message: Any, value_kind: type[Any]) -> Any:
-    copy = duplicate(message)
-    return value_kind(**{field.name: getattr(copy, field.name) for field in fields(value_kind)})
-
-
-def _unpacked(value: Any, kind: Any) -> Any:
-    if isinstance(value, Message):
-        return duplicate(value)
-    message = kind()
-    for field in kind.fields__:
-        if value is not None and hasattr(value, field.name):
-            given = getattr(value, field.name)
-            setattr(message, field.name, float(given) if field.kind == "float32" else given)
-    return message
+def type_of(kind: Any) -> str:
+    """The ROS type of what answers a service or takes goals; "" where nobody says."""
+    if isinstance(kind, str):
+        return kind
+    if kind in types.SERVICES:
+        return types.SERVICES[kind][0]
+    if kind in types.ACTIONS:
+        return types.ACTIONS[kind][0]
+    return str(getattr(kind, "interface__", ""))

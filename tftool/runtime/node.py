@@ -107,13 +107,17 @@ class Node(Resident):
 
         return self._until_end(self.world.topic(topic, kind).subscribe(guarded))
 
-    def serve(self, name: str, handler: Callable[[Any], Any]) -> Callable[[], None]:
-        """Answer a service until this node ends."""
-        return self._until_end(self.world.serve(name, handler))
+    def serve(
+        self, name: str, handler: Callable[[Any], Any], kind: Any = None
+    ) -> Callable[[], None]:
+        """Answer a service until this node ends; other processes are told what `kind` it is."""
+        return self._until_end(self.world.serve(name, handler, kind, node=self.name))
 
-    def serve_action(self, name: str, accept: Callable[[Any], None]) -> Callable[[], None]:
-        """Take an action's goals until this node ends."""
-        return self._until_end(self.world.serve_action(name, accept))
+    def serve_action(
+        self, name: str, accept: Callable[[Any], None], kind: Any = None
+    ) -> Callable[[], None]:
+        """Take an action's goals until this node ends; `kind` is as in `serve`."""
+        return self._until_end(self.world.serve_action(name, accept, kind, node=self.name))
 
     async def call(self, service: str, request: Any) -> Any:
         """Ask a service and wait for its answer."""

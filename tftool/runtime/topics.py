@@ -10,6 +10,8 @@ from collections.abc import AsyncIterator, Awaitable, Callable
 from dataclasses import dataclass
 from typing import Any, Generic, Literal, TypeVar
 
+from tftool.runtime.endpoints import Endpoint
+
 T = TypeVar("T")
 
 Status = Literal["succeeded", "aborted", "canceled"]
@@ -24,9 +26,22 @@ class Topic(Generic[T]):
         latest: The value published last, None before the first.
         count: How many values were published.
         on_demand: Called when somebody subscribes or stops to, None without anybody who cares.
+        sender: Who publishes the value that is being delivered; None when nobody says.
+        relay: What carries values to other processes, told last; None without a link.
+        far_subscribers: How many listen in other processes.
     """
 
-    __slots__ = ("_subscribers", "count", "kind", "latest", "name", "on_demand")
+    __slots__ = (
+        "_subscribers",
+        "count",
+        "far_subscribers",
+        "kind",
+        "latest",
+        "name",
+        "on_demand",
+        "relay",
+        "sender",
+    )
 
     def __init__(self, name: str, kind: type[T]) -> None:
         self.name = name
@@ -34,10 +49,13 @@ class Topic(Generic[T]):
         self.latest: T | None = None
         self.count = 0
         self.on_demand: Callable[[], object] | None = None
+        self.sender: Endpoint | None = None
+        self.relay: Callable[[T], object] | None = None
+        self.far_subscribers = 0
         self._subscribers: tuple[Callable[[T], object], ...] = ()
 
-    def publish(self, value: T) -> None:
-        """Keep `value` and tell every subscriber at once.
+    def publish(self, value: T, sender: Endpoint | None = None) -> None:
+        """Keep `value` and tell every subscriber at once, and who sent it if that is known.
 
         Raises:
             TypeError: If `value` is not of the topic's kind.
@@ -48,8 +66,14 @@ class Topic(Generic[T]):
             )
         self.latest = value
         self.count += 1
-        for subscriber in self._subscribers:
-            subscriber(value)
+        before, self.sender = self.sender, sender
+        try:
+            for subscriber in self._subscribers:
+                subscriber(value)
+            if self.relay is not None:
+                self.relay(value)
+        finally:
+            self.sender = before
 
     def subscribe(self, callback: Callable[[T], object]) -> Callable[[], None]:
         """Have `callback` called with every value to come; call what is returned to stop."""
@@ -71,7 +95,12 @@ class Topic(Generic[T]):
 
     @property
     def subscribers(self) -> int:
-        """How many listen at the moment."""
+        """How many listen at the moment, those in other processes included."""
+        return len(self._subscribers) + self.far_subscribers
+
+    @property
+    def near_subscribers(self) -> int:
+        """How many listen in this process."""
         return len(self._subscribers)
 
     async def stream(self, depth: int = 100) -> AsyncIterator[T]:
@@ -119,6 +148,8 @@ class GoalHandle:
         cancel_requested: Whether the client wants it stopped.
         feedback: The last feedback, None before the first.
         on_cancel: Called once when the client wants it stopped, for a server that does not look.
+        decided: Whether the server takes the goal, once it has decided; None for one that
+            takes every goal.
     """
 
     def __init__(self, request: Any, on_feedback: Callable[[Any], object] | None = None) -> None:
@@ -126,6 +157,7 @@ class GoalHandle:
         self.cancel_requested = False
         self.feedback: Any = None
         self.on_cancel: Callable[[], object] | None = None
+        self.decided: asyncio.Future[bool] | None = None
         self._on_feedback = on_feedback
         self._result: asyncio.Future[GoalResult] = asyncio.get_running_loop().create_future()
 

@@ -11,7 +11,9 @@ from tftool.frames.buffer import Buffer
 from tftool.frames.sample import TransformStamped
 from tftool.runtime import waiting
 from tftool.runtime.clock import Clock
+from tftool.runtime.endpoints import Endpoints
 from tftool.runtime.log import Log
+from tftool.runtime.offers import Offer
 from tftool.runtime.resident import Resident, Supervision
 from tftool.runtime.topics import Acceptor, GoalHandle, Handler, Topic
 from tftool.stamps import Duration, Stamp, seconds
@@ -35,6 +37,7 @@ class World:
         buffer: What is known of frames.
         log: What the nodes said.
         nodes: Those who joined, in order.
+        endpoints: Who publishes and subscribes what, of those who say.
     """
 
     def __init__(
@@ -50,11 +53,12 @@ class World:
         self.nodes: list[Resident] = []
         self._joined = 0
         self._topics: dict[str, Topic[Any]] = {}
-        self._services: dict[str, Handler] = {}
-        self._actions: dict[str, Acceptor] = {}
+        self._services: dict[str, Offer[Handler]] = {}
+        self._actions: dict[str, Offer[Acceptor]] = {}
         self._statics: dict[str, dict[str, TransformStamped]] = {}
         self._supervisor: Supervision | None = None
         self._watchers: tuple[Callable[[], object], ...] = ()
+        self.endpoints = Endpoints(self._changed, self.log.warn)
         self.tf = self.topic("tf", TransformMessage)
         self.tf_static = self.topic("tf_static", TransformMessage)
 
@@ -86,19 +90,35 @@ class World:
 
     # Services and actions
 
-    def serve(self, name: str, handler: Handler) -> Callable[[], None]:
+    def serve(
+        self,
+        name: str,
+        handler: Handler,
+        kind: Any = None,
+        *,
+        node: str = "",
+        is_remote: bool = False,
+    ) -> Callable[[], None]:
         """Answer a service by `handler`; call what is returned to stop.
 
+        Args:
+            name: The service's name.
+            handler: Answers a request, now or when awaited.
+            kind: What is asked, for those in other processes; see `Offer`.
+            node: The node that answers.
+            is_remote: Whether it answers from another process.
+
         Raises:
-            TftoolError: If somebody serves that name already.
+            TftoolError: If somebody here serves that name already.
         """
-        return self._offer(self._services, name, handler, "service")
+        offer = Offer(handler, kind, node, is_remote)
+        return self._offer(self._services, name, offer, "service")
 
     def has_service(self, name: str) -> bool:
         """Whether somebody answers that service."""
         return name.removeprefix("/") in self._services
 
-    def services(self) -> Mapping[str, Handler]:
+    def services(self) -> Mapping[str, Offer[Handler]]:
         """Every service by its name, read-only."""
         return MappingProxyType(self._services)
 
@@ -108,21 +128,32 @@ class World:
         Raises:
             TftoolError: If nobody serves that name.
         """
-        handler = self._services.get(name.removeprefix("/"))
-        if handler is None:
+        offer = self._services.get(name.removeprefix("/"))
+        if offer is None:
             raise TftoolError(f"no node serves '{name}'")
-        response = handler(request)
+        response = offer.take(request)
         return await response if inspect.isawaitable(response) else response
 
-    def serve_action(self, name: str, accept: Acceptor) -> Callable[[], None]:
+    def serve_action(
+        self,
+        name: str,
+        accept: Acceptor,
+        kind: Any = None,
+        *,
+        node: str = "",
+        is_remote: bool = False,
+    ) -> Callable[[], None]:
         """Take goals of an action by `accept`; call what is returned to stop.
 
-        Raises:
-            TftoolError: If somebody serves that action already.
-        """
-        return self._offer(self._actions, name, accept, "action")
+        The arguments are those of `serve`.
 
-    def actions(self) -> Mapping[str, Acceptor]:
+        Raises:
+            TftoolError: If somebody here serves that action already.
+        """
+        offer = Offer(accept, kind, node, is_remote)
+        return self._offer(self._actions, name, offer, "action")
+
+    def actions(self) -> Mapping[str, Offer[Acceptor]]:
         """Every action by its name, read-only."""
         return MappingProxyType(self._actions)
 
@@ -134,11 +165,11 @@ class World:
         Raises:
             TftoolError: If nobody serves that action.
         """
-        accept = self._actions.get(name.removeprefix("/"))
-        if accept is None:
+        offer = self._actions.get(name.removeprefix("/"))
+        if offer is None:
             raise TftoolError(f"no node serves the action '{name}'")
         handle = GoalHandle(goal, on_feedback)
-        accept(handle)
+        offer.take(handle)
         return handle
 
     def watch(self, callback: Callable[[], object]) -> Callable[[], None]:
@@ -157,9 +188,11 @@ class World:
         for watcher in self._watchers:
             watcher()
 
-    def _offer(self, offers: dict[str, T], name: str, offer: T, what: str) -> Callable[[], None]:
+    def _offer(
+        self, offers: dict[str, Offer[T]], name: str, offer: Offer[T], what: str
+    ) -> Callable[[], None]:
         name = name.removeprefix("/")
-        if name in offers:
+        if name in offers and not offers[name].is_remote:
             raise TftoolError(f"{what} '{name}' is served already")
         offers[name] = offer
         self._changed()

@@ -123,25 +123,23 @@ class ActionClient(Asker):
         def on_feedback(value: Any) -> None:
             if feedback_callback is None:
                 return
-            message = values.unpack_part(self._type, "Feedback", value)
+            message = values.unpack(value, self._type.Feedback)
             told = feedback_callback
             self.put(lambda: told(_Feedback(goal_id, message)))
 
         async def send() -> None:
             world = self.member.world
-            acceptor = world.actions().get(self.full)
-            if acceptor is None:
+            offer = world.actions().get(self.full)
+            if offer is None:
                 return
-            served_here = getattr(acceptor, "serves_ros", False)
-            value = copy if served_here else values.pack_part(self._type, "Goal", copy)
             try:
+                value = values.pack_request(offer, copy)
                 handle = await world.send_goal(self.full, value, on_feedback)
             except TftoolError as error:
                 refused = error
                 self.put(lambda: future.set_exception(refused))
                 return
-            decided = getattr(handle, "decided", None)
-            accepted = True if decided is None else await decided
+            accepted = handle.decided is None or await handle.decided
             held = ClientGoalHandle(self, goal_id, handle if accepted else None)
             self.put(lambda: future.set_result(held))
 
@@ -164,7 +162,7 @@ class ActionClient(Asker):
                 return
             end = await goal.result()
             status = STATUS[end.status]
-            result = values.unpack_part(self._type, "Result", end.value)
+            result = values.unpack(end.value, self._type.Result)
 
             def arrive() -> None:
                 handle.status = int(status)

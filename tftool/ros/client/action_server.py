@@ -108,18 +108,6 @@ class ServerGoalHandle:
         self._canceling = True
 
 
-class _Acceptor:
-    """What the world hands goals to."""
-
-    serves_ros = True
-
-    def __init__(self, server: "ActionServer") -> None:
-        self._server = server
-
-    def __call__(self, goal: WorldGoal) -> None:
-        self._server.arrived(goal)
-
-
 class ActionServer(Inbox):
     """Works on goals."""
 
@@ -149,7 +137,9 @@ class ActionServer(Inbox):
         self._stop: Callable[[], None] = lambda: None
 
         def serve() -> "ActionServer":
-            self._stop = member.world.serve_action(self.full, _Acceptor(self))
+            self._stop = member.world.serve_action(
+                self.full, self.arrived, action_type, node=member.authority
+            )
             return self
 
         member.keep(serve)
@@ -176,11 +166,10 @@ class ActionServer(Inbox):
 
     def arrived(self, goal: WorldGoal) -> None:
         """Keep a goal until an executor takes it."""
-        held: Any = goal
-        held.decided = asyncio.get_running_loop().create_future()
-        request = values.unpack_part(self.type_, "Goal", goal.request)
+        goal.decided = asyncio.get_running_loop().create_future()
+        request = values.unpack(goal.request, self.type_.Goal)
         handle = ServerGoalHandle(self, goal, request)
-        held.on_cancel = lambda: self.put(lambda: self._consider_cancel(handle))
+        goal.on_cancel = lambda: self.put(lambda: self._consider_cancel(handle))
         self.put(lambda: self._consider(handle, goal))
 
     def withdraw(self) -> None:
@@ -194,8 +183,8 @@ class ActionServer(Inbox):
         accepted = self._on_goal(handle.request) == GoalResponse.ACCEPT
 
         def answer() -> None:
-            held: Any = goal
-            held.decided.set_result(accepted)
+            if goal.decided is not None:
+                goal.decided.set_result(accepted)
             if not accepted:
                 goal.finish("aborted", self.type_.Result())
 

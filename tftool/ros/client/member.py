@@ -7,31 +7,13 @@ A node's class belongs to the user, who may call an attribute `world`, `graph` o
 import asyncio
 from collections.abc import Callable
 from typing import Any
-from weakref import WeakKeyDictionary
 
 from tftool.ros import names
 from tftool.ros.program import Program, ProgramNode
 from tftool.runtime.clock import Phase
+from tftool.runtime.endpoints import PUBLISHER, Endpoint
 from tftool.runtime.world import TransformMessage, World
 from tftool.stamps import Stamp
-
-
-class Graph:
-    """Who publishes and subscribes what in one world, and what late subscribers get.
-
-    Attributes:
-        publishers: ROS nodes' publishers by full topic name.
-        subscriptions: Their subscriptions.
-        latched: What publishers keep for subscribers to come.
-    """
-
-    def __init__(self) -> None:
-        self.publishers: dict[str, list[Any]] = {}
-        self.subscriptions: dict[str, list[Any]] = {}
-        self.latched: dict[str, list[Any]] = {}
-
-
-_graphs: "WeakKeyDictionary[World, Graph]" = WeakKeyDictionary()
 
 
 class Member:
@@ -40,7 +22,6 @@ class Member:
     Attributes:
         program: Whose node it is.
         world: Where it lives.
-        graph: Who else publishes and subscribes there.
         name: What it is called after renaming.
         namespace: Where, without slashes at its ends.
         options: What `--ros-args` says about it.
@@ -70,12 +51,11 @@ class Member:
         self.executor: Any = None
         self.entities: list[Any] = []
         self._destroyed = False
-        self.graph, self._node = program.ask(self._join)
+        self._node: ProgramNode = program.ask(self._join)
         self.authority: str = self._node.name
         program.nodes.append(self)
 
-    def _join(self) -> tuple[Graph, ProgramNode]:
-        graph = _graphs.setdefault(self.world, Graph())
+    def _join(self) -> ProgramNode:
         name = names.join(self.namespace, self.name)
         wanted, number = name, 1
         while any(other.name == name for other in self.world.nodes if other is not self.program):
@@ -90,7 +70,7 @@ class Member:
         if self.program.name == name:
             # The executable and its node share a name, as they often do.
             self.program.name = f"{name} (program)"
-        return graph, ProgramNode(self.program, name)
+        return ProgramNode(self.program, name)
 
     def full(self, name: str, *, remap: bool = True) -> str:
         """A topic's or service's full name, without its leading slash."""
@@ -148,12 +128,16 @@ class Member:
         """The moment it is."""
         return self.program.clock.now()
 
-    def late(self, full: str) -> list[Any]:
-        """What a subscriber that keeps up with the past gets at once."""
+    def late(self, full: str) -> list[tuple[Any, Endpoint | None]]:
+        """What a latched subscription gets at once from this process, and from whom."""
         if full == "tf_static":
             transforms = self.world.static_transforms()
-            return [TransformMessage(transforms, "")] if transforms else []
-        return [value for kept in self.graph.latched.get(full, []) for value in kept]
+            return [(TransformMessage(transforms, ""), None)] if transforms else []
+        return [
+            (value, publisher)
+            for publisher in self.world.endpoints.of(full, PUBLISHER)
+            for value in publisher.kept or ()
+        ]
 
     # Waiting
 

@@ -1,6 +1,9 @@
 """What a node can ask about the others."""
 
+from tftool.link import types
+from tftool.ros import values
 from tftool.ros.client.member import Member
+from tftool.runtime.endpoints import PUBLISHER, SUBSCRIPTION
 from tftool.runtime.world import World
 
 
@@ -30,29 +33,37 @@ class NodeGraph:
         """Every topic, and what ROS nodes exchange on it."""
 
         def topics() -> list[tuple[str, list[str]]]:
-            found = []
-            for name in sorted(self._tftool.world.topics()):
-                ends = [*self._tftool.graph.publishers.get(name, []),
-                        *self._tftool.graph.subscriptions.get(name, [])]  # fmt: skip
-                kinds = {end.msg_type.interface__ for end in ends}
-                found.append((f"/{name}", sorted(kinds) or [_ros_name(self._tftool.world, name)]))
-            return found
+            world = self._tftool.world
+            found = {name: {_ros_name(world, name)} for name in world.topics()}
+            for name in world.endpoints.topics():
+                ends = [
+                    *world.endpoints.of(name, PUBLISHER),
+                    *world.endpoints.of(name, SUBSCRIPTION),
+                ]
+                found[name] = {end.interface for end in ends}
+            return [(f"/{name}", sorted(kinds)) for name, kinds in sorted(found.items())]
 
         listed: list[tuple[str, list[str]]] = self._tftool.program.ask(topics)
         return listed
 
     def get_service_names_and_types(self) -> list[tuple[str, list[str]]]:
-        """Every service."""
+        """Every service, and its type where that is known."""
 
         def services() -> list[tuple[str, list[str]]]:
-            return [(f"/{name}", []) for name in sorted(self._tftool.world.services())]
+            offers = self._tftool.world.services()
+            return [
+                (f"/{name}", [known] if (known := values.type_of(offer.kind)) else [])
+                for name, offer in sorted(offers.items())
+            ]
 
         listed: list[tuple[str, list[str]]] = self._tftool.program.ask(services)
         return listed
 
     def count_publishers(self, topic_name: str) -> int:
-        """How many ROS nodes publish a topic."""
-        return len(self._tftool.graph.publishers.get(self._tftool.full(topic_name), []))
+        """How many publish a topic, of those that say so."""
+        full = self._tftool.full(topic_name)
+        endpoints = self._tftool.world.endpoints
+        return int(self._tftool.program.ask(lambda: len(endpoints.of(full, PUBLISHER))))
 
     def count_subscribers(self, topic_name: str) -> int:
         """How many listen to a topic."""
@@ -66,11 +77,5 @@ class NodeGraph:
 
 
 def _ros_name(world: World, topic: str) -> str:
-    kind = world.topics()[topic].kind.__name__
-    return {
-        "Pose2D": "turtlesim/msg/Pose",
-        "Twist2D": "geometry_msgs/msg/Twist",
-        "Color": "turtlesim/msg/Color",
-        "TransformMessage": "tf2_msgs/msg/TFMessage",
-        "PointStamped": "geometry_msgs/msg/PointStamped",
-    }.get(kind, kind)
+    kind = world.topics()[topic].kind
+    return types.topic_name(kind) or str(kind.__name__)

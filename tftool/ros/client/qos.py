@@ -4,6 +4,7 @@ from enum import Enum, IntEnum
 from typing import Any
 
 from tftool.ros.client.time import Duration
+from tftool.runtime.endpoints import Quality
 
 
 class _Policy(IntEnum):
@@ -118,6 +119,16 @@ class QoSProfile:
 
     def __repr__(self) -> str:
         return f"QoSProfile({', '.join(f'{key}={value}' for key, value in vars(self).items())})"
+
+
+def quality_of(profile: QoSProfile) -> Quality:
+    """What of a profile decides who hears whom, and what is kept."""
+    return Quality(
+        profile.depth,
+        is_reliable=profile.reliability is not ReliabilityPolicy.BEST_EFFORT,
+        is_latched=profile.durability is DurabilityPolicy.TRANSIENT_LOCAL,
+        keeps_all=profile.history is HistoryPolicy.KEEP_ALL,
+    )
 
 
 def profile_of(given: "QoSProfile | int") -> QoSProfile:

@@ -9,7 +9,7 @@ from collections.abc import Callable
 from typing import Any
 
 from tftool.errors import TftoolError
-from tftool.interfaces.classes import Message, duplicate
+from tftool.interfaces.classes import duplicate
 from tftool.ros import values
 from tftool.ros.client.entities import Asker, Inbox
 from tftool.ros.client.executors import wait_for
@@ -70,35 +70,17 @@ class Client(Asker):
     async def _call(self, request: Any, future: Future) -> None:
         world = self.member.world
         # As in ROS 2, a request nobody serves yet waits for nobody: it stays unanswered.
-        handler = world.services().get(self.full)
-        if handler is None:
+        offer = world.services().get(self.full)
+        if offer is None:
             return
-        served_here = getattr(handler, "serves_ros", False)
         try:
-            if served_here:
-                answer = await world.call(self.full, request)
-            else:
-                answer = await world.call(
-                    self.full, values.pack_request(self.srv_type, self.full, request)
-                )
-            response = values.unpack_response(self.srv_type, answer)
+            answer = await world.call(self.full, values.pack_request(offer, request))
+            response = values.unpack(answer, self.srv_type.Response)
         except TftoolError as error:
             failure = error
             self.put(lambda: None if future.cancelled() else future.set_exception(failure))
             return
         self.put(lambda: None if future.cancelled() else future.set_result(response))
-
-
-class _ServiceHandler:
-    """What the world calls for a service that a ROS node serves."""
-
-    serves_ros = True
-
-    def __init__(self, service: "Service") -> None:
-        self._service = service
-
-    async def __call__(self, request: Any) -> Any:
-        return await self._service.asked(request)
 
 
 class Service(Inbox):
@@ -119,7 +101,7 @@ class Service(Inbox):
         self.full = full
         self.callback = callback
         self._open: set[asyncio.Future[Any]] = set()
-        self._stop = member.world.serve(full, _ServiceHandler(self))
+        self._stop = member.world.serve(full, self.asked, kind, node=member.authority)
 
     @property
     def service_name(self) -> str:
@@ -129,36 +111,40 @@ class Service(Inbox):
     async def asked(self, request: Any) -> Any:
         """Keep a request until an executor takes it; its answer."""
         answer: asyncio.Future[Any] = asyncio.get_running_loop().create_future()
-        ours = not isinstance(request, Message)
-        message = values.unpack_request(self.srv_type, request)
+        message = values.unpack(request, self.srv_type.Request)
         self._open.add(answer)
-        self.put(lambda: self._answer(message, answer, ours))
+
+        def settle(response: Any) -> None:
+            self._send(values.answer(request, response), answer)
+
+        self.put(lambda: self._answer(message, settle))
         try:
             return await answer
         finally:
             self._open.discard(answer)
 
-    def _answer(self, request: Any, answer: "asyncio.Future[Any]", ours: bool) -> Any:
+    def _answer(self, request: Any, settle: Callable[[Any], None]) -> Any:
         response = self.callback(request, self.srv_type.Response())
         if inspect.iscoroutine(response):
-            return self._later(response, answer, ours)
-        self._send(response, answer, ours)
+            return self._later(response, settle)
+        settle(self._checked(response))
         return None
 
-    async def _later(self, response: Any, answer: "asyncio.Future[Any]", ours: bool) -> None:
-        self._send(await response, answer, ours)
+    async def _later(self, response: Any, settle: Callable[[Any], None]) -> None:
+        settle(self._checked(await response))
 
-    def _send(self, response: Any, answer: "asyncio.Future[Any]", ours: bool) -> None:
+    def _checked(self, response: Any) -> Any:
         if not isinstance(response, self.srv_type.Response):
             raise TypeError(
                 f"the callback of service '{self.srv_name}' must return a "
                 f"{self.srv_type.__name__}.Response, not {type(response).__name__}"
             )
-        packed = values.pack_response(self.srv_type, response, ours=ours)
+        return response
 
+    def _send(self, response: Any, answer: "asyncio.Future[Any]") -> None:
         def send() -> None:
             if not answer.done():
-                answer.set_result(packed)
+                answer.set_result(response)
 
         self.member.program.ask(send)
 

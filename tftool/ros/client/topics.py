@@ -9,7 +9,8 @@ from tftool.interfaces.classes import Message
 from tftool.ros import values
 from tftool.ros.client.entities import Entity, Work
 from tftool.ros.client.member import Member
-from tftool.ros.client.qos import DurabilityPolicy, HistoryPolicy, QoSProfile
+from tftool.ros.client.qos import HistoryPolicy, QoSProfile, quality_of
+from tftool.runtime.endpoints import PUBLISHER, SUBSCRIPTION, Endpoint, conflict
 from tftool.runtime.world import TransformMessage
 
 
@@ -26,11 +27,17 @@ class Publisher(Entity):
         self.full = full
         self._converter = values.converter(kind, full)
         self._topic = member.world.topic(full, self._converter.kind)
-        self._latched: deque[Any] | None = None
-        if profile.durability is DurabilityPolicy.TRANSIENT_LOCAL and full not in values.TF_TOPICS:
-            self._latched = deque(maxlen=profile.depth or None)
-            member.graph.latched.setdefault(full, []).append(self._latched)
-        member.graph.publishers.setdefault(full, []).append(self)
+        quality = quality_of(profile)
+        latched = quality.is_latched and full not in values.TF_TOPICS
+        self._endpoint = Endpoint(
+            PUBLISHER,
+            member.authority,
+            full,
+            kind.interface__,
+            quality,
+            kept=deque(maxlen=profile.depth or None) if latched else None,
+        )
+        self._leave = member.world.endpoints.add(self._endpoint)
 
     @property
     def topic_name(self) -> str:
@@ -56,9 +63,9 @@ class Publisher(Entity):
         member.program.ask(lambda: self._send(value))
 
     def _send(self, value: Any) -> None:
-        if self._latched is not None:
-            self._latched.append(value)
-        self._topic.publish(value)
+        if self._endpoint.kept is not None:
+            self._endpoint.kept.append(value)
+        self._topic.publish(value, self._endpoint)
 
     def get_subscription_count(self) -> int:
         """How many listen."""
@@ -68,15 +75,9 @@ class Publisher(Entity):
         """Nothing to do."""
 
     def withdraw(self) -> None:
-        """Leave the graph; latched messages go along."""
+        """Leave the graph; what was kept for those who come late goes along."""
         super().withdraw()
-        graph = self.member.graph
-        if self in graph.publishers.get(self.full, []):
-            graph.publishers[self.full].remove(self)
-        if self._latched is not None:
-            graph.latched[self.full] = [
-                one for one in graph.latched[self.full] if one is not self._latched
-            ]
+        self._leave()
 
 
 class Subscription(Entity):
@@ -102,11 +103,24 @@ class Subscription(Entity):
         keeps_all = profile.history is HistoryPolicy.KEEP_ALL
         self._queue: deque[Any] = deque(maxlen=None if keeps_all else max(1, profile.depth))
         self._takes_info = _takes_two(callback)
-        self._stop = member.world.topic(full, self._converter.kind).subscribe(self._arrived)
-        member.graph.subscriptions.setdefault(full, []).append(self)
-        if profile.durability is DurabilityPolicy.TRANSIENT_LOCAL:
-            for value in member.late(full):
-                self._arrived(value)
+        self._quality = quality_of(profile)
+        # What other processes send, and sent before, comes to a latched one by itself.
+        self._is_fed = self._quality.is_latched and full not in values.TF_TOPICS
+        self._topic = member.world.topic(full, self._converter.kind)
+        self._leave = member.world.endpoints.add(
+            Endpoint(
+                SUBSCRIPTION,
+                member.authority,
+                full,
+                kind.interface__,
+                self._quality,
+                deliver=self._accept if self._is_fed else None,
+            )
+        )
+        self._stop = self._topic.subscribe(self._arrived)
+        if self._quality.is_latched:
+            for value, sender in member.late(full):
+                self._accept(value, sender)
 
     @property
     def topic_name(self) -> str:
@@ -114,8 +128,15 @@ class Subscription(Entity):
         return f"/{self.full}"
 
     def _arrived(self, value: Any) -> None:
-        self._queue.append((self.member.now(), value))
-        self.member.wake()
+        sender = self._topic.sender
+        if not (self._is_fed and sender is not None and sender.is_remote):
+            self._accept(value, sender)
+
+    def _accept(self, value: Any, sender: Endpoint | None) -> None:
+        # Who offers less than is asked for is not heard at all.
+        if sender is None or not conflict(sender.quality, self._quality):
+            self._queue.append((self.member.now(), value))
+            self.member.wake()
 
     def ready(self) -> bool:
         """Whether a message waits."""
@@ -139,9 +160,8 @@ class Subscription(Entity):
         """Stop listening."""
         super().withdraw()
         self._stop()
+        self._leave()
         self._queue.clear()
-        if self in self.member.graph.subscriptions.get(self.full, []):
-            self.member.graph.subscriptions[self.full].remove(self)
 
 
 def _takes_two(callback: Callable[..., Any]) -> bool:

@@ -1,0 +1,127 @@
+"""Who publishes and who subscribes what, and with what quality of service.
+
+Nodes that state a quality are entered here, those of other processes too; the
+others (our own simulator, say) take what comes and give to whoever listens.
+"""
+
+from collections import deque
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import Any, Final, Literal
+
+Role = Literal["publisher", "subscription"]
+
+PUBLISHER: Final = "publisher"
+SUBSCRIPTION: Final = "subscription"
+
+
+@dataclass(frozen=True, slots=True)
+class Quality:
+    """How messages are to be handed on.
+
+    Attributes:
+        depth: How many messages wait, or are kept for those who come late.
+        is_reliable: Whether none may be lost on the way.
+        is_latched: Whether who comes late gets what was sent before (transient local).
+        keeps_all: Whether nothing that waits is dropped, whatever the depth.
+    """
+
+    depth: int = 10
+    is_reliable: bool = True
+    is_latched: bool = False
+    keeps_all: bool = False
+
+
+def conflict(offered: Quality, requested: Quality) -> str:
+    """The policy by which a subscription asks for more than a publisher gives; "" when none."""
+    if requested.is_reliable and not offered.is_reliable:
+        return "RELIABILITY"
+    if requested.is_latched and not offered.is_latched:
+        return "DURABILITY"
+    return ""
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Endpoint:
+    """One publisher or subscription.
+
+    Attributes:
+        role: Which of the two.
+        node: The node it belongs to.
+        topic: The topic's name, without a leading slash.
+        interface: What is exchanged, "std_msgs/msg/String".
+        quality: What it offers or asks for.
+        is_remote: Whether it is another process's.
+        deliver: Of a latched subscription here: takes what others sent it before, and who did.
+        kept: Of a latched publisher here: what those who come late get.
+    """
+
+    role: Role
+    node: str
+    topic: str
+    interface: str
+    quality: Quality
+    is_remote: bool = False
+    deliver: "Callable[[Any, Endpoint | None], object] | None" = None
+    kept: "deque[Any] | None" = None
+
+
+class Endpoints:
+    """Every endpoint of a world and of those it is linked to."""
+
+    def __init__(self, changed: Callable[[], object], warn: Callable[[str, str], object]) -> None:
+        """Begin with none.
+
+        Args:
+            changed: Called when one comes or goes.
+            warn: Called with a node and a sentence it should log.
+        """
+        self._changed = changed
+        self._warn = warn
+        self._by_topic: dict[str, list[Endpoint]] = {}
+
+    def add(self, endpoint: Endpoint) -> Callable[[], None]:
+        """Enter one; call what is returned to take it out again."""
+        others = self._by_topic.setdefault(endpoint.topic, [])
+        others.append(endpoint)
+        for other in others:
+            if other.role == PUBLISHER and endpoint.role == SUBSCRIPTION:
+                self._compare(other, endpoint)
+            elif other.role == SUBSCRIPTION and endpoint.role == PUBLISHER:
+                self._compare(endpoint, other)
+        self._changed()
+
+        def remove() -> None:
+            held = self._by_topic.get(endpoint.topic, [])
+            if endpoint in held:
+                held.remove(endpoint)
+                if not held:
+                    del self._by_topic[endpoint.topic]
+                self._changed()
+
+        return remove
+
+    def of(self, topic: str, role: Role) -> list[Endpoint]:
+        """The publishers or the subscriptions of a topic."""
+        return [one for one in self._by_topic.get(topic, ()) if one.role == role]
+
+    def topics(self) -> list[str]:
+        """The names of all topics somebody is entered for."""
+        return list(self._by_topic)
+
+    def _compare(self, publisher: Endpoint, subscription: Endpoint) -> None:
+        """Say on both sides when nothing will pass between two, and why."""
+        policy = conflict(publisher.quality, subscription.quality)
+        if not policy or publisher.interface != subscription.interface:
+            return
+        for told, other, what, gives in (
+            (publisher, subscription, "requesting", "sent to it"),
+            (subscription, publisher, "offering", "received from it"),
+        ):
+            if not told.is_remote:
+                self._warn(
+                    told.node,
+                    f"New {other.role} discovered on topic '/{told.topic}' (node "
+                    f"'{other.node}'), {what} incompatible QoS. No messages will be {gives}. "
+                    f"Last incompatible policy: {policy}",
+                )
