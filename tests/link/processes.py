@@ -14,7 +14,7 @@ TRIES, PAUSE = 800, 0.025
 class Process:
     """`tftool WORDS` in a process of its own; its stdout and stderr are collected."""
 
-    def __init__(self, *words, prefix=()):
+    def __init__(self, *words, prefix=(), cwd=ROOT):
         self.lines = []
         self.started = subprocess.Popen(
             [*prefix, sys.executable, "-u", "-m", "tftool", *map(str, words)],
@@ -22,7 +22,7 @@ class Process:
             stdout=subprocess.PIPE,
             stderr=subprocess.STDOUT,
             text=True,
-            cwd=ROOT,
+            cwd=cwd,
             env={**os.environ, "PYTHONPATH": str(ROOT)},
         )
         self._reader = threading.Thread(target=self._read, daemon=True)
@@ -80,14 +80,15 @@ class Process:
             self.end()
 
 
-def run(*words):
+def run(*words, cwd=ROOT):
     """Run `tftool WORDS` to its end."""
     return subprocess.run(
         [sys.executable, "-m", "tftool", *map(str, words)],
         stdin=subprocess.DEVNULL,
         capture_output=True,
         text=True,
-        cwd=ROOT,
+        cwd=cwd,
+        env={**os.environ, "PYTHONPATH": str(ROOT)},
         timeout=60,
         check=False,
     )
