@@ -185,3 +185,25 @@ def test_launched_commands_run_beside_the_nodes_on_the_wall_clock(tmp_path, caps
     assert "[INFO] [launch]: shutting down: done" in told
     assert "[INFO] [sleep-2]: process has finished cleanly" in told
     assert status == (1 if "cannot run 'no-such-command-here'" in told else 0)
+
+
+def test_a_command_that_will_not_end_is_made_to(tmp_path, capsys, monkeypatch):
+    from tftool.cli.app import main
+    from tftool.ros.launching import ending
+
+    monkeypatch.delenv("ROS_DISTRO", raising=False)
+    monkeypatch.setenv("TFTOOL_SESSION_DIR", str(tmp_path / "session"))
+    monkeypatch.setattr(ending, "PATIENCE", 0.2)
+    file = tmp_path / "a.launch.xml"
+    # Both the shell and what it runs ignore the first signal, the second one also the next.
+    file.write_text(
+        "<launch>\n"
+        "<executable shell='true' cmd=\"trap '' INT; sleep 60\" name='deaf'/>\n"
+        "<executable shell='true' cmd=\"trap '' INT TERM; sleep 60\" name='deafer'/>\n"
+        "<timer period='0.5'><shutdown reason='enough'/></timer></launch>\n"
+    )
+
+    assert main(["launch", "--host", str(file)]) == 1
+    told = capsys.readouterr().err
+    assert "[deaf-1]: process has finished cleanly" in told
+    assert "[deafer-2]: process has died, exit status -9" in told

@@ -353,6 +353,16 @@ def test_arguments_nobody_declared_are_refused():
         launch(file, seconds=1, arguments={"xyz": "a"})
 
 
+def test_an_argument_the_file_only_mentions_may_be_passed(tmp_path):
+    done = described(
+        tmp_path,
+        "LogInfo(msg=LaunchConfiguration('colour', default='red'))",
+        arguments={"colour": "blue"},
+    )
+
+    assert done.said("launch") == ["blue"]
+
+
 def test_what_goes_wrong_later_ends_the_launch(tmp_path):
     done = described(
         tmp_path,

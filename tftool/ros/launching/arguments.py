@@ -1,5 +1,6 @@
 """Arguments of launch files: which there are, which may be passed, how they are shown."""
 
+import re
 from collections.abc import Iterable, Mapping, Sequence
 from difflib import get_close_matches
 from pathlib import Path
@@ -47,14 +48,16 @@ def declared(description: LaunchDescription, context: LaunchContext) -> list[Dec
 def refuse_unknown(
     path: Path, given: Mapping[str, str], known: Sequence[DeclareLaunchArgument]
 ) -> None:
-    """Refuse arguments that a launch file does not declare.
+    """Refuse arguments that a launch file neither declares nor so much as mentions.
+
+    Some are used by a LaunchConfiguration with a default, or by a function, undeclared.
 
     Raises:
         UsageError: If there is one; the nearest that is declared is told.
     """
     names = [one.name for one in known]
     for name in given:
-        if name not in names:
+        if name not in names and not _mentions(path, name):
             near = get_close_matches(name, names, n=1)
             if near:
                 raise UsageError(
@@ -62,6 +65,11 @@ def refuse_unknown(
                 )
             there = ", ".join(names) if names else "none"
             raise UsageError(f"{path.name} declares no argument '{name}' (it declares {there})")
+
+
+def _mentions(path: Path, name: str) -> bool:
+    text = path.read_text(encoding="utf-8", errors="replace")
+    return re.search(rf"""["'\s]{re.escape(name)}["'\s)]""", text) is not None
 
 
 def shown_arguments(arguments: Sequence[DeclareLaunchArgument]) -> str:

@@ -4,9 +4,7 @@ import asyncio
 import shlex
 import signal
 import subprocess
-import sys
 from collections.abc import Callable, Iterable, Mapping, Sequence
-from contextlib import suppress
 from pathlib import Path
 from typing import Any, ClassVar
 
@@ -14,6 +12,7 @@ from tftool.errors import TftoolError, UsageError
 from tftool.ros import executables, users
 from tftool.ros.launching.arguments import declared, refuse_unknown
 from tftool.ros.launching.context import LaunchContext
+from tftool.ros.launching.ending import interrupt
 from tftool.ros.launching.events import Event, ProcessExited, ProcessStarted, Shutdown
 from tftool.ros.launching.files import load_file
 from tftool.ros.launching.nodes import Executable
@@ -92,13 +91,14 @@ class Launch(Node):
             self._look_round()
             await self._over
         finally:
+            self._closing = True
             for timer in self._timers:
                 timer.cancel()
             for running in list(self._running.values()):
                 if isinstance(running, Program):
                     self.world.remove(running)
                 elif isinstance(running, asyncio.subprocess.Process):
-                    _interrupt(running)
+                    interrupt(running)
             await asyncio.gather(*self._timers, *self._watches, return_exceptions=True)
         while any(isinstance(one, Program) for one in self._running.values()):
             self._over = asyncio.get_running_loop().create_future()
@@ -242,13 +242,14 @@ class Launch(Node):
                 cwd=command.cwd,
                 stdout=asyncio.subprocess.PIPE,
                 stderr=asyncio.subprocess.STDOUT,
+                start_new_session=True,
             )
         except OSError as error:
             self._ended(action, label, 127, f"cannot run '{command.words[0]}': {error.strerror}")
             return
         self._running[label] = process
         if self._closing:
-            _interrupt(process)
+            interrupt(process)
         if process.stdout is not None:
             async for line in process.stdout:
                 self._say("", label, line.decode(errors="replace").rstrip("\n"))
@@ -268,7 +269,7 @@ class Launch(Node):
 
     def _ended(self, action: Any, label: str, status: int, reason: str) -> None:
         self._running.pop(label, None)
-        stopped = self._closing and status in (-signal.SIGINT, -signal.SIGTERM)
+        stopped = self._closing and status in (-signal.SIGINT, -signal.SIGTERM, 130)
         if status == 0 or stopped:
             self._say("INFO", label, "process has finished cleanly")
         else:
@@ -335,10 +336,3 @@ class Launch(Node):
                     return str(program.name)
                 return self.labels.get(node.name, node.name)
         return self.labels.get(name, "launch")
-
-
-def _interrupt(process: asyncio.subprocess.Process) -> None:
-    """End a process as Ctrl-C would."""
-    if process.returncode is None:
-        with suppress(ProcessLookupError):
-            process.send_signal(signal.SIGINT if sys.platform != "win32" else signal.SIGTERM)
