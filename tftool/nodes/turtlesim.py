@@ -9,6 +9,7 @@ from tftool.messages import Clear, Color, Kill, Killed, Reset, Spawn, Spawned
 from tftool.motion.unicycle import CENTRE, TICK, Placement
 from tftool.nodes.inbox import Inbox
 from tftool.nodes.outlet import Outlet, requested_placement, require_byte
+from tftool.nodes.parameter_services import ParameterServices
 from tftool.nodes.trail import Segment, Trail
 from tftool.nodes.turtle import Turtle, require_turtle_name, shown
 from tftool.runtime.clock import Phase
@@ -132,6 +133,7 @@ class Turtlesim(Node):
             ("reset", self._on_reset, Reset),
         ):
             self.serve(self._prefix + service, handler, kind)
+        ParameterServices(self)
         start = self.clock.now()
         self._turtles, self._counter = {}, 0
         self._spawn(Placement(CENTRE, CENTRE, 0.0), "", start)

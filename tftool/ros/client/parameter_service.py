@@ -8,6 +8,9 @@ from tftool.ros.client.exceptions import ParameterNotDeclaredException
 from tftool.ros.client.node_parameters import NodeParameters, set_result
 from tftool.ros.client.parameters import Parameter
 
+# A stranger's request may name a type that is none, or a value that is not of its type.
+_REFUSALS = (ParameterNotDeclaredException, ValueError, TypeError)
+
 
 class ParameterService:
     """What a node answers to questions about its parameters."""
@@ -44,7 +47,7 @@ class ParameterService:
     def _set_one(self, message: Any) -> Any:
         try:
             return self._node.set_parameters([Parameter.from_parameter_msg(message)])[0]
-        except ParameterNotDeclaredException as error:
+        except _REFUSALS as error:
             return set_result(False, str(error))
 
     def _on_set_together(self, request: Any, response: Any) -> Any:
@@ -52,7 +55,7 @@ class ParameterService:
             response.result = self._node.set_parameters_atomically(
                 [Parameter.from_parameter_msg(one) for one in request.parameters]
             )
-        except ParameterNotDeclaredException as error:
+        except _REFUSALS as error:
             response.result = set_result(False, str(error))
         return response
 

@@ -5,11 +5,7 @@ from enum import IntEnum
 from typing import Any
 
 from tftool.interfaces.classes import INTERFACES
-
-_FIELDS = (
-    None, "bool_value", "integer_value", "double_value", "string_value", "byte_array_value",
-    "bool_array_value", "integer_array_value", "double_array_value", "string_array_value",
-)  # fmt: skip
+from tftool.interfaces.parameters import value_message, value_of
 
 
 class ParameterType(IntEnum):
@@ -112,11 +108,7 @@ class Parameter:
 
     def get_parameter_value(self) -> Any:
         """The rcl_interfaces ParameterValue."""
-        message: Any = INTERFACES.message("rcl_interfaces/ParameterValue")(type=int(self._type))
-        field = _FIELDS[self._type]
-        if field is not None and self._value is not None:
-            setattr(message, field, self._value)
-        return message
+        return value_message(self._value, int(self._type))
 
     def to_parameter_msg(self) -> Any:
         """The rcl_interfaces Parameter."""
@@ -128,13 +120,6 @@ class Parameter:
     def from_parameter_msg(cls, param_msg: Any) -> "Parameter":
         """The Parameter of an rcl_interfaces Parameter."""
         return cls(param_msg.name, ParameterType(param_msg.value.type), value_of(param_msg.value))
-
-
-def value_of(message: Any) -> Any:
-    """The Python value of an rcl_interfaces ParameterValue."""
-    field = _FIELDS[message.type]
-    value = None if field is None else getattr(message, field)
-    return value.tolist() if isinstance(value, array.array) else value
 
 
 parameter_value_to_python = value_of

@@ -1,0 +1,134 @@
+"""Quality of service between nodes of one process: who hears whom, and who is told."""
+
+import pytest
+
+
+@pytest.fixture
+def node(ros_runtime):
+    import rclpy
+
+    rclpy.init()
+    return rclpy.create_node("probe")
+
+
+def profile(**settings):
+    from rclpy.qos import DurabilityPolicy, QoSProfile, ReliabilityPolicy
+
+    latched = DurabilityPolicy.TRANSIENT_LOCAL
+    return QoSProfile(
+        depth=settings.get("depth", 5),
+        durability=latched if settings.get("latched") else DurabilityPolicy.VOLATILE,
+        reliability=ReliabilityPolicy.BEST_EFFORT
+        if settings.get("lossy")
+        else ReliabilityPolicy.RELIABLE,
+    )
+
+
+def spin(node):
+    import rclpy
+    from rclpy.task import Future
+
+    rclpy.spin_until_future_complete(node, Future(), timeout_sec=0.1)
+
+
+CASES = [
+    ({"lossy": True}, {}, "RELIABILITY"),
+    ({}, {"latched": True}, "DURABILITY"),
+    ({"lossy": True}, {"latched": True}, "RELIABILITY"),
+    ({}, {}, ""),
+    ({}, {"lossy": True}, ""),
+    ({"latched": True}, {}, ""),
+    ({"latched": True}, {"latched": True}, ""),
+]
+
+
+@pytest.mark.parametrize("publisher_first", [True, False])
+@pytest.mark.parametrize(("offered", "requested", "policy"), CASES)
+def test_two_that_do_not_fit_are_told_so_and_exchange_nothing(
+    node, ros_runtime, offered, requested, policy, publisher_first
+):
+    import rclpy
+    from std_msgs.msg import String
+
+    talker, heard = rclpy.create_node("talker"), []
+
+    def publish():
+        return talker.create_publisher(String, "chatter", profile(**offered))
+
+    def subscribe():
+        node.create_subscription(String, "chatter", heard.append, profile(**requested))
+
+    if publisher_first:
+        publisher = publish()
+        subscribe()
+    else:
+        subscribe()
+        publisher = publish()
+    publisher.publish(String(data="hello"))
+    spin(node)
+
+    assert len(heard) == (0 if policy else 1)
+    told = [text for text in ros_runtime.log() if "incompatible QoS" in text]
+    if not policy:
+        assert told == []
+        return
+    assert sorted(told) == [
+        "New publisher discovered on topic '/chatter' (node 'talker'), offering incompatible QoS. "
+        f"No messages will be received from it. Last incompatible policy: {policy}",
+        "New subscription discovered on topic '/chatter' (node 'probe'), requesting incompatible "
+        f"QoS. No messages will be sent to it. Last incompatible policy: {policy}",
+    ]
+
+
+def test_one_that_fits_is_heard_beside_one_that_does_not(node):
+    from std_msgs.msg import String
+
+    heard = []
+    node.create_subscription(String, "chatter", lambda m: heard.append(m.data), profile())
+    node.create_publisher(String, "chatter", profile(lossy=True)).publish(String(data="lost"))
+    node.create_publisher(String, "chatter", profile()).publish(String(data="sure"))
+    spin(node)
+
+    assert heard == ["sure"]
+
+
+def test_who_comes_late_gets_as_many_as_were_kept_and_nothing_of_who_has_left(node):
+    from std_msgs.msg import String
+
+    heard = []
+    keeper = node.create_publisher(String, "map", profile(latched=True, depth=2))
+    gone = node.create_publisher(String, "map", profile(latched=True))
+    for word in ("one", "two", "three"):
+        keeper.publish(String(data=word))
+    gone.publish(String(data="gone"))
+    node.destroy_publisher(gone)
+    node.create_subscription(String, "map", lambda m: heard.append(m.data), profile(latched=True))
+    node.create_subscription(String, "map", lambda m: heard.append(m.data), profile())
+    spin(node)
+
+    assert heard == ["two", "three"]
+
+
+def test_the_graph_tells_what_is_exchanged_and_who_answers(node):
+    from std_msgs.msg import String
+    from std_srvs.srv import Trigger
+
+    node.create_publisher(String, "chatter", 10)
+    node.create_service(Trigger, "go", lambda request, response: response)
+
+    assert ("/chatter", ["std_msgs/msg/String"]) in node.get_topic_names_and_types()
+    assert ("/go", ["std_srvs/srv/Trigger"]) in node.get_service_names_and_types()
+    assert node.count_publishers("chatter") == 1
+    assert node.count_subscribers("chatter") == 0
+
+
+def test_a_question_of_another_type_than_the_service_is_refused(node):
+    import rclpy
+    from std_srvs.srv import SetBool, Trigger
+
+    node.create_service(Trigger, "go", lambda request, response: response)
+    asked = node.create_client(SetBool, "go").call_async(SetBool.Request())
+    rclpy.spin_until_future_complete(node, asked, timeout_sec=1.0)
+
+    with pytest.raises(Exception, match="is of type std_srvs/srv/Trigger, the question of type"):
+        asked.result()
