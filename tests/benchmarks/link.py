@@ -4,19 +4,24 @@ The far end is a process of its own: `python -m tests.benchmarks.link READERS-WO
 is how this file starts it.
 """
 
+import contextlib
 import json
 import os
 import statistics
 import subprocess
 import sys
 import tempfile
+import threading
 import time
+from pathlib import Path
 
+from tftool.frames.buffer import Buffer
 from tftool.frames.sample import TransformStamped
 from tftool.geometry.rigid import Transform
 from tftool.link.graph import Role
 from tftool.link.membership import Options
 from tftool.link.session import Link
+from tftool.link.transforms import decode_columns, decode_transforms, encode_transforms
 from tftool.runtime.clock import WallClock, run
 from tftool.runtime.world import World
 from tftool.stamps import seconds
@@ -112,9 +117,93 @@ def measure(*, size, count, period, readers=1):
             return run(world.clock, work())
 
 
+def paths(size=20_000):
+    """Samples a second from a message of one long path: taken in at once, and one by one."""
+    payload = encode_transforms([sample_of(10**18 + step, 0) for step in range(size)])
+
+    def at_once():
+        columns = decode_columns(payload)
+        Buffer().set_transforms(
+            "world", "frame0", columns.stamps, columns.translations, columns.rotations
+        )
+
+    def one_by_one():
+        buffer = Buffer()
+        for sample in decode_transforms(payload):
+            buffer.set_transform(sample)
+
+    found = {}
+    for way in (at_once, one_by_one) * 5:
+        began = time.perf_counter()
+        way()
+        found.setdefault(way, []).append(size / (time.perf_counter() - began))
+    return max(found[at_once]), max(found[one_by_one])
+
+
+ALONE = """
+import sys
+from tftool.cli import session
+from tftool.cli.app import main
+if sys.argv[1] == "alone":
+    session._open_link = lambda choice: None
+sys.exit(main(["static", "--frame-id", "A", "--child-frame-id", "B", "--once"]))
+"""
+
+
+def opening():
+    """Seconds a command takes with a link, where another process waits, and without."""
+    found = {"linked": [], "alone": []}
+    with holding_out():
+        for way in (*found,) * 8:
+            began = time.perf_counter()
+            subprocess.run([sys.executable, "-c", ALONE, way], check=True, capture_output=True)
+            found[way].append(time.perf_counter() - began)
+    return min(found["linked"]), min(found["alone"])
+
+
+@contextlib.contextmanager
+def holding_out():
+    """A session in which nothing happens: `tftool static`, its transform published."""
+    with tempfile.TemporaryDirectory(prefix="tf") as folder:
+        os.environ["TFTOOL_SESSION_DIR"] = folder
+        words = ["static", "--frame-id", "A", "--child-frame-id", "B"]
+        with subprocess.Popen(
+            [sys.executable, "-u", "-m", "tftool", *words], stdout=subprocess.PIPE, text=True
+        ) as static:
+            static.stdout.readline()
+            yield static.pid
+            static.terminate()
+
+
+def idle(duration=5.0):
+    """The share of a core that a session takes in which nothing happens; None off Linux."""
+
+    def used():
+        fields = stat.read_text().rpartition(")")[2].split()
+        return (int(fields[11]) + int(fields[12])) / os.sysconf("SC_CLK_TCK")
+
+    with holding_out() as pid:
+        stat = Path(f"/proc/{pid}/stat")
+        if not stat.exists():
+            return None
+        pause = threading.Event()
+        pause.wait(1.0)
+        before = used()
+        pause.wait(duration)
+        return (used() - before) / duration
+
+
 def report() -> str:
     """Measure, and say it in a few lines."""
     lines = ["link, one process to another (unix sockets)"]
+    linked, alone = opening()
+    lines.append(
+        f"  a command with a link: {linked * 1e3:.0f} ms, without: {alone * 1e3:.0f} ms "
+        "(wanted: under 150 ms more)"
+    )
+    share = idle()
+    if share is not None:
+        lines.append(f"  a session in which nothing happens: {share:.1%} of a core (wanted: 2 %)")
     (steady,) = measure(size=3, count=int(100 * STEADY), period=seconds(0.01))
     lines.append(
         f"  100 Hz x 3: median {steady['median_ms']:.3f} ms, p99 {steady['p99_ms']:.3f} ms, "
@@ -130,6 +219,11 @@ def report() -> str:
     arrived = sorted(one["received"] for one in eight)
     lines.append(
         f"  100 Hz x 20 to 8 readers: {arrived[0]} to {arrived[-1]} of {int(100 * STEADY)} arrived"
+    )
+    at_once, one_by_one = paths()
+    lines.append(
+        f"  a path of 20,000 in one message: {at_once:,.0f} samples/s into the buffer at once, "
+        f"{one_by_one:,.0f} one by one"
     )
     return "\n".join(lines)
 

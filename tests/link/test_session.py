@@ -1,6 +1,7 @@
 """Two worlds, two zenoh sessions, real sockets: what one says the other hears."""
 
 import asyncio
+import math
 import shutil
 import subprocess
 
@@ -8,6 +9,7 @@ import pytest
 
 from tests.link.conftest import new_world, until
 from tftool.errors import LinkError, TftoolError
+from tftool.frames.buffer import Buffer
 from tftool.frames.sample import TransformStamped
 from tftool.geometry.rigid import Transform
 from tftool.link.graph import Role, hosts
@@ -15,6 +17,7 @@ from tftool.link.membership import Options
 from tftool.link.reach import Certificates, Reach
 from tftool.link.session import Link
 from tftool.link.topics import TF
+from tftool.link.transforms import encode_transforms
 from tftool.messages import (
     Clear,
     Color,
@@ -439,6 +442,82 @@ def test_bytes_that_are_no_message_are_counted_and_said_once():
             assert told[0].startswith(
                 "On 'tf': tf2_msgs/TFMessage refused: it announces 4294967295"
             )
+
+    play(send())
+
+
+def path(stamp, child="turtle1", parent="world", count=3000):
+    return [
+        TransformStamped(stamp + step, parent, child, Transform((float(step), 0.0, 0.0)))
+        for step in range(count)
+    ]
+
+
+def test_a_long_path_in_one_message_is_taken_in_as_if_one_by_one():
+    async def send():
+        async with Two() as two:
+            await until(lambda: two.host.graph.entities("MS", name="tf"))
+            told = []
+            two.there.buffer.listen(lambda one, static, who: told.append((one, static, who)))
+            now = two.here.clock.now()
+            sent = [*path(now), *path(now, "turtle2")]
+            # One row that nobody can take, and one of an hour ago.
+            sent[10] = TransformStamped(
+                now + 10, "world", "turtle1", Transform((math.nan, 0.0, 0.0))
+            )
+            sent.append(TransformStamped(now - seconds(3600), "world", "turtle1", Transform()))
+            outlet = two.host.publisher("tf", "tf2_msgs/msg/TFMessage", TF)
+            outlet.put(encode_transforms(sent), two.host.attachment(1, bytes(16)))
+            await until(lambda: two.guest.received)
+
+            alone = Buffer(log=lambda level, text: None)
+            expected = [one for one in sent if alone.set_transform(one)]
+            assert [one for one, _, _ in told] == expected
+            assert {(static, who) for _, static, who in told} == {(False, "publisher_00000000")}
+            for child in ("turtle1", "turtle2"):
+                ours = two.there.buffer.lookup_transform("world", child, now + 10)
+                assert ours == alone.lookup_transform("world", child, now + 10)
+            said = [one.text for one in two.there.log.records if one.node == "buffer"]
+            assert len(said) == 2
+            assert said[0].startswith("TF_NAN_INPUT")
+            assert said[1].startswith("TF_OLD_DATA")
+            # Nobody listened to the topic, so nothing was made of them there.
+            assert two.there.tf.count == 0
+
+    play(send())
+
+
+@pytest.mark.parametrize(
+    "sent",
+    [
+        [*path(seconds(1e9)), *path(seconds(1e9 + 1), parent="map")],
+        [one for number in range(60) for one in path(seconds(1e9), f"frame{number}", count=50)],
+    ],
+    ids=["two parents", "many links"],
+)
+def test_what_is_no_long_path_goes_one_by_one(sent):
+    async def send():
+        async with Two() as two:
+            await until(lambda: two.host.graph.entities("MS", name="tf"))
+            outlet = two.host.publisher("tf", "tf2_msgs/msg/TFMessage", TF)
+            outlet.put(encode_transforms(sent), two.host.attachment(1, bytes(16)))
+            await until(lambda: two.there.tf.count)
+
+            assert two.there.tf.latest.transforms == tuple(sent)
+
+    play(send())
+
+
+def test_a_large_message_that_is_none_is_refused_like_any_other():
+    async def send():
+        async with Two() as two:
+            await until(lambda: two.host.graph.entities("MS", name="tf"))
+            outlet = two.host.publisher("tf", "tf2_msgs/msg/TFMessage", TF)
+            payload = encode_transforms(path(1))
+            outlet.put(payload[:-10], two.host.attachment(1, bytes(16)))
+            await until(lambda: two.guest.refused)
+
+            assert two.there.buffer.frames() == []
 
     play(send())
 

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 import typer
 
 from tftool.errors import UsageError
+from tftool.stamps import seconds
 
 if TYPE_CHECKING:
     from tftool.nodes.teleop import Teleop
@@ -22,6 +23,10 @@ Ascii = Annotated[
 Light = Annotated[
     bool, typer.Option("--light", help="For a terminal with a light ground; m changes it.")
 ]
+
+
+SETTLED = seconds(1)
+"""When a screen knows which turtles there are."""
 
 
 def has_terminal() -> bool:
@@ -93,7 +98,9 @@ def _press_of(scene: "Scene", driver: "Teleop") -> Callable[[str], object]:
 
     def press(key: str) -> None:
         simulator, turtle = scene.simulator, driver.turtle
-        if simulator is not None and turtle not in simulator.turtles:
+        # One of another process is known by its poses: they need a moment to come.
+        settled = scene.world.clock.now() - scene.start >= SETTLED
+        if settled and simulator is not None and turtle not in simulator.turtles:
             there = ", ".join(simulator.turtles) or "none"
             raise UsageError(f"there is no turtle '{turtle}' here; there are: {there}")
         driver.press(key)

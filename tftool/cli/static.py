@@ -37,7 +37,12 @@ def static(
         str | None, typer.Option("--child-frame-id", metavar="CHILD", help="Frame it places.")
     ] = None,
     once: Annotated[
-        bool, typer.Option("--once", help="Publish, print what was published, and stop.")
+        bool,
+        typer.Option(
+            "--once",
+            help="Publish, say what, and stop. Whoever is there keeps it; who comes later does "
+            "not hear of it.",
+        ),
     ] = False,
 ) -> None:
     """Publish where CHILD is in PARENT (static_transform_publisher).

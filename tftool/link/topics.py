@@ -7,13 +7,13 @@ from tftool.errors import MalformedMessage
 from tftool.frames.sample import TransformStamped
 from tftool.link import keys
 from tftool.link.membership import Membership
-from tftool.link.transforms import decode_transforms, encode_transforms
+from tftool.link.transforms import decode_columns, decode_transforms, encode_transforms
 from tftool.link.transport import Arrived
 from tftool.link.types import TRANSFORMS, MessageType
 from tftool.runtime.endpoints import PUBLISHER, SUBSCRIPTION, Endpoint, Quality
 from tftool.runtime.topics import Topic
 from tftool.runtime.world import TransformMessage
-from tftool.stamps import as_seconds, seconds
+from tftool.stamps import Stamp, as_seconds, seconds
 
 USUAL: Final = Quality(depth=7)
 """What turtlesim offers; ours for whoever states nothing."""
@@ -23,6 +23,12 @@ TF: Final = Quality(depth=100)
 
 TF_STATIC: Final = Quality(depth=1, is_latched=True)
 """tf2's quality of /tf_static."""
+
+LARGE: Final = 256 * 1024
+"""Bytes from which a message of transforms may be taken in as arrays: whole paths at once."""
+
+LONG: Final = 64
+"""How many samples a link has in it on the average, at least, for that to pay."""
 
 YEAR: Final = seconds(365.25 * 24 * 3600)
 
@@ -259,13 +265,16 @@ class TransformBridge:
     def _arrived(self, message: Arrived) -> None:
         link = self._link
         try:
-            transforms = decode_transforms(message.payload)
             gid = keys.parse_attachment(message.attachment).gid if message.attachment else None
+            authority = link.authority(gid or _NO_SENDER, self._topic.name)
+            if self._takes_paths(message.payload, authority):
+                link.received += 1
+                return
+            transforms = decode_transforms(message.payload)
         except MalformedMessage as refusal:
             link.refuse(self._topic.name, refusal)
             return
         link.received += 1
-        authority = link.authority(gid or _NO_SENDER, self._topic.name)
         accepted = self._store(transforms, authority)
         if accepted:
             self._inbound = TransformMessage(accepted, authority)
@@ -274,16 +283,45 @@ class TransformBridge:
             finally:
                 self._inbound = None
 
+    def _takes_paths(self, payload: bytes, authority: str) -> bool:
+        """Take in long paths of few links at once; False where that would not be faster.
+
+        Raises:
+            MalformedMessage: If the bytes are no transforms.
+        """
+        # Whoever listens to the topic wants every single one, so they may as well be made.
+        listened_to = self._topic.near_subscribers > 0
+        if self.quality.is_latched or len(payload) < LARGE or listened_to:
+            return False
+        columns = decode_columns(payload)
+        paths: dict[tuple[str, str], list[int]] = {}
+        for row, link in enumerate(zip(columns.parents, columns.children, strict=True)):
+            paths.setdefault(link, []).append(row)
+        moves = len({child for _, child in paths}) < len(paths)
+        if moves or len(columns) < LONG * len(paths):
+            return False
+        self._compare_clocks(int(columns.stamps[0]), authority)
+        for (parent, child), rows in paths.items():
+            self._link.world.buffer.set_transforms(
+                parent,
+                child,
+                columns.stamps[rows],
+                columns.translations[rows],
+                columns.rotations[rows],
+                authority,
+            )
+        return True
+
     def _store(
         self, transforms: tuple[TransformStamped, ...], authority: str
     ) -> tuple[TransformStamped, ...]:
         if transforms:
-            self._compare_clocks(transforms[0], authority)
+            self._compare_clocks(transforms[0].stamp, authority)
         store = self._link.world.buffer.set_transform
         return tuple(one for one in transforms if store(one, authority))
 
-    def _compare_clocks(self, sample: TransformStamped, authority: str) -> None:
-        ahead = sample.stamp - self._link.world.clock.now()
+    def _compare_clocks(self, stamp: Stamp, authority: str) -> None:
+        ahead = stamp - self._link.world.clock.now()
         if -YEAR < ahead < YEAR:
             return
         self._link.say_once(
