@@ -136,6 +136,16 @@ def test_a_launched_node_that_dies_is_named_by_its_label(tftool, tmp_path, monke
     assert "bad.py-1: process has died, exit status 1: ZeroDivisionError" in result.out
 
 
+def test_a_launch_file_that_asks_for_what_is_not_there_fails_with_its_line(tftool, tmp_path):
+    file = tmp_path / "a.launch.xml"
+    file.write_text("<launch>\n<node pkg='pkg_tf' exec='folow'/></launch>")
+    result = tftool("check", "turtles", "--launch", file)
+
+    assert result.status == 1
+    assert f"{file}:2: package 'pkg_tf' has no executable 'folow'" in result.out
+    assert "UsageError" not in result.out
+
+
 def test_what_programs_print_stays_out_of_the_verdict(tftool, broken):
     file = broken("import math\n", "import math\nprint('hello')\n")
     result = tftool("check", "turtles", "--run", f"follower={file}", "--json")

@@ -73,6 +73,7 @@ def test_show_args_shows_defaults_that_are_still_to_be_made(tmp_path):
         "        DeclareLaunchArgument('a', default_value=LaunchConfiguration('colour')),\n"
         "        DeclareLaunchArgument('b', default_value=PathJoinSubstitution(\n"
         "            [EnvironmentVariable('ART'), 'logs'])),\n"
+        "        DeclareLaunchArgument('d', default_value=''),\n"
         "        DeclareLaunchArgument('c', description='Said.', choices=['x'])])\n"
     )
     with ros_free():
@@ -80,6 +81,7 @@ def test_show_args_shows_defaults_that_are_still_to_be_made(tmp_path):
 
     assert "(default: LaunchConfig('colour'))" in shown
     assert "(default: PathJoinSubstitution('EnvVar('ART'), 'logs''))" in shown
+    assert "'d':\n        no description given\n        (default: '')" in shown
     assert shown.endswith("    'c':\n        Said. Valid choices are: ['x']")
 
 

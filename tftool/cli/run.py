@@ -43,7 +43,8 @@ def run(
 
     The file's own imports of rclpy, tf2_ros, geometry_msgs and so on are answered by tftool.
     A package is looked for below this folder, or in the src it belongs to; nothing is built.
-    Options of this command go before FILE.
+    Options of this command go before FILE. Whether the node does what it should a scenario
+    judges: tftool check SCENARIO --run FILE.
 
     tftool run turtle_tf_broadcaster.py --ros-args -p turtlename:=turtle1
     tftool run pkg_tf turtle_following --ros-args -p source_frame:=carrot1

@@ -7,11 +7,11 @@ file takes the place of all of them.
 
 import sys
 from collections.abc import Callable, Sequence
-from contextlib import redirect_stdout, suppress
+from contextlib import redirect_stdout
 from dataclasses import dataclass, replace
 from difflib import get_close_matches
 
-from tftool.errors import NodeFailed, UsageError
+from tftool.errors import InputError, NodeFailed, UsageError
 from tftool.ros import hosting
 from tftool.ros.launching.engine import Launch
 from tftool.ros.program import Program
@@ -77,8 +77,13 @@ class Exercise:
             if not one.node:
                 self._starter(one, failures)(play.world)
         # What is on stdout is the verdict's, not what programs print.
-        with redirect_stdout(sys.stderr), suppress(NodeFailed):
-            run(clock, play.live())
+        with redirect_stdout(sys.stderr):
+            try:
+                run(clock, play.live())
+            except NodeFailed as error:
+                if isinstance(error.__cause__, UsageError | InputError):
+                    # Said of a launch file, with its line; who says it is no news.
+                    play.failure = str(error.__cause__)
         if failures:
             play.failure = "\n".join([*failures, *filter(None, [play.failure])])
         return play.verdict()

@@ -55,9 +55,9 @@ def describe(value: Any) -> str:
     """How anything that may be text shows itself before it is known."""
     if isinstance(value, Substitution):
         return value.describe()
-    if isinstance(value, Sequence) and not isinstance(value, str):
+    if isinstance(value, Sequence) and value and not isinstance(value, str):
         return " + ".join(describe(one) for one in value)
-    return repr(str(value))
+    return repr(str(value or ""))
 
 
 def is_true(text: str) -> bool:
