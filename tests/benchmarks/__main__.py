@@ -1,21 +1,38 @@
-"""Every benchmark, on demand: `python -m tests.benchmarks`."""
+"""Every benchmark, on demand: `python -m tests.benchmarks`; `--only scalar,batch` for some."""
 
+import argparse
 import platform
 
 from tests.benchmarks import batch, demo, link, scalar, start_up, turtle_world, waits
 
-REPORTS = (
-    scalar.report,
-    batch.report,
-    waits.report,
-    start_up.report,
-    turtle_world.report,
-    demo.report,
-    link.report,
-)
+REPORTS = {
+    "scalar": scalar.report,
+    "batch": batch.report,
+    "waits": waits.report,
+    "start_up": start_up.report,
+    "turtle_world": turtle_world.report,
+    "demo": demo.report,
+    "link": link.report,
+}
 """What is measured; add yours."""
 
+
+def chosen(names: str) -> list[str]:
+    """The names in a list with commas, if there are such benchmarks."""
+    asked = names.split(",")
+    if unknown := [name for name in asked if name not in REPORTS]:
+        raise argparse.ArgumentTypeError(
+            f"there is no benchmark {', '.join(unknown)}; there are {', '.join(REPORTS)}"
+        )
+    return asked
+
+
 if __name__ == "__main__":
+    parser = argparse.ArgumentParser(prog="python -m tests.benchmarks", description=__doc__)
+    parser.add_argument(
+        "--only", type=chosen, default=list(REPORTS), metavar="NAMES", help="some, with commas"
+    )
+    names = parser.parse_args().only
     print(f"{platform.python_implementation()} {platform.python_version()}, {platform.machine()}")  # noqa: T201
-    for report in REPORTS:
-        print(report())  # noqa: T201
+    for name in names:
+        print(REPORTS[name](), flush=True)  # noqa: T201

@@ -1,101 +1,293 @@
-"""One question, one sample at a time, against Debian's tf2 in Python: interleaved, as ratios."""
+"""One question, one sample at a time, against ROS 1's tf2 in Python and in C++.
 
-import json
+Every side is a process of its own that is told the same worlds and the same questions; the
+answers are compared before anything is timed, and the sides take turns.
+"""
+
+import math
 import os
 import statistics
-import subprocess
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass
 from pathlib import Path
+from random import Random
 
+from tests.benchmarks import growth, noetic
+from tests.benchmarks.sides import Side
 from tests.differential.compare import PYTHON, missing
 
 SIDE = Path(__file__).with_name("scalar_side.py")
 ROOT = Path(__file__).parents[2]
-TURNS = 15
+TURNS = 11
+MOST = 2000
+"""Questions a turn; fewer where each takes long."""
 
-# Workload, and how many times faster than Debian's ours is meant to be in the interpreter.
-WORKLOADS = {
-    "lookup, depth 2, latest": 1.5,
-    "lookup, depth 2, recent": 1.5,
-    "lookup, depth 2, any": None,
-    "lookup, depth 5, latest": None,
-    "lookup, depth 5, recent": None,
-    "lookup, depth 5, any": None,
-    "lookup, depth 5, any, 100000 samples": None,
-    "lookup, depth 20, recent": None,
-    "can, depth 5, recent": None,
-    "insert, in order": 2.0,
-    "insert, reversed": None,
-}
+SECOND = 10**9
+PERIOD = 10**7
+JITTER = 10**6
+"""No sample comes later than this after its due time."""
+
+POSES = 997
+"""So many different poses; neighbours are near, and the last one is the first one's neighbour."""
 
 
-class Process:
-    """One side, kept alive; asked in turn with the other."""
+@dataclass(frozen=True)
+class World:
+    """Links with so many samples each, a hundred a second, give or take.
 
-    def __init__(self, side: str, root: Path) -> None:
-        self.process = subprocess.Popen(
-            [PYTHON, str(SIDE), side],
-            stdin=subprocess.PIPE,
-            stdout=subprocess.PIPE,
-            text=True,
-            env={**os.environ, "PYTHONPATH": str(root)},
-        )
+    Attributes:
+        links: Parent and child of each.
+        samples: How many each link has.
+        ends: Target and source of the questions; None for frames at random.
+    """
 
-    def run(self, workload: str) -> tuple[float, list[float]]:
-        """Nanoseconds for one, and an answer."""
-        assert self.process.stdin is not None
-        assert self.process.stdout is not None
-        self.process.stdin.write(workload + "\n")
-        self.process.stdin.flush()
-        taken, answer = json.loads(self.process.stdout.readline())
-        return taken, answer
+    links: tuple[tuple[str, str], ...]
+    samples: int
+    ends: tuple[str, str] | None = None
 
-    def end(self) -> None:
-        self.process.communicate()
+    @property
+    def newest(self) -> int:
+        """A moment for which every link has data."""
+        return SECOND + (self.samples - 1) * PERIOD
+
+    def command(self) -> list[str]:
+        """What makes it."""
+        return ["make", str(self.samples), *(name for link in self.links for name in link)]
+
+    def pair(self, random: Random) -> tuple[str, str]:
+        """Target and source of a question."""
+        if self.ends is not None:
+            return self.ends
+        return random.choice(self.links)[1], random.choice(self.links)[1]
+
+
+def chain(depth: int, samples: int = 1000) -> World:
+    """f0 ← f1 ← …; of two links, the two turtles in their world."""
+    if depth == 2:
+        links = (("world", "turtle1"), ("world", "turtle2"))
+        return World(links, samples, ("turtle2", "turtle1"))
+    links = tuple((f"f{n}", f"f{n + 1}") for n in range(depth))
+    return World(links, samples, ("f0", f"f{depth}"))
+
+
+def tree(frames: int, children: int) -> World:
+    """So many frames, each with so many children."""
+    return World(tuple((f"f{(n - 1) // children}", f"f{n}") for n in range(1, frames)), 3)
+
+
+@dataclass(frozen=True)
+class Workload:
+    """What is measured.
+
+    Attributes:
+        name: What it is called in the table.
+        world: Where it is asked; None for inserts, which begin with an empty buffer.
+        command: Given a turn's random numbers, what each side is told.
+        wanted: How many times faster than tf2_py: interpreted, compiled.
+    """
+
+    name: str
+    world: World | None
+    command: Callable[[Random], list[str]]
+    wanted: tuple[float | None, float | None] = (None, None)
+
+
+def questions(
+    name: str,
+    world: World,
+    back: int,
+    wanted: tuple[float | None, float | None] = (None, None),
+    kind: str = "lookup",
+) -> Workload:
+    """Questions about the last so many periods; 0 for the latest."""
+    count = max(100, MOST // (1 + len(world.links) // 25)) if world.ends else MOST
+
+    def command(random: Random) -> list[str]:
+        words = ["ask", kind]
+        for _ in range(count):
+            target, source = world.pair(random)
+            moment = world.newest - 1 - random.randrange(back * PERIOD) if back else 0
+            words += [target, str(moment), source]
+            if kind == "full":
+                # Where it was up to five seconds before, by what does not move.
+                words += [str(max(moment - random.randrange(5 * SECOND), 2 * SECOND)), "f0"]
+        return words
+
+    return Workload(name, world, command, wanted)
+
+
+def inserts(
+    name: str,
+    order: Callable[[Random], list[int]],
+    asked: int,
+    wanted: tuple[float | None, float | None] = (None, None),
+) -> Workload:
+    """Samples of one link, which remembers ten seconds, in some order of their numbers."""
+
+    def command(random: Random) -> list[str]:
+        words = ["insert", str(SECOND + asked * PERIOD + PERIOD // 2)]
+        for number in order(random):
+            words += [str(SECOND + number * PERIOD), str(number % POSES)]
+        return words
+
+    return Workload(name, None, command, wanted)
+
+
+def _late(random: Random) -> list[int]:
+    """Every second one up to four seconds after its turn."""
+    due = [number + (random.randrange(400) if number % 2 else 0) for number in range(MOST)]
+    return sorted(range(MOST), key=due.__getitem__)
+
+
+def workloads() -> Iterator[Workload]:
+    """All of them; those that share a world follow each other.
+
+    The longest chain of histories comes first: it is what memory is measured by.
+    """
+    for samples in (100_000, 1000):
+        for depth in (5, 2, 20, 100):
+            world = chain(depth, samples)
+            name = f"any time in {samples:,} samples, {depth} links"
+            yield questions(name, world, samples - 2)
+            if samples == 1000 and depth == 5:
+                yield questions("latest, 5 links", world, 0)
+                yield questions("just now, 5 links", world, 2, (None, 2.5))
+                yield questions("time travel, 5 links", world, 300, kind="full")
+                yield questions("whether it can, 5 links", world, 2, kind="can")
+            if samples == 1000 and depth == 2:
+                yield questions("latest, 2 links", world, 0, (1.5, None))
+                yield questions("just now, 2 links", world, 2, (1.5, 4.0))
+            if samples == 1000 and depth == 20:
+                yield questions("just now, 20 links", world, 2, (None, 1.3))
+    for samples in (100, 10_000):
+        yield questions(f"any time in {samples:,} samples, 5 links", chain(5, samples), samples - 2)
+    for frames in (100, 1000, 10_000):
+        yield questions(f"{frames:,} frames, any two siblings", tree(frames, frames), 1)
+    yield questions("10,000 frames, any two of a tree", tree(10_000, 4), 1)
+    yield inserts("a sample set, in order", lambda random: list(range(MOST)), 1500, (2.0, 2.0))
+    yield inserts("a sample set, every second one late", _late, 1500)
+    yield inserts("a sample set, in reverse order", lambda random: list(range(900, 0, -1)), 500)
 
 
 def agree(one: list[float], other: list[float]) -> bool:
-    """Whether two answers are the same, up to the quaternion's sign."""
-    near = [abs(a - b) <= 1e-9 * max(1.0, abs(b)) for a, b in zip(one, other, strict=True)]
-    far = [abs(a + b) <= 1e-9 for a, b in zip(one[3:], other[3:], strict=True)]
-    return all(near) or (all(near[:3]) and all(far))
+    """Whether two lists of answers are the same, up to each quaternion's sign."""
+    if len(one) != len(other):
+        return False
+    width = 7 if len(one) % 7 == 0 else 1
+    for first in range(0, len(one), width):
+        mine, theirs = one[first : first + width], other[first : first + width]
+        near = [abs(a - b) <= 1e-9 * max(1.0, abs(b)) for a, b in zip(mine, theirs, strict=True)]
+        far = [abs(a + b) <= 1e-9 for a, b in zip(mine[3:], theirs[3:], strict=True)]
+        if not (all(near) or (width == 7 and all(near[:3]) and all(far))):
+            return False
+    return True
+
+
+def poses() -> list[str]:
+    """The poses samples are made of: a round trip, turning twice about a tilted axis."""
+    words = ["poses"]
+    for number in range(POSES):
+        angle = 2.0 * math.pi * number / POSES
+        half = angle
+        tilt = 0.1 * math.sin(angle)
+        rest = math.sqrt(1.0 - tilt * tilt)
+        place = (1.0 + math.cos(angle), 2.0 + math.sin(angle), 0.1 * math.sin(2.0 * angle))
+        turn = (tilt, 0.0, math.sin(half) * rest, math.cos(half) * rest)
+        words += map(repr, (*place, *turn))
+    return words
+
+
+def sides() -> tuple[dict[str, Side], list[str]]:
+    """Those that are there, and a line for each that is not."""
+    lines = []
+    roots = {"ours": ROOT}
+    if folder := os.environ.get("TFTOOL_COMPILED"):
+        roots["compiled"] = Path(folder)
+    else:
+        lines.append("  compiled: left out, TFTOOL_COMPILED names no folder it is installed in")
+    found = {
+        name: Side([PYTHON, SIDE, "ours"], {**os.environ, "PYTHONPATH": str(root)})
+        for name, root in roots.items()
+    }
+    if reason := missing():
+        lines.append(f"  tf2_py: left out, {reason}")
+    else:
+        found["tf2_py"] = Side([PYTHON, SIDE, "debian"])
+    program = noetic.program()
+    if isinstance(program, str):
+        lines.append(f"  tf2 C++: left out, {program}")
+    else:
+        found["tf2 C++"] = Side([program])
+    return found, lines
+
+
+def together(found: dict[str, Side], command: list[str]) -> list[list[float]]:
+    """What each side answers, all at work at once."""
+    for side in found.values():
+        side.tell(*command)
+    return [side.answer() for side in found.values()]
+
+
+def measure(found: dict[str, Side], workload: Workload) -> list[float] | str:
+    """Nanoseconds for one, the median of turns, for each side; or why they are not compared."""
+    random = Random(workload.name)
+    first, *others = (answer[1:] for answer in together(found, workload.command(random)))
+    if not all(agree(first, other) for other in others):
+        return f"  {workload.name:<42} answers differ"
+    turns = []
+    for _ in range(TURNS):
+        command = workload.command(random)
+        turns.append([side.ask(*command)[0] for side in found.values()])
+    return [statistics.median(taken) for taken in zip(*turns, strict=True)]
+
+
+def row(workload: Workload, taken: dict[str, float]) -> str:
+    """One line of the table."""
+    line = f"  {workload.name:<42}" + "".join(f"{one:10.0f}" for one in taken.values())
+    theirs = taken.get("tf2_py")
+    if theirs is None:
+        return line
+    for name, wanted in zip(("ours", "compiled"), workload.wanted, strict=True):
+        if name in taken:
+            ratio = theirs / taken[name]
+            line += f"  {ratio:6.2f}" + (
+                "" if wanted is None else f" ({wanted:g}{' missed' if ratio < wanted else ''})"
+            )
+    return line
 
 
 def report() -> str:
-    """Measure, and say it in a few lines.
+    """Measure, and say it as a table.
 
     With TFTOOL_COMPILED naming a folder the compiled build was installed into
     (`TFTOOL_COMPILE=1 pip install --target FOLDER .`), that build is measured in the same turns.
     """
-    if reason := missing():
-        return f"scalar path: nothing to compare with, {reason}"
-    roots = {"ours": ROOT}
-    if folder := os.environ.get("TFTOOL_COMPILED"):
-        roots["compiled"] = Path(folder)
-    sides = {name: Process("ours", root) for name, root in roots.items()}
-    sides["tf2_py"] = Process("debian", ROOT)
+    found, absent = sides()
     lines = [
-        f"scalar path, nanoseconds (median of {TURNS} turns each, {PYTHON})",
-        f"  {'':<40}" + "".join(f"{name:>10}" for name in sides) + "   times as fast",
+        f"scalar path, nanoseconds (median of {TURNS} turns each, {PYTHON}); "
+        "how many times as fast as tf2_py (wanted)",
+        f"  {'':<42}" + "".join(f"{name:>10}" for name in found),
+        *absent,
     ]
-    for workload, wanted in WORKLOADS.items():
-        *answers, theirs = [side.run(workload)[1] for side in sides.values()]
-        if not all(agree(answer, theirs) for answer in answers):
-            lines.append(f"  {workload:<40} answers differ: {answers} and {theirs}")
+    table: dict[str, dict[str, float]] = {}
+    together(found, poses())
+    at: World | None = None
+    memory = ""
+    for workload in workloads():
+        if workload.world is not None and workload.world != at:
+            at = workload.world
+            sizes = [answer[0] for answer in together(found, at.command())]
+            if not memory:
+                memory = f"  {'bytes a sample':<42}" + "".join(f"{size:10.1f}" for size in sizes)
+        taken = measure(found, workload)
+        if isinstance(taken, str):
+            lines.append(taken)
             continue
-        turns = [[side.run(workload)[0] for side in sides.values()] for _ in range(TURNS)]
-        taken = [statistics.median(side) for side in zip(*turns, strict=True)]
-        ratios = [taken[-1] / mine for mine in taken[:-1]]
-        goal = "" if wanted is None else f"   meant: {wanted}" + (" missed" * (ratios[0] < wanted))
-        lines.append(
-            f"  {workload:<40}"
-            + "".join(f"{one:10.0f}" for one in taken)
-            + "   "
-            + " ".join(f"{ratio:6.2f}" for ratio in ratios)
-            + goal
-        )
-    for side in sides.values():
+        table[workload.name] = dict(zip(found, taken, strict=True))
+        lines.append(row(workload, table[workload.name]))
+    for side in found.values():
         side.end()
-    return "\n".join(lines)
+    return "\n".join([*lines, memory + "   wanted: 70 at most", *growth.lines(table)])
 
 
 if __name__ == "__main__":

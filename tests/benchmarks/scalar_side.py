@@ -1,19 +1,18 @@
 """One side of the scalar benchmark, in a process of its own: `scalar_side.py ours|debian`.
 
-Reads the name of a workload a line from standard input; writes nanoseconds for one question,
-and for comparison an answer. Both sides run on the system's Python, where Debian's tf2 lives.
+Takes the commands of `noetic.cpp`, and answers as it does. Both sides run on the system's
+Python, where Debian's tf2 lives; imports nothing but what is measured.
 """
 
-import json
-import math
+import gc
+import itertools
+import os
 import sys
 import time
-from random import Random
 
 SECOND = 10**9
 PERIOD = 10**7
-SAMPLES = 1000
-ROUNDS = 2000
+SHOWN = 20
 
 
 class Ours:
@@ -28,16 +27,30 @@ class Ours:
 
     def make(self, cache):
         made = self.buffer(cache)
-        return made, made.set_transform, made.lookup_transform, made.can_transform
+        self.put = made.set_transform
+        self.calls = {
+            "lookup": made.lookup_transform,
+            "full": made.lookup_transform_full,
+            "can": made.can_transform,
+        }
 
-    def sample(self, parent, child, stamp, place, turn):
-        return self.stamped(stamp, parent, child, self.pose(place, turn))
+    def transform(self, numbers):
+        return self.pose(numbers[:3], numbers[3:])
+
+    def sample(self, parent, child, stamp, transform):
+        return self.stamped(stamp, parent, child, transform)
+
+    # What is sent once is a value; nothing to copy.
+    fresh = sample
 
     def moment(self, stamp):
         return stamp
 
     def numbers(self, found):
         return [*found.transform.translation, *found.transform.rotation]
+
+    def yes(self, found):
+        return [int(found)]
 
 
 class Debian:
@@ -46,22 +59,37 @@ class Debian:
     def __init__(self):
         import genpy
         import tf2_py
-        from geometry_msgs.msg import TransformStamped
+        from geometry_msgs.msg import Transform, TransformStamped
 
-        self.genpy, self.tf2_py, self.message = genpy, tf2_py, TransformStamped
+        self.genpy, self.tf2_py = genpy, tf2_py
+        self.message, self.pose = TransformStamped, Transform
+        self.reused = TransformStamped()
 
     def make(self, cache):
         made = self.tf2_py.BufferCore(self.genpy.Duration(cache // SECOND, cache % SECOND))
-        return made, made.set_transform, made.lookup_transform_core, made.can_transform_core
+        self.put = made.set_transform
+        self.calls = {
+            "lookup": made.lookup_transform_core,
+            "full": made.lookup_transform_full_core,
+            "can": made.can_transform_core,
+        }
 
-    def sample(self, parent, child, stamp, place, turn):
-        made = self.message()
-        made.header.stamp = self.moment(stamp)
-        made.header.frame_id = parent
-        made.child_frame_id = child
-        to, by = made.transform.translation, made.transform.rotation
-        to.x, to.y, to.z = place
-        by.x, by.y, by.z, by.w = turn
+    def transform(self, numbers):
+        made = self.pose()
+        to, by = made.translation, made.rotation
+        to.x, to.y, to.z, by.x, by.y, by.z, by.w = numbers
+        return made
+
+    def sample(self, parent, child, stamp, transform):
+        return self._fill(self.message(), parent, child, stamp, transform)
+
+    def fresh(self, parent, child, stamp, transform):
+        return self._fill(self.reused, parent, child, stamp, transform)
+
+    def _fill(self, made, parent, child, stamp, transform):
+        made.header.frame_id, made.child_frame_id = parent, child
+        made.header.stamp.secs, made.header.stamp.nsecs = divmod(stamp, SECOND)
+        made.transform = transform
         return made
 
     def moment(self, stamp):
@@ -71,89 +99,87 @@ class Debian:
         to, by = found.transform.translation, found.transform.rotation
         return [to.x, to.y, to.z, by.x, by.y, by.z, by.w]
 
-
-def turn(angle):
-    tilt = 0.1 * math.sin(angle)
-    rest = math.sqrt(1.0 - tilt * tilt)
-    return (tilt, 0.0, math.sin(angle / 2) * rest, math.cos(angle / 2) * rest)
+    def yes(self, found):
+        return [int(found[0])]
 
 
-class Side:
-    """The workloads, for either side."""
+class Commands:
+    """What a side is told to do."""
 
     def __init__(self, side):
         self.side = side
-        self.worlds = {}
 
-    def world(self, depth, samples):
-        """A chain of that depth, or for 2 the two turtles."""
-        if (depth, samples) not in self.worlds:
-            made = self.side.make(10**15)
-            pairs = [(f"f{n}", f"f{n + 1}") for n in range(depth)]
-            if depth == 2:
-                pairs = [("world", "turtle1"), ("world", "turtle2")]
-            for k in range(samples):
-                for n, (parent, child) in enumerate(pairs):
-                    sample = self.side.sample(
-                        parent,
-                        child,
-                        SECOND + k * PERIOD,
-                        (1.0 + k * 1e-3, 2.0 + n, 0.0),
-                        turn(k * 0.01 + n),
-                    )
-                    made[1](sample, "benchmark")
-            self.worlds[depth, samples] = made
-        ends = ("turtle2", "turtle1") if depth == 2 else ("f0", f"f{depth}")
-        return self.worlds[depth, samples], ends
+    def poses(self, *words):
+        numbers = [float(word) for word in words]
+        self.table = [numbers[first : first + 7] for first in range(0, len(numbers), 7)]
+        return [0]
 
-    def ask(self, depth, samples, when, call=2):
-        made, (target, source) = self.world(depth, samples)
-        random = Random(depth)
-        newest = SECOND + (samples - 1) * PERIOD
-        back = {"latest": 0, "recent": 2 * PERIOD, "any": (samples - 2) * PERIOD}[when]
-        if when == "latest":
-            moments = [0] * ROUNDS
+    def make(self, samples, *names):
+        links = list(zip(names[::2], names[1::2]))  # noqa: B905
+        transforms = [self.side.transform(numbers) for numbers in self.table]
+        self.side.make(10**15)
+        before = memory()
+        put, fresh, count = self.side.put, self.side.fresh, len(transforms)
+        for k in range(int(samples)):
+            for n, (parent, child) in enumerate(links):
+                stamp = SECOND + k * PERIOD + (k * 7919 + n * 104729) % 500 * 1000
+                put(fresh(parent, child, stamp, transforms[(k + 131 * n) % count]), "benchmark")
+        return [(memory() - before) / (int(samples) * len(links))]
+
+    def ask(self, kind, *words):
+        moment, call = self.side.moment, self.side.calls[kind]
+        if kind == "full":
+            asked = [
+                (target, moment(int(when)), source, moment(int(then)), fixed)
+                for target, when, source, then, fixed in zip(*[iter(words)] * 5)  # noqa: B905
+            ]
+            started = time.process_time()
+            for target, when, source, then, fixed in asked:
+                call(target, when, source, then, fixed)
         else:
-            moments = [newest - 1 - random.randrange(back) for _ in range(ROUNDS)]
-        moments = [self.side.moment(moment) for moment in moments]
-        question = made[call]
-        started = time.process_time()
-        for moment in moments:
-            question(target, source, moment)
+            asked = [
+                (target, source, moment(int(when)))
+                for target, when, source in zip(*[iter(words)] * 3)  # noqa: B905
+            ]
+            started = time.process_time()
+            for target, source, when in asked:
+                call(target, source, when)
         taken = time.process_time() - started
-        return taken / ROUNDS * 1e9, self.side.numbers(made[2](target, source, moments[-1]))
+        told = self.side.yes if kind == "can" else self.side.numbers
+        shown = (told(call(*question)) for question in asked[:SHOWN])
+        return [taken / len(asked) * 1e9, *itertools.chain.from_iterable(shown)]
 
-    def insert(self, order):
-        made = self.side.make(10 * SECOND)
-        numbers = range(ROUNDS) if order == "in order" else range(900, 0, -1)
+    def insert(self, asked, *words):
         samples = [
+            # Each with numbers of its own, as they come in from outside.
             self.side.sample(
-                "world", "turtle1", SECOND + k * PERIOD, (1.0 + k, 2.0, 3.0), turn(k * 0.01)
+                "world", "turtle1", int(stamp), self.side.transform(self.table[int(pose)])
             )
-            for k in numbers
+            for stamp, pose in zip(words[::2], words[1::2])  # noqa: B905
         ]
-        put = made[1]
+        self.side.make(10 * SECOND)
+        put = self.side.put
         started = time.process_time()
         for sample in samples:
             put(sample, "benchmark")
         taken = time.process_time() - started
-        inside = 1500 if order == "in order" else 500
-        asked = self.side.moment(SECOND + inside * PERIOD + PERIOD // 2)
-        return taken / len(samples) * 1e9, self.side.numbers(made[2]("world", "turtle1", asked))
+        found = self.side.calls["lookup"]("world", "turtle1", self.side.moment(int(asked)))
+        return [taken / len(samples) * 1e9, *self.side.numbers(found)]
 
-    def run(self, name):
-        kind, *words = name.split(", ")
-        if kind == "insert":
-            return self.insert(words[0])
-        depth = int(words[0].removeprefix("depth "))
-        samples = int(words[2].split()[0]) if len(words) > 2 else SAMPLES
-        return self.ask(depth, samples, words[1], 3 if kind == "can" else 2)
+
+def memory():
+    """Bytes of this process that are in memory."""
+    gc.collect()
+    with open("/proc/self/statm") as file:
+        return int(file.read().split()[1]) * os.sysconf("SC_PAGESIZE")
 
 
 def main():
-    side = Side({"ours": Ours, "debian": Debian}[sys.argv[1]]())
+    commands = Commands({"ours": Ours, "debian": Debian}[sys.argv[1]]())
     for line in sys.stdin:
-        sys.stdout.write(json.dumps(side.run(line.strip())) + "\n")
+        command, *words = line.split()
+        answer = getattr(commands, command)(*words)
+        sys.stdout.write(" ".join(map(repr, answer)) + "\n")
         sys.stdout.flush()
 
 
