@@ -143,8 +143,11 @@ def test_a_mistake_in_xml_is_told_with_its_line_and_the_nearest_word(tmp_path, t
         ("from launch_ros.actions import ComposableNodeContainer", "of launch_ros.actions is not"),
         ("from launch_ros.actions import LifecycleNode", "of launch_ros.actions is not covered"),
         ("from launch.event_handlers import OnProcessIO", "of launch.event_handlers is not"),
-        ("from launch.actions import GroupActon", "here; did you mean 'GroupAction'?"),
-        ("import launch_ros.events", "launch_ros.events is not covered: of launch_ros there is"),
+        ("from launch.actions import GroupActon", "is not covered; did you mean 'GroupAction'?"),
+        (
+            "import launch_ros.events",
+            "launch_ros.events is not covered: launch_ros has",
+        ),
     ],
 )
 def test_what_is_not_covered_is_named_with_where_to_look(tmp_path, line, told):

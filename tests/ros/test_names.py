@@ -12,16 +12,46 @@ from tftool.ros import names
         ("~/scan", "space/node/scan"),
         ("~", "space/node"),
         ("a/b", "space/a/b"),
+        ("{node}/b", "space/node/b"),
+        ("/{namespace}/b", "space/b"),
     ],
 )
 def test_names_expand_to_full_ones(given, full):
     assert names.expand(given, "node", "/space") == full
 
 
-@pytest.mark.parametrize("given", ["", "a//b", "1a", "a b", "a-b"])
-def test_what_is_no_name_is_refused(given):
+@pytest.mark.parametrize(
+    ("given", "at"),
+    [
+        ("", 0),
+        ("a//b", 2),
+        ("1a", 0),
+        ("a b", 1),
+        ("a-b", 1),
+        ("a/1", 2),
+        ("~a", 0),
+        ("a/~", 2),
+        ("{no}", 0),
+        ("{node", 0),
+        ("a/", 1),
+        ("/", 0),
+    ],
+)
+def test_what_is_no_name_is_refused(given, at):
+    assert names.topic_name_fault(given).at == at
     with pytest.raises(UsageError, match="cannot be a topic's"):
         names.expand(given, "node", "")
+
+
+def test_the_tutorials_names_are_names():
+    for name in ("~", "~/pose", "/turtle1/pose", "a_b/c1", "{node}/x", "_hidden"):
+        assert names.topic_name_fault(name) is None
+    assert names.namespace_fault("/") is None
+    assert names.namespace_fault("/robot1/arm") is None
+    assert names.namespace_fault("robot").at == 0
+    assert names.namespace_fault("/a-b").at == 2
+    assert names.node_name_fault("").reason == "it must not be empty"
+    assert names.node_name_fault("2x").reason == "it must not start with a digit"
 
 
 def test_ros_arguments_are_taken_out_of_a_nodes_own():

@@ -200,3 +200,112 @@ def test_parameters_show_compare_and_travel_as_messages(ros_runtime):
     assert get_parameter_value("2.5").double_value == 2.5
     assert Parameter.Type.DOUBLE_ARRAY.check([])
     assert not Parameter.Type.DOUBLE.check(object())
+
+
+def test_a_client_asks_for_and_changes_another_nodes_parameters(node, tmp_path):
+    import rclpy
+    from rcl_interfaces.msg import ParameterType
+    from rclpy.parameter import Parameter
+    from rclpy.parameter_client import AsyncParameterClient
+
+    robot = rclpy.create_node("robot")
+    robot.declare_parameter("speed", 1.0)
+    robot.declare_parameter("arm.length", 2)
+    file = tmp_path / "p.yaml"
+    file.write_text(
+        "/**: {ros__parameters: {speed: 4.0}}\nrobot: {ros__parameters: {speed: 5.0}}\n"
+    )
+    client = AsyncParameterClient(node, "robot")
+    executor = rclpy.get_global_executor()
+    executor.add_node(robot)
+    told = []
+
+    def answer(future):
+        rclpy.spin_until_future_complete(node, future, timeout_sec=5.0)
+        return future.result()
+
+    assert client.wait_for_services(timeout_sec=1.0)
+    assert client.services_are_ready()
+    assert "arm.length" in answer(client.list_parameters(["arm"])).result.names
+    assert answer(client.get_parameters(["speed"])).values[0].double_value == 1.0
+    assert (
+        answer(client.get_parameter_types(["arm.length"])).types[0]
+        == ParameterType.PARAMETER_INTEGER
+    )
+    assert answer(client.describe_parameters(["speed"])).descriptors[0].name == "speed"
+    change = [Parameter("speed", value=2.5)]
+    assert answer(client.set_parameters(change, callback=told.append)).results[0].successful
+    assert told[0].result().results[0].successful
+    assert robot.get_parameter("speed").value == 2.5
+    wrong = [Parameter("speed", value=3.0), Parameter("arm.length", value="long")]
+    assert not answer(client.set_parameters_atomically(wrong)).result.successful
+    assert robot.get_parameter("speed").value == 2.5
+    assert answer(client.load_parameter_file(str(file))).results[0].successful
+    assert robot.get_parameter("speed").value == 5.0
+    assert answer(client.load_parameter_file_atomically(str(file), True)).result.successful
+    assert not answer(client.delete_parameters(["speed"])).results[0].successful
+    assert not AsyncParameterClient(node, "nobody").wait_for_services(timeout_sec=0.1)
+
+
+def test_who_listens_hears_of_every_change_of_a_parameter(node):
+    import rclpy
+    from rclpy.parameter import Parameter
+    from rclpy.parameter_client import AsyncParameterClient
+    from rclpy.parameter_event_handler import ParameterEventHandler
+
+    robot = rclpy.create_node("robot", namespace="hall")
+    robot.declare_parameter("speed", 1.0)
+    handler = ParameterEventHandler(node)
+    heard = []
+    one = handler.add_parameter_callback(
+        "speed", "hall/robot", lambda p: heard.append(("speed", p.value.double_value))
+    )
+    every = handler.add_parameter_event_callback(
+        lambda e: heard.append((e.node, [p.name for p in handler.get_parameters_from_event(e)]))
+    )
+    own = AsyncParameterClient(node, "robot").on_parameter_event(
+        lambda e: heard.append([p.name for p in e.deleted_parameters])
+    )
+
+    def spin():
+        for _ in range(8):
+            rclpy.spin_once(node, timeout_sec=0)
+
+    robot.set_parameters([Parameter("speed", value=2.0)])
+    spin()
+    assert heard == [("speed", 2.0), ("/hall/robot", ["speed"]), []]
+    heard.clear()
+    handler.remove_parameter_callback(one)
+    node.destroy_subscription(own)
+    robot.declare_parameter("name", "r2")
+    node.declare_parameter("mine", 1)
+    spin()
+    assert heard == [("/hall/robot", ["name"]), ("/probe", ["mine"])]
+    heard.clear()
+    handler.remove_parameter_event_callback(every)
+    with pytest.raises(RuntimeError, match="exist"):
+        handler.remove_parameter_event_callback(every)
+    handler.destroy()
+    robot.undeclare_parameter("name")
+    spin()
+    assert heard == []
+    assert handler.configure_nodes_filter()
+    assert not handler.configure_nodes_filter(["/robot"])
+
+
+def test_a_parameter_file_is_read_as_messages(node, tmp_path):
+    from rclpy.parameter import parameter_dict_from_yaml_file
+
+    file = tmp_path / "p.yaml"
+    file.write_text(
+        "/**: {ros__parameters: {all: 1}}\n"
+        "robot: {ros__parameters: {arm: {length: 2.0}}}\n"
+        "other: {ros__parameters: {speed: 3}}\n"
+    )
+
+    assert sorted(parameter_dict_from_yaml_file(str(file))) == ["arm.length", "speed"]
+    chosen = parameter_dict_from_yaml_file(str(file), True, ["/robot"], namespace="x")
+    assert {name: p.value.double_value for name, p in chosen.items()} == {
+        "x.all": 0.0,
+        "x.arm.length": 2.0,
+    }

@@ -61,10 +61,58 @@ def test_a_node_knows_its_names(ros_runtime):
     assert node.resolve_topic_name("scan") == "/robot1/scan"
     assert node.resolve_topic_name("/scan") == "/scan"
     assert node.resolve_topic_name("~/scan") == "/robot1/probe/scan"
-    with pytest.raises(Exception, match="'2 fast' cannot be a node's name"):
-        rclpy.create_node("2 fast")
-    with pytest.raises(Exception, match="'a//b' cannot be a topic's"):
-        node.resolve_topic_name("a//b")
+    assert node.resolve_topic_name("{ns}/{node}/scan") == "/robot1/robot1/probe/scan"
+
+
+@pytest.mark.parametrize(
+    ("use", "refusal", "told"),
+    [
+        (
+            lambda rclpy, node: rclpy.create_node("2 fast"),
+            "InvalidNodeNameException",
+            "Invalid node name: only letters, digits and '_' are allowed:\n  '2 fast'\n    ^",
+        ),
+        (
+            lambda rclpy, node: rclpy.create_node("n", namespace="a//b"),
+            "InvalidNamespaceException",
+            "Invalid namespace: there must be something between two '/':\n  '/a//b'\n      ^",
+        ),
+        (
+            lambda rclpy, node: node.resolve_topic_name("a/2b"),
+            "InvalidTopicNameException",
+            "Invalid topic name: no part may start with a digit:\n  'a/2b'\n     ^",
+        ),
+        (
+            lambda rclpy, node: node.resolve_service_name("a~"),
+            "InvalidServiceNameException",
+            "Invalid service name: '~' must come first, with a '/' behind it:\n  'a~'\n    ^",
+        ),
+    ],
+)
+def test_what_is_no_name_is_shown_with_the_place(node, use, refusal, told):
+    import rclpy
+    from rclpy import exceptions
+
+    with pytest.raises(exceptions.NameValidationException) as refused:
+        use(rclpy, node)
+
+    assert type(refused.value) is getattr(exceptions, refusal)
+    assert str(refused.value) == told
+
+
+def test_what_is_destroyed_is_used_no_more(node):
+    from rclpy.exceptions import InvalidHandle
+    from std_msgs.msg import Int32
+
+    sender = node.create_publisher(Int32, "numbers", 10)
+    assert node.destroy_publisher(sender)
+    assert not node.destroy_publisher(sender)
+    with pytest.raises(InvalidHandle, match="publisher of '/numbers' is destroyed"):
+        sender.publish(Int32())
+    node.destroy_node()
+    node.destroy_node()
+    with pytest.raises(InvalidHandle, match="node 'probe' is destroyed"):
+        node.create_timer(1.0, print)
 
 
 def test_ros_args_rename_nodes_topics_and_set_parameters(ros_runtime):

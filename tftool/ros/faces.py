@@ -12,18 +12,25 @@ from functools import cache
 _TABLE = """
 rclpy: client.core: init shutdown try_shutdown ok spin spin_once spin_until_future_complete
 rclpy: client.core: create_node get_global_executor get_default_context logging
+rclpy: client.core: InitContextManager Context
+rclpy: client.parameters: Parameter
+rclpy: client.signals: SignalHandlerOptions
+rclpy: client.utilities: get_rmw_implementation_identifier
 rclpy.node: client.node: Node
 rclpy.node: client.parameters: Parameter
+rclpy.node: client.node_graph: NodeNameNonExistentError
 rclpy.context: client.context: Context
 rclpy.time: client.time: Time
 rclpy.duration: client.time: Duration Infinite
-rclpy.clock: client.time: Clock ROSClock ClockType
+rclpy.clock: client.time: Clock ROSClock ClockType ClockChange JumpHandle JumpThreshold TimeJump
 rclpy.clock_type: client.time: ClockType
 rclpy.constants: client.time: S_TO_NS
 rclpy.timer: client.time: Rate
 rclpy.timer: client.timers: Timer TimerInfo
 rclpy.publisher: client.topics: Publisher
-rclpy.subscription: client.topics: Subscription
+rclpy.subscription: client.topics: Subscription MessageInfo
+rclpy.topic_endpoint_info: client.endpoints: TopicEndpointInfo TopicEndpointTypeEnum
+rclpy.wait_for_message: client.waiting: wait_for_message
 rclpy.client: client.services: Client
 rclpy.service: client.services: Service
 rclpy.guard_condition: client.entities: GuardCondition
@@ -38,8 +45,16 @@ rclpy.logging: client.logging: get_logger_effective_level get_logging_severity_f
 rclpy.impl.rcutils_logger: client.logging: RcutilsLogger
 rclpy.impl.logging_severity: client.logging: LoggingSeverity
 rclpy.parameter: client.parameters: Parameter parameter_value_to_python get_parameter_value
+rclpy.parameter: client.parameters: parameter_dict_from_yaml_file PARAMETER_SEPARATOR_STRING
+rclpy.parameter_client: client.parameter_client: AsyncParameterClient
+rclpy.parameter_event_handler: client.parameter_events: ParameterEventHandler
+rclpy.parameter_event_handler: client.parameter_events: ParameterCallbackHandle
+rclpy.parameter_event_handler: client.parameter_events: ParameterEventCallbackHandle
 rclpy.exceptions: client.exceptions: NotInitializedException ROSInterruptException
 rclpy.exceptions: client.exceptions: NameValidationException InvalidHandle ParameterException
+rclpy.exceptions: client.exceptions: InvalidNamespaceException InvalidNodeNameException
+rclpy.exceptions: client.exceptions: InvalidTopicNameException InvalidServiceNameException
+rclpy.exceptions: client.exceptions: NoTypeSupportImportedException
 rclpy.exceptions: client.exceptions: ParameterNotDeclaredException
 rclpy.exceptions: client.exceptions: ParameterAlreadyDeclaredException
 rclpy.exceptions: client.exceptions: InvalidParameterException InvalidParameterTypeException
@@ -49,6 +64,7 @@ rclpy.qos: client.qos: QoSProfile HistoryPolicy ReliabilityPolicy DurabilityPoli
 rclpy.qos: client.qos: LivelinessPolicy QoSHistoryPolicy QoSReliabilityPolicy
 rclpy.qos: client.qos: QoSDurabilityPolicy QoSLivelinessPolicy QoSPresetProfiles
 rclpy.qos: client.qos: InvalidQoSProfileException qos_profile_system_default
+rclpy.qos: client.qos: qos_profile_unknown qos_profile_best_available QoSPolicyKind
 rclpy.qos: client.qos: qos_profile_sensor_data qos_profile_services_default
 rclpy.qos: client.qos: qos_profile_parameters qos_profile_parameter_events
 rclpy.qos: client.qos: qos_profile_action_status_default
@@ -60,7 +76,13 @@ rclpy.action.server: client.action_server: ActionServer ServerGoalHandle GoalRes
 rclpy.action.server: client.action_server: CancelResponse
 rclpy.signals: client.signals: SignalHandlerOptions
 rclpy.utilities: client.utilities: remove_ros_args ok get_default_context timeout_sec_to_nsec
-rclpy.utilities: client.utilities: get_rmw_implementation_identifier
+rclpy.utilities: client.utilities: get_rmw_implementation_identifier shutdown try_shutdown
+rclpy.expand_topic_name: client.validation: expand_topic_name
+rclpy.validate_full_topic_name: client.validation: validate_full_topic_name
+rclpy.validate_namespace: client.validation: validate_namespace
+rclpy.validate_node_name: client.validation: validate_node_name
+rclpy.validate_parameter_name: client.validation: validate_parameter_name
+rclpy.validate_topic_name: client.validation: validate_topic_name
 message_filters: client.message_filters: Subscriber Cache TimeSynchronizer SimpleFilter
 message_filters: client.message_filters: ApproximateTimeSynchronizer
 tf2_py: tf.buffer: BufferCore

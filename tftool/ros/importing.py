@@ -11,7 +11,6 @@ import threading
 from collections import UserList
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
-from difflib import get_close_matches
 from importlib.abc import Loader, MetaPathFinder
 from pathlib import Path
 from types import ModuleType
@@ -21,11 +20,7 @@ from tftool.errors import UsageError
 from tftool.interfaces.classes import INTERFACES
 from tftool.ros import faces, fibers
 from tftool.ros.shims import builtins_for_users
-
-WHERE_TO_LOOK = (
-    "the table 'The tutorial, line by line' in tftool's README says what runs without ROS; "
-    "with a sourced ROS 2 the real module is used"
-)
+from tftool.ros.uncovered import missing_module, missing_name
 
 
 def real_ros() -> str:
@@ -49,13 +44,7 @@ class _Face(ModuleType):
     def __getattr__(self, name: str) -> Any:
         if name.startswith("__"):
             raise AttributeError(name)
-        known = ", ".join(self._known) or "nothing by itself, only modules below it"
-        near = get_close_matches(name, self._known, n=1)
-        hint = f"; did you mean '{near[0]}'?" if near else "."
-        sentence = (
-            f"'{name}' of {self.__name__} is not covered: {self.__name__} has {known} here{hint} "
-            f"{WHERE_TO_LOOK[0].upper()}{WHERE_TO_LOOK[1:]}"
-        )
+        sentence = missing_name(self.__name__, name, self._known)
         if _is_import_from(sys._getframe(1)):
             try:
                 # `from package import module` asks for an attribute first.
@@ -129,12 +118,7 @@ class _Finder(MetaPathFinder):
             below = any(name.startswith(f"{fullname}.") for name in known)
             return _spec(fullname, is_package=below)
         if package in known:
-            covered = ", ".join(sorted(n for n in known if n.startswith(f"{package}.")))
-            raise ModuleNotFoundError(
-                f"{fullname} is not covered: of {package} there is {covered or package} here; "
-                f"{WHERE_TO_LOOK}",
-                name=fullname,
-            )
+            raise ModuleNotFoundError(missing_module(fullname), name=fullname)
         if not self.roots:
             return None
         search = list(path) if path is not None else [str(root) for root in self.roots]

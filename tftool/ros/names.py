@@ -8,12 +8,26 @@ from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
 from difflib import get_close_matches
 from pathlib import Path
-from typing import Any
+from typing import Any, NamedTuple
 
 from tftool.errors import InputError, UsageError
 
-_NODE_NAME = re.compile(r"[A-Za-z_][A-Za-z0-9_]*")
-_TOPIC_NAME = re.compile(r"(/|~/?|)([A-Za-z_{}][A-Za-z0-9_{}]*)?(/[A-Za-z_{}][A-Za-z0-9_{}]*)*")
+_STRANGE = re.compile(r"[^A-Za-z0-9_]")
+_STRANGE_IN_TOPIC = re.compile(r"[^A-Za-z0-9_/~{}]")
+_DIGIT_FIRST = re.compile(r"(?<![^/])[0-9]")
+_SUBSTITUTION = re.compile(r"\{([^{}]*)\}")
+
+
+class Fault(NamedTuple):
+    """Why a name is none.
+
+    Attributes:
+        reason: What a name must be like.
+        at: Where it is not.
+    """
+
+    reason: str
+    at: int
 
 
 @dataclass(frozen=True, slots=True)
@@ -72,16 +86,62 @@ def join(namespace: str, name: str) -> str:
     return f"{namespace.strip('/')}/{name}".strip("/")
 
 
+def node_name_fault(name: str) -> Fault | None:
+    """Why ROS 2 refuses a node's name, None if it takes it."""
+    strange = _STRANGE.search(name)
+    if not name:
+        return Fault("it must not be empty", 0)
+    if strange is not None:
+        return Fault("only letters, digits and '_' are allowed", strange.start())
+    return Fault("it must not start with a digit", 0) if name[0].isdigit() else None
+
+
+def namespace_fault(namespace: str) -> Fault | None:
+    """Why ROS 2 refuses an absolute namespace, None if it takes it."""
+    if not namespace.startswith("/"):
+        return Fault("it must start with '/'", 0)
+    strange = re.search(r"[^A-Za-z0-9_/]", namespace)
+    if strange is not None:
+        return Fault("only letters, digits, '_' and '/' are allowed", strange.start())
+    return None if namespace == "/" else _fault_of_parts(namespace)
+
+
+def topic_name_fault(name: str) -> Fault | None:
+    """Why ROS 2 refuses a relative, absolute or private topic's name, None if it takes it."""
+    strange = _STRANGE_IN_TOPIC.search(name)
+    if not name:
+        return Fault("it must not be empty", 0)
+    if strange is not None:
+        return Fault("only letters, digits, '_' and '/' are allowed", strange.start())
+    if "~" in name[1:] or (name.startswith("~") and not name.startswith("~/") and name != "~"):
+        return Fault("'~' must come first, with a '/' behind it", name.rindex("~"))
+    for found in _SUBSTITUTION.finditer(name):
+        if found[1] not in ("node", "ns", "namespace"):
+            return Fault("of substitutions there are {node}, {ns} and {namespace}", found.start())
+    plain = _SUBSTITUTION.sub(lambda found: "_" * len(found[0]), name)
+    if "{" in plain or "}" in plain:
+        return Fault("a brace has no partner", re.search("[{}]", plain).start())  # type: ignore[union-attr]
+    return _fault_of_parts(plain)
+
+
+def _fault_of_parts(name: str) -> Fault | None:
+    if name.endswith("/"):
+        return Fault("it must not end with '/'", len(name) - 1)
+    if "//" in name:
+        return Fault("there must be something between two '/'", name.index("//") + 1)
+    digit = _DIGIT_FIRST.search(name)
+    return None if digit is None else Fault("no part may start with a digit", digit.start())
+
+
 def check_node_name(name: str) -> None:
     """Refuse what ROS 2 refuses as a node's name.
 
     Raises:
         UsageError: If it is no name.
     """
-    if not _NODE_NAME.fullmatch(name):
-        raise UsageError(
-            f"'{name}' cannot be a node's name: letters, digits and '_', not starting with a digit"
-        )
+    fault = node_name_fault(name)
+    if fault is not None:
+        raise UsageError(f"'{name}' cannot be a node's name: {fault.reason}")
 
 
 def expand(given: str, name: str, namespace: str) -> str:
@@ -95,11 +155,11 @@ def expand(given: str, name: str, namespace: str) -> str:
     Raises:
         UsageError: If it can be no topic's name.
     """
-    if not given or not _TOPIC_NAME.fullmatch(given):
-        raise UsageError(
-            f"'{given}' cannot be a topic's or service's name: letters, digits, '_' between "
-            "single '/', no part starting with a digit"
-        )
+    fault = topic_name_fault(given)
+    if fault is not None:
+        raise UsageError(f"'{given}' cannot be a topic's or service's name: {fault.reason}")
+    known = {"node": name, "ns": namespace.strip("/"), "namespace": namespace.strip("/")}
+    given = _SUBSTITUTION.sub(lambda found: known[found[1]], given)
     if given.startswith("/"):
         return given.strip("/")
     if given.startswith("~"):

@@ -10,6 +10,7 @@ from tftool.errors import InputError, UsageError
 from tftool.ros import fibers, importing, program
 from tftool.ros.fibers import place_of_error
 from tftool.ros.shims import builtins_for_users
+from tftool.ros.uncovered import missing_package
 
 
 def file_body(path: Path) -> Callable[[], None]:
@@ -104,5 +105,8 @@ def sentence_of(error: BaseException) -> str:
     if isinstance(error, InputError | UsageError | fibers.StuckError):
         return str(error)
     what = f"{type(error).__name__}: {error}" if str(error) else type(error).__name__
+    if isinstance(error, ModuleNotFoundError) and error.name and str(error).endswith("'"):
+        # Python's own sentence, which ends after the name.
+        what += f"; {missing_package(error.name.partition('.')[0])}"
     place = place_of_error(error.__traceback__)
     return what if place is None else f"{what}\n    {place}"

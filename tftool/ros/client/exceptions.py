@@ -37,8 +37,47 @@ class ConditionReachedException(Exception):
     """An executor's condition came true."""
 
 
+class NoTypeSupportImportedException(Exception):
+    """Something that is no message, service or action type is used as one."""
+
+    def __init__(self, *args: object) -> None:
+        super().__init__("no type_support imported", *args)
+
+
 class NameValidationException(Exception):
-    """A name is not valid."""
+    """A name is not valid; shown with a caret below the place."""
+
+    def __init__(self, name_type: str, name: str, error_msg: str, invalid_index: int) -> None:
+        caret = " " * invalid_index + "^"
+        super().__init__(f"Invalid {name_type}: {error_msg}:\n  '{name}'\n   {caret}")
+
+
+class InvalidNamespaceException(NameValidationException):
+    """A namespace is not valid."""
+
+    def __init__(self, name: str, error_msg: str, invalid_index: int) -> None:
+        super().__init__("namespace", name, error_msg, invalid_index)
+
+
+class InvalidNodeNameException(NameValidationException):
+    """A node's name is not valid."""
+
+    def __init__(self, name: str, error_msg: str, invalid_index: int) -> None:
+        super().__init__("node name", name, error_msg, invalid_index)
+
+
+class InvalidTopicNameException(NameValidationException):
+    """A topic's name is not valid."""
+
+    def __init__(self, name: str, error_msg: str, invalid_index: int) -> None:
+        super().__init__("topic name", name, error_msg, invalid_index)
+
+
+class InvalidServiceNameException(NameValidationException):
+    """A service's name is not valid."""
+
+    def __init__(self, name: str, error_msg: str, invalid_index: int) -> None:
+        super().__init__("service name", name, error_msg, invalid_index)
 
 
 class InvalidHandle(Exception):

@@ -9,6 +9,8 @@ from collections.abc import Callable
 from typing import Any
 
 from tftool.ros import names
+from tftool.ros.client.exceptions import InvalidHandle
+from tftool.ros.client.validation import validate_topic_name
 from tftool.ros.program import Program, ProgramNode
 from tftool.runtime.clock import Phase
 from tftool.runtime.endpoints import PUBLISHER, Endpoint
@@ -72,15 +74,26 @@ class Member:
             self.program.name = f"{name} (program)"
         return ProgramNode(self.program, name)
 
-    def full(self, name: str, *, remap: bool = True) -> str:
-        """A topic's or service's full name, without its leading slash."""
+    def full(self, name: str, *, remap: bool = True, is_service: bool = False) -> str:
+        """A topic's or service's full name, without its leading slash.
+
+        Raises:
+            NameValidationException: If it can be none.
+        """
+        validate_topic_name(name, is_service=is_service)
         full = names.expand(name, self.name, self.namespace)
         return self.options.remapped(full, self.name, self.namespace) if remap else full
 
     # What it has
 
     def keep(self, make: Callable[[], Any]) -> Any:
-        """Make a thing on the loop's thread, and have executors serve it."""
+        """Make a thing on the loop's thread, and have executors serve it.
+
+        Raises:
+            InvalidHandle: If the node is destroyed.
+        """
+        if self._destroyed:
+            raise InvalidHandle(f"node '{self.name}' is destroyed: it can have nothing new")
 
         def made() -> Any:
             entity = make()
@@ -90,15 +103,17 @@ class Member:
 
         return self.program.ask(made)
 
-    def forget(self, entity: Any) -> None:
-        """Withdraw one of its things."""
+    def forget(self, entity: Any) -> bool:
+        """Withdraw one of its things; whether it was one."""
 
-        def drop() -> None:
+        def drop() -> bool:
+            if entity not in self.entities:
+                return False
+            self.entities.remove(entity)
             entity.withdraw()
-            if entity in self.entities:
-                self.entities.remove(entity)
+            return True
 
-        self.program.ask(drop)
+        return bool(self.program.ask(drop))
 
     def leave(self) -> None:
         """Withdraw everything, from the program's thread."""

@@ -1,10 +1,12 @@
 """rclpy's Node."""
 
 from collections.abc import Callable, Iterator, Sequence
+from functools import partial
 from typing import Any, TypeVar
 
 from tftool.interfaces.classes import Message
 from tftool.ros import names, program
+from tftool.ros.client import parameter_events
 from tftool.ros.client.context import Context, context_of
 from tftool.ros.client.entities import Entity, GuardCondition
 from tftool.ros.client.exceptions import NotInitializedException
@@ -19,6 +21,7 @@ from tftool.ros.client.services import Client, Service
 from tftool.ros.client.time import Clock, Rate, ROSClock
 from tftool.ros.client.timers import Timer, period_of
 from tftool.ros.client.topics import Publisher, Subscription
+from tftool.ros.client.validation import validate_namespace, validate_node_name
 
 E = TypeVar("E", bound=Entity)
 
@@ -50,9 +53,10 @@ class Node(NodeGraph, NodeParameters):
         if cli_args:
             options = _with_arguments(options, cli_args)
         name = options.name or node_name
-        names.check_node_name(name)
+        validate_node_name(name)
         given = namespace if options.namespace is None else options.namespace
         place = (given or "").strip("/")
+        validate_namespace(f"/{place}")
         self._default_callback_group = MutuallyExclusiveCallbackGroup()
         self._clock = ROSClock()
         self._logger = RcutilsLogger(names.join(place, name).replace("/", "."))
@@ -64,6 +68,7 @@ class Node(NodeGraph, NodeParameters):
             parameter_overrides or (),
             allow_undeclared_parameters,
             automatically_declare_parameters_from_overrides,
+            partial(parameter_events.tell, self._tftool),
         )
         if start_parameter_services:
             for below, kind, answer in ParameterService(self).services():
@@ -133,7 +138,9 @@ class Node(NodeGraph, NodeParameters):
         """A topic's full name, after remapping."""
         return f"/{self._tftool.full(topic, remap=not only_expand)}"
 
-    resolve_service_name = resolve_topic_name
+    def resolve_service_name(self, service: str, *, only_expand: bool = False) -> str:
+        """A service's full name, after remapping."""
+        return f"/{self._tftool.full(service, remap=not only_expand, is_service=True)}"
 
     # What it has
 
@@ -202,7 +209,7 @@ class Node(NodeGraph, NodeParameters):
     ) -> Client:
         """Something to ask a service with."""
         _require_service(srv_type)
-        full = self._tftool.full(srv_name)
+        full = self._tftool.full(srv_name, is_service=True)
         group = callback_group or self._default_callback_group
         return self.__keep(lambda: Client(self._tftool, srv_type, srv_name, full, group))
 
@@ -218,7 +225,7 @@ class Node(NodeGraph, NodeParameters):
         """Answer a service by `callback(request, response)`."""
         _require_service(srv_type)
         _require_callable(callback)
-        full = self._tftool.full(srv_name)
+        full = self._tftool.full(srv_name, is_service=True)
         group = callback_group or self._default_callback_group
         return self.__keep(lambda: Service(self._tftool, srv_type, srv_name, full, callback, group))
 
@@ -238,8 +245,7 @@ class Node(NodeGraph, NodeParameters):
         return kept
 
     def __destroy(self, entity: Any) -> bool:
-        self._tftool.forget(entity)
-        return True
+        return self._tftool.forget(entity)
 
     destroy_publisher = destroy_subscription = destroy_timer = __destroy
     destroy_client = destroy_service = destroy_guard_condition = destroy_rate = __destroy

@@ -28,7 +28,9 @@ class NodeParameters:
         overrides: Iterable[Parameter],
         undeclared: bool,
         automatic: bool,
+        tell: Callable[..., None],
     ) -> None:
+        self._tell_of_parameters = tell
         self._parameters: dict[str, Parameter] = {}
         self._descriptors: dict[str, Any] = {}
         self._parameter_overrides: dict[str, Any] = {one.name: one.value for one in overrides}
@@ -120,6 +122,7 @@ class NodeParameters:
             del self._descriptors[name]
             raise InvalidParameterValueException(name, value, reason)
         self._parameters[name] = parameter
+        self._tell_of_parameters(new=[parameter])
         return parameter
 
     def undeclare_parameter(self, name: str) -> None:
@@ -127,6 +130,7 @@ class NodeParameters:
         self.__known(name)
         if self._descriptors[name].read_only:
             raise ParameterImmutableException(name)
+        self._tell_of_parameters(deleted=[self._parameters[name]])
         del self._parameters[name], self._descriptors[name]
 
     # Reading
@@ -222,12 +226,15 @@ class NodeParameters:
                 return set_result(False, reason)
         result = self.__ask_callbacks(changes)
         if result.successful:
+            new = [one for one in changes if one.name not in self._parameters]
             for one in changes:
                 self._parameters[one.name] = one
                 if one.name not in self._descriptors:
                     self._descriptors[one.name] = INTERFACES.message(
                         "rcl_interfaces/ParameterDescriptor"
                     )(name=one.name, type=int(one.type_), dynamic_typing=True)
+            changed = [one for one in changes if one not in new]
+            self._tell_of_parameters(new=new, changed=changed)
             for after in self._post_set_parameters_callbacks:
                 after(changes)
         return result

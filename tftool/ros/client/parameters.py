@@ -2,10 +2,12 @@
 
 import array
 from enum import IntEnum
+from pathlib import Path
 from typing import Any
 
 from tftool.interfaces.classes import INTERFACES
 from tftool.interfaces.parameters import value_message, value_of
+from tftool.ros import names
 
 
 class ParameterType(IntEnum):
@@ -127,6 +129,34 @@ parameter_value_to_python = value_of
 
 def get_parameter_value(string_value: str) -> Any:
     """The ParameterValue that a text means, read as YAML."""
-    from tftool.ros.names import yaml_value
+    return Parameter("", value=names.yaml_value(string_value)).get_parameter_value()
 
-    return Parameter("", value=yaml_value(string_value)).get_parameter_value()
+
+PARAMETER_SEPARATOR_STRING = "."
+
+
+def parameter_dict_from_yaml_file(
+    parameter_file: str,
+    use_wildcard: bool = False,
+    target_nodes: list[str] | None = None,
+    namespace: str = "",
+) -> dict[str, Any]:
+    """The messages of the parameters in a file, by name.
+
+    Args:
+        parameter_file: Its path.
+        use_wildcard: Whether what stands under `/**` counts, too.
+        target_nodes: The nodes whose parameters are wanted, all without any.
+        namespace: What the parameters' names begin with.
+
+    Raises:
+        InputError: If it cannot be read, is no YAML, or is laid out otherwise.
+    """
+    wanted = {one.strip("/") for one in target_nodes or ()}
+    found = {}
+    for node, name, value in names.read_parameters(Path(parameter_file)):
+        chosen = use_wildcard if node == "**" else not wanted or node in wanted
+        if chosen:
+            full = f"{namespace}{PARAMETER_SEPARATOR_STRING}{name}" if namespace else name
+            found[full] = Parameter(full, value=value).to_parameter_msg()
+    return found

@@ -78,8 +78,26 @@ QoSDurabilityPolicy = DurabilityPolicy
 QoSLivelinessPolicy = LivelinessPolicy
 
 
+class QoSPolicyKind(IntEnum):
+    """Which setting of a profile something is about."""
+
+    INVALID = 1
+    DURABILITY = 2
+    DEADLINE = 4
+    LIVELINESS = 8
+    RELIABILITY = 16
+    HISTORY = 32
+    LIFESPAN = 64
+    DEPTH = 128
+    LIVELINESS_LEASE_DURATION = 256
+    AVOID_ROS_NAMESPACE_CONVENTIONS = 512
+
+
 class InvalidQoSProfileException(Exception):
     """A profile that says too little, or contradicts itself."""
+
+    def __init__(self, *args: object) -> None:
+        super().__init__("Invalid QoSProfile", *args)
 
 
 class QoSProfile:
@@ -131,6 +149,20 @@ def quality_of(profile: QoSProfile) -> Quality:
     )
 
 
+def profile_from(quality: Quality) -> QoSProfile:
+    """The profile of an endpoint somewhere, as far as it is known."""
+    return QoSProfile(
+        depth=quality.depth,
+        history=HistoryPolicy.KEEP_ALL if quality.keeps_all else HistoryPolicy.KEEP_LAST,
+        reliability=ReliabilityPolicy.RELIABLE
+        if quality.is_reliable
+        else ReliabilityPolicy.BEST_EFFORT,
+        durability=DurabilityPolicy.TRANSIENT_LOCAL
+        if quality.is_latched
+        else DurabilityPolicy.VOLATILE,
+    )
+
+
 def profile_of(given: "QoSProfile | int") -> QoSProfile:
     """The profile that a profile or a bare depth means.
 
@@ -154,10 +186,24 @@ qos_profile_parameter_events = QoSProfile(depth=1000)
 qos_profile_action_status_default = QoSProfile(depth=1, durability=DurabilityPolicy.TRANSIENT_LOCAL)
 
 
+qos_profile_unknown = QoSProfile(
+    history=HistoryPolicy.UNKNOWN,
+    reliability=ReliabilityPolicy.UNKNOWN,
+    durability=DurabilityPolicy.UNKNOWN,
+    liveliness=LivelinessPolicy.UNKNOWN,
+)
+qos_profile_best_available = QoSProfile(
+    depth=10,
+    reliability=ReliabilityPolicy.BEST_AVAILABLE,
+    durability=DurabilityPolicy.BEST_AVAILABLE,
+    liveliness=LivelinessPolicy.BEST_AVAILABLE,
+)
+
+
 class QoSPresetProfiles(Enum):
     """Ready profiles; `.value` is the profile."""
 
-    UNKNOWN = QoSProfile(depth=0)
+    UNKNOWN = qos_profile_unknown
     DEFAULT = qos_profile_default
     SYSTEM_DEFAULT = qos_profile_system_default
     SENSOR_DATA = qos_profile_sensor_data
@@ -165,6 +211,12 @@ class QoSPresetProfiles(Enum):
     PARAMETERS = qos_profile_parameters
     PARAMETER_EVENTS = qos_profile_parameter_events
     ACTION_STATUS_DEFAULT = qos_profile_action_status_default
+    BEST_AVAILABLE = qos_profile_best_available
+
+    @classmethod
+    def short_keys(cls) -> list[str]:
+        """The names, lower case."""
+        return [member.lower() for member in cls.__members__]
 
     @classmethod
     def get_from_short_key(cls, name: str) -> QoSProfile:

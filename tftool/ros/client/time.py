@@ -216,9 +216,17 @@ class Clock:
         self._program.sleep(rel_time.nanoseconds)
         return not self._program.interrupted
 
-    def create_jump_callback(self, *args: Any, **kwargs: Any) -> Any:
-        """Register for jumps in time; this clock never jumps."""
-        return _Nothing()
+    def create_jump_callback(
+        self, threshold: "JumpThreshold", *, pre_callback: Any = None, post_callback: Any = None
+    ) -> "JumpHandle":
+        """Register for jumps in time; this clock never jumps.
+
+        Raises:
+            ValueError: If there is neither of the callbacks.
+        """
+        if pre_callback is None and post_callback is None:
+            raise ValueError("One of pre_callback or post_callback must be callable")
+        return JumpHandle()
 
     def __repr__(self) -> str:
         return f"Clock(clock_type={self._clock_type.name})"
@@ -231,9 +239,55 @@ class ROSClock(Clock):
         super().__init__(clock_type=ClockType.ROS_TIME)
 
 
-class _Nothing:
+class ClockChange(IntEnum):
+    """How a clock's source of time changed."""
+
+    ROS_TIME_NO_CHANGE = 1
+    ROS_TIME_ACTIVATED = 2
+    ROS_TIME_DEACTIVATED = 3
+    SYSTEM_TIME_NO_CHANGE = 4
+
+
+class JumpThreshold:
+    """From which jump on one wants to hear of it."""
+
+    def __init__(
+        self,
+        *,
+        min_forward: Duration | None,
+        min_backward: Duration | None,
+        on_clock_change: bool = True,
+    ) -> None:
+        if min_forward is not None and min_forward.nanoseconds <= 0:
+            raise ValueError("min_forward must be a positive non-zero duration")
+        if min_backward is not None and min_backward.nanoseconds >= 0:
+            raise ValueError("min_backward must be a negative non-zero duration")
+        if min_forward is None and min_backward is None and not on_clock_change:
+            raise ValueError("At least one threshold must be set")
+        self.min_forward = min_forward
+        self.min_backward = min_backward
+        self.on_clock_change = on_clock_change
+
+
+class TimeJump:
+    """One jump of a clock."""
+
+    def __init__(self, clock_change: ClockChange, delta: Duration) -> None:
+        self.clock_change = clock_change
+        self.delta = delta
+
+
+class JumpHandle:
+    """A registration for jumps."""
+
     def unregister(self) -> None:
-        """Nothing to withdraw."""
+        """Nothing to withdraw: no clock here jumps."""
+
+    def __enter__(self) -> "JumpHandle":
+        return self
+
+    def __exit__(self, *args: object) -> None:
+        self.unregister()
 
 
 class Rate:

@@ -3,11 +3,12 @@
 import inspect
 from collections import deque
 from collections.abc import Callable
-from typing import Any
+from typing import Any, TypedDict
 
 from tftool.interfaces.classes import Message
 from tftool.ros import values
 from tftool.ros.client.entities import Entity, Work
+from tftool.ros.client.exceptions import InvalidHandle
 from tftool.ros.client.member import Member
 from tftool.ros.client.qos import HistoryPolicy, QoSProfile, quality_of
 from tftool.runtime.endpoints import PUBLISHER, SUBSCRIPTION, Endpoint, conflict
@@ -28,6 +29,7 @@ class Publisher(Entity):
         self._converter = values.converter(kind, full)
         self._topic = member.world.topic(full, self._converter.kind)
         quality = quality_of(profile)
+        self._withdrawn = False
         latched = quality.is_latched and full not in values.TF_TOPICS
         self._endpoint = Endpoint(
             PUBLISHER,
@@ -49,7 +51,10 @@ class Publisher(Entity):
 
         Raises:
             TypeError: If it is of another type.
+            InvalidHandle: If this publisher is destroyed.
         """
+        if self._withdrawn:
+            raise InvalidHandle(f"the publisher of '{self.topic_name}' is destroyed")
         if not isinstance(msg, self.msg_type):
             raise TypeError(f"Expected {self.msg_type}, got {type(msg)}")
         member = self.member
@@ -77,7 +82,17 @@ class Publisher(Entity):
     def withdraw(self) -> None:
         """Leave the graph; what was kept for those who come late goes along."""
         super().withdraw()
+        self._withdrawn = True
         self._leave()
+
+
+class MessageInfo(TypedDict):
+    """What a callback with two arguments is told about its message; stamps in nanoseconds."""
+
+    source_timestamp: int
+    received_timestamp: int
+    publication_sequence_number: int | None
+    reception_sequence_number: int | None
 
 
 class Subscription(Entity):
@@ -150,7 +165,13 @@ class Subscription(Entity):
             message = self._converter.unpack(value)
             if self._takes_info:
                 return self.callback(
-                    message, {"source_timestamp": stamp, "received_timestamp": stamp}
+                    message,
+                    MessageInfo(
+                        source_timestamp=stamp,
+                        received_timestamp=stamp,
+                        publication_sequence_number=None,
+                        reception_sequence_number=None,
+                    ),
                 )
             return self.callback(message)
 

@@ -4,14 +4,16 @@ import sys
 from collections.abc import Sequence
 
 from tftool.ros import names
-from tftool.ros.client.core import get_default_context, ok
+from tftool.ros.client.core import get_default_context, ok, shutdown, try_shutdown
 
 __all__ = [
     "get_default_context",
     "get_rmw_implementation_identifier",
     "ok",
     "remove_ros_args",
+    "shutdown",
     "timeout_sec_to_nsec",
+    "try_shutdown",
 ]
 
 

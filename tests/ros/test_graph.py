@@ -1,0 +1,117 @@
+"""What a node can ask about the others, and single messages waited for."""
+
+import pytest
+
+from tftool.nodes.turtlesim import Turtlesim
+
+
+@pytest.fixture
+def node(ros_runtime):
+    import rclpy
+
+    rclpy.init()
+    return rclpy.create_node("probe")
+
+
+def test_every_node_is_named_with_its_place(node, ros_runtime):
+    import rclpy
+
+    rclpy.create_node("arm", namespace="robot/left")
+    ros_runtime.ask(lambda: Turtlesim(ros_runtime.world, "sim") and None)
+
+    assert node.get_node_names() == ["probe", "arm", "sim"]
+    assert node.get_node_names_and_namespaces()[:2] == [("probe", "/"), ("arm", "/robot/left")]
+    assert node.get_node_names_and_namespaces_with_enclaves()[1] == ("arm", "/robot/left", "/")
+    assert node.wait_for_node("/robot/left/arm", 1.0)
+    assert not node.wait_for_node("nobody", 1.0)
+
+
+def test_topics_are_told_by_types_ends_and_numbers(node, ros_runtime):
+    import rclpy
+    from geometry_msgs.msg import Twist
+    from rclpy.qos import DurabilityPolicy, QoSProfile
+    from rclpy.topic_endpoint_info import TopicEndpointTypeEnum
+    from std_msgs.msg import String
+
+    other = rclpy.create_node("other", namespace="robot")
+    profile = QoSProfile(depth=3, durability=DurabilityPolicy.TRANSIENT_LOCAL)
+    other.create_publisher(String, "/chatter", profile)
+    node.create_subscription(String, "chatter", print, 10)
+    ros_runtime.ask(lambda: Turtlesim(ros_runtime.world, "sim") and None)
+    ros_runtime.sleep(0.1)
+
+    topics = dict(node.get_topic_names_and_types())
+    assert topics["/chatter"] == ["std_msgs/msg/String"]
+    assert topics["/turtle1/pose"] == ["turtlesim/msg/Pose"]
+    assert topics["/turtle1/cmd_vel"] == [Twist.interface__]
+    (sender,) = node.get_publishers_info_by_topic("chatter")
+    assert (sender.node_name, sender.node_namespace) == ("other", "/robot")
+    assert sender.topic_type == "std_msgs/msg/String"
+    assert sender.endpoint_type is TopicEndpointTypeEnum.PUBLISHER
+    assert sender.qos_profile.depth == 3
+    (reader,) = node.get_subscriptions_info_by_topic("/chatter")
+    assert reader.node_name == "probe"
+    assert reader.endpoint_type is TopicEndpointTypeEnum.SUBSCRIPTION
+    assert node.get_publishers_info_by_topic("silent") == []
+    assert (node.count_publishers("chatter"), node.count_subscribers("chatter")) == (1, 1)
+    # The simulator declares nothing, but sends.
+    assert node.count_publishers("turtle1/pose") == 1
+    assert node.count_subscribers("turtle1/cmd_vel") == 1
+    assert node.count_publishers("silent") == node.count_subscribers("silent") == 0
+
+
+def test_what_one_node_has_can_be_asked_by_its_name(node):
+    import rclpy
+    from rclpy.node import NodeNameNonExistentError
+    from std_msgs.msg import String
+    from std_srvs.srv import Trigger
+
+    other = rclpy.create_node("other", namespace="robot", start_parameter_services=False)
+    other.create_publisher(String, "said", 10)
+    other.create_subscription(String, "/heard", print, 10)
+    other.create_service(Trigger, "go", lambda request, response: response)
+    other.create_client(Trigger, "/stop")
+
+    ask = ("other", "/robot")
+    string, trigger = ["std_msgs/msg/String"], ["std_srvs/srv/Trigger"]
+    assert node.get_publisher_names_and_types_by_node(*ask) == [("/robot/said", string)]
+    assert node.get_subscriber_names_and_types_by_node(*ask) == [("/heard", string)]
+    assert node.get_service_names_and_types_by_node(*ask) == [("/robot/go", trigger)]
+    assert node.get_client_names_and_types_by_node(*ask) == [("/stop", trigger)]
+    assert ("/robot/go", trigger) in node.get_service_names_and_types()
+    assert (node.count_services("/robot/go"), node.count_services("/stop")) == (1, 0)
+    assert (node.count_clients("/robot/go"), node.count_clients("/stop")) == (0, 1)
+    with pytest.raises(NodeNameNonExistentError, match="/robot/nobody"):
+        node.get_publisher_names_and_types_by_node("nobody", "/robot")
+
+
+def test_one_message_can_be_waited_for(node, ros_runtime):
+    import rclpy
+    from rclpy.wait_for_message import wait_for_message
+    from std_msgs.msg import Int32
+
+    other = rclpy.create_node("other")
+    sender = other.create_publisher(Int32, "numbers", 10)
+    other.create_timer(1.5, lambda: sender.publish(Int32(data=4)))
+    rclpy.get_global_executor().add_node(other)
+
+    assert wait_for_message(Int32, node, "numbers", time_to_wait=1.0) == (False, None)
+    assert wait_for_message(Int32, node, "numbers", time_to_wait=1.0) == (True, Int32(data=4))
+    assert ros_runtime.elapsed() == 1.5
+    assert list(node.subscriptions) == []
+
+
+def test_one_message_can_be_waited_for_inside_a_callback(node):
+    import rclpy
+    from rclpy.wait_for_message import wait_for_message
+    from std_msgs.msg import Int32
+
+    found = []
+    sender = node.create_publisher(Int32, "numbers", 10)
+    beside = rclpy.callback_groups.ReentrantCallbackGroup()
+    node.create_timer(0.5, lambda: sender.publish(Int32(data=7)), callback_group=beside)
+    node.create_timer(1.2, lambda: found.append(wait_for_message(Int32, node, "numbers")))
+    while not found:
+        rclpy.spin_once(node)
+
+    assert found == [(True, Int32(data=7))]
