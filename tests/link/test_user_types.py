@@ -1,0 +1,315 @@
+"""Messages and services of any type between two worlds, as users' nodes exchange them."""
+
+import asyncio
+
+import pytest
+
+from tests.link.conftest import until
+from tests.link.test_session import Two, play, texts
+from tftool.errors import LinkError
+from tftool.interfaces.classes import INTERFACES
+from tftool.messages import Clear, Twist2D
+from tftool.runtime.endpoints import PUBLISHER, SUBSCRIPTION, Endpoint, Quality
+from tftool.runtime.topics import GoalResult
+
+STRING = INTERFACES.message("std_msgs/String")
+ODOMETRY = INTERFACES.message("nav_msgs/Odometry")
+SET_BOOL = INTERFACES.find("std_srvs", "srv", "SetBool")
+TRIGGER = INTERFACES.find("std_srvs", "srv", "Trigger")
+FIBONACCI = INTERFACES.find("example_interfaces", "action", "Fibonacci")
+
+
+def publisher(world, topic="chatter", kind=STRING, node="talker", **quality):
+    endpoint = Endpoint(PUBLISHER, node, topic, kind.interface__, Quality(**quality))
+    world.topic(topic, kind)
+    world.endpoints.add(endpoint)
+    return lambda message: world.topic(topic, kind).publish(message, endpoint)
+
+
+def subscription(world, heard, topic="chatter", kind=STRING, node="listener", **quality):
+    latched = quality.get("is_latched", False)
+    there = world.topic(topic, kind)
+
+    def deliver(value, sender):
+        heard.append((value, sender))
+
+    def arrived(value):
+        if not (latched and there.sender and there.sender.is_remote):
+            deliver(value, there.sender)
+
+    remove = world.endpoints.add(
+        Endpoint(SUBSCRIPTION, node, topic, kind.interface__, Quality(**quality),
+                 deliver=deliver if latched else None)
+    )  # fmt: skip
+    stop = there.subscribe(arrived)
+    return lambda: (stop(), remove())
+
+
+def test_a_message_of_any_type_arrives_with_who_sent_it():
+    async def send():
+        async with Two() as two:
+            heard = []
+            publish = publisher(two.here, "odom", ODOMETRY, "base", depth=3, is_reliable=False)
+            subscription(two.there, heard, "odom", ODOMETRY, is_reliable=False)
+            await until(lambda: two.host.graph.entities("MS", name="odom"))
+            message = ODOMETRY(child_frame_id="base_link")
+            message.header.frame_id = "odom"
+            message.pose.covariance[7] = 0.5
+
+            publish(message)
+            await until(lambda: heard)
+
+            ((found, sender),) = heard
+            assert found == message
+            assert (sender.node, sender.quality) == ("base", Quality(3, is_reliable=False))
+            (entity,) = two.guest.graph.entities("MP", name="odom")
+            assert (entity.node, entity.ros_type) == ("base", "nav_msgs/msg/Odometry")
+            assert two.guest.refused == two.host.refused == 0
+
+    play(send())
+
+
+def test_every_publisher_and_subscription_is_shown_under_its_node_and_goes_with_it():
+    async def send():
+        async with Two() as two:
+            publisher(two.here, node="one")
+            publisher(two.here, node="two", is_latched=True, depth=2)
+            stop = subscription(two.here, [], node="three")
+            await until(lambda: len(two.guest.graph.entities("MP", "MS", name="chatter")) == 3)
+            shown = {
+                (one.node, one.kind, one.quality)
+                for one in two.guest.graph.entities("MP", "MS", name="chatter")
+            }
+            assert shown == {
+                ("one", "MP", "::,10:,:,:,,"),
+                ("two", "MP", ":1:,2:,:,:,,"),
+                ("three", "MS", "::,10:,:,:,,"),
+            }
+
+            stop()
+            await until(lambda: not two.guest.graph.entities("MS", name="chatter"))
+
+    play(send())
+
+
+def test_nothing_is_turned_into_bytes_while_nobody_else_listens(monkeypatch):
+    async def send():
+        async with Two() as two:
+            publish = publisher(two.here)
+            heard = []
+            subscription(two.here, heard)
+            await until(lambda: two.guest.graph.entities("MP", name="chatter"))
+
+            # A lone surrogate has no bytes: writing it would be refused, and counted.
+            publish(STRING(data="\ud800"))
+            assert len(heard) == 1
+            assert two.host.refused == 0
+
+            subscription(two.there, [])
+            await until(lambda: two.host.graph.entities("MS", name="chatter"))
+            publish(STRING(data="\ud800"))
+            assert two.host.refused == 1
+
+    play(send())
+
+
+def test_a_latched_subscription_gets_what_was_sent_before_and_others_do_not():
+    async def send():
+        async with Two() as two:
+            publish = publisher(two.here, is_latched=True, depth=2)
+            for word in ("one", "two", "three"):
+                publish(STRING(data=word))
+            early, late, plain = [], [], []
+            subscription(two.there, plain)
+            subscription(two.there, early, node="early", is_latched=True)
+            await until(lambda: len(early) == 2)
+            subscription(two.there, late, node="late", is_latched=True)
+            await until(lambda: len(late) == 2)
+            await until(lambda: len(two.host.graph.entities("MS", name="chatter")) == 3)
+            publish(STRING(data="four"))
+            await until(lambda: plain and len(early) == 3 and len(late) == 3)
+
+            assert [one.data for one, _ in early] == ["two", "three", "four"]
+            assert [one.data for one, _ in late] == ["two", "three", "four"]
+            assert [one.data for one, _ in plain] == ["four"]
+
+    play(send())
+
+
+def test_two_in_different_processes_that_do_not_fit_are_told_so():
+    async def send():
+        async with Two() as two:
+            publisher(two.here, is_reliable=False)
+            subscription(two.there, [])
+
+            def told(world, node):
+                return [r.text for r in world.log.records if r.node == node and "QoS" in r.text]
+
+            await until(lambda: told(two.here, "talker") and told(two.there, "listener"))
+            assert told(two.here, "talker") == [
+                "New subscription discovered on topic '/chatter' (node 'listener'), requesting "
+                "incompatible QoS. No messages will be sent to it. Last incompatible policy: "
+                "RELIABILITY"
+            ]
+            assert "Last incompatible policy: RELIABILITY" in told(two.there, "listener")[0]
+
+    play(send())
+
+
+def test_a_topic_of_two_types_is_two_topics():
+    async def send():
+        async with Two() as two:
+            heard = []
+            publish = publisher(two.here)
+            subscription(two.there, heard, kind=ODOMETRY)
+            await until(lambda: two.host.graph.entities("MS", name="chatter"))
+
+            publish(STRING(data="hello"))
+            two.here.serve("done", lambda request: TRIGGER.Response(), TRIGGER)
+            await until(lambda: two.there.has_service("done"))
+            await two.there.call("done", TRIGGER.Request())
+
+            assert heard == []
+            assert two.guest.refused == 0
+
+    play(send())
+
+
+def test_a_service_of_any_type_is_answered_and_shown_under_its_node():
+    async def ask():
+        async with Two() as two:
+            asked = []
+
+            async def enable(request):
+                asked.append(request)
+                return SET_BOOL.Response(success=True, message="on")
+
+            two.here.serve("enable", enable, SET_BOOL, node="motors")
+            await until(lambda: two.there.has_service("enable"))
+
+            answer = await two.there.call("enable", SET_BOOL.Request(data=True))
+
+            assert answer == SET_BOOL.Response(success=True, message="on")
+            assert asked == [SET_BOOL.Request(data=True)]
+            (entity,) = two.guest.graph.entities("SS", name="enable")
+            assert (entity.node, entity.ros_type) == ("motors", "std_srvs/srv/SetBool")
+            assert two.host.graph.entities("SC", name="enable")
+
+    play(ask())
+
+
+def test_a_question_of_another_type_is_not_sent():
+    async def ask():
+        async with Two() as two:
+            two.here.serve("enable", lambda request: SET_BOOL.Response(), SET_BOOL)
+            await until(lambda: two.there.has_service("enable"))
+
+            for request in (TRIGGER.Request(), Clear()):
+                with pytest.raises(LinkError, match="'enable' is of type std_srvs/srv/SetBool"):
+                    await two.there.call("enable", request)
+
+    play(ask())
+
+
+def test_a_service_of_a_name_of_the_simulators_is_what_it_says_it_is():
+    async def ask():
+        async with Two() as two:
+            answer = TRIGGER.Response(success=True, message="as new")
+            two.here.serve("reset", lambda request: answer, TRIGGER)
+            await until(lambda: two.there.has_service("reset"))
+
+            assert await two.there.call("reset", TRIGGER.Request()) == answer
+
+    play(ask())
+
+
+def test_who_serves_here_goes_before_who_serves_elsewhere():
+    async def ask():
+        async with Two() as two:
+            two.here.serve("go", lambda request: TRIGGER.Response(message="far"), TRIGGER)
+            await until(lambda: two.there.has_service("go"))
+            stop = two.there.serve("go", lambda request: TRIGGER.Response(message="near"), TRIGGER)
+            assert (await two.there.call("go", TRIGGER.Request())).message == "near"
+
+            stop()
+            await until(lambda: two.there.has_service("go"))
+            assert (await two.there.call("go", TRIGGER.Request())).message == "far"
+
+    play(ask())
+
+
+def test_what_nobody_says_the_type_of_stays_inside_the_process():
+    async def ask():
+        async with Two() as two:
+            two.here.serve("secret", lambda request: None)
+            two.here.serve("go", lambda request: TRIGGER.Response(), TRIGGER)
+            await until(lambda: two.there.has_service("go"))
+
+            assert not two.there.has_service("secret")
+
+    play(ask())
+
+
+def test_a_goal_of_any_type_is_taken_or_refused_fed_back_and_ended():
+    async def act():
+        async with Two() as two:
+            goals = []
+
+            def accept(goal):
+                goal.decided = asyncio.get_running_loop().create_future()
+                goal.decided.set_result(goal.request.order > 0)
+                goals.append(goal)
+
+            two.here.serve_action("fibonacci", accept, FIBONACCI, node="counter")
+            await until(lambda: "fibonacci" in two.there.actions())
+            fed = []
+
+            refused = await two.there.send_goal("fibonacci", FIBONACCI.Goal(order=0), fed.append)
+            assert await refused.decided is False
+            taken = await two.there.send_goal("fibonacci", FIBONACCI.Goal(order=3), fed.append)
+            assert await taken.decided is True
+            await until(lambda: two.guest.graph.entities("MP", name="fibonacci/_action/feedback"))
+            goals[1].publish_feedback(FIBONACCI.Feedback(sequence=[0, 1]))
+            await until(lambda: fed)
+            goals[1].finish("succeeded", FIBONACCI.Result(sequence=[0, 1, 1]))
+
+            assert await taken.result() == GoalResult(
+                "succeeded", FIBONACCI.Result(sequence=[0, 1, 1])
+            )
+            assert fed == [FIBONACCI.Feedback(sequence=[0, 1])]
+
+    play(act())
+
+
+def test_a_twist_that_says_more_than_a_turtle_reads_arrives_whole():
+    from tftool.ros.values import converter
+
+    async def send():
+        async with Two() as two:
+            twist = INTERFACES.message("geometry_msgs/Twist")()
+            twist.linear.z, twist.angular.x = 3.0, -1.0
+            heard = []
+            two.there.topic("cmd_vel", Twist2D).subscribe(heard.append)
+            await until(lambda: two.host.graph.entities("MS", name="cmd_vel"))
+            travels = converter(type(twist), "cmd_vel")
+
+            two.here.topic("cmd_vel", Twist2D).publish(travels.pack(twist))
+            await until(lambda: heard)
+
+            assert travels.unpack(heard[0]) == twist
+
+    play(send())
+
+
+def test_a_message_that_no_other_release_could_read_stays_here_and_that_is_said():
+    async def send():
+        async with Two() as two:
+            INTERFACES.add("pkg", {("msg", "Wide"): "wstring data"})
+            two.here.topic("wide", INTERFACES.message("pkg/Wide"))
+
+            assert any("'wide' stays inside this process" in text for text in texts(two.here))
+
+    try:
+        play(send())
+    finally:
+        INTERFACES.add("pkg", {})
