@@ -340,5 +340,4 @@ class StaticBridge(TransformBridge):
     def _store(
         self, transforms: tuple[TransformStamped, ...], authority: str
     ) -> tuple[TransformStamped, ...]:
-        store = self._link.world.buffer.set_transform_static
-        return tuple(one for one in transforms if store(one, authority))
+        return self._link.world.receive_static(transforms, authority)

@@ -56,6 +56,7 @@ class World:
         self._services: dict[str, Offer[Handler]] = {}
         self._actions: dict[str, Offer[Acceptor]] = {}
         self._statics: dict[str, dict[str, TransformStamped]] = {}
+        self._far_statics: dict[str, TransformStamped] = {}
         self._supervisor: Supervision | None = None
         self._watchers: tuple[Callable[[], object], ...] = ()
         self.endpoints = Endpoints(self._changed, self.log.warn)
@@ -221,10 +222,7 @@ class World:
         sent = tuple(transforms)
         if static:
             held = self._statics.setdefault(authority, {})
-            accepted = tuple(
-                one for one in sent if self.buffer.set_transform_static(one, authority)
-            )
-            held.update((one.child_frame_id, one) for one in accepted)
+            accepted = self._store_static(sent, authority, held)
             self.tf_static.publish(TransformMessage(tuple(held.values()), authority))
         else:
             accepted = tuple(one for one in sent if self.buffer.set_transform(one, authority))
@@ -232,12 +230,34 @@ class World:
                 self.tf.publish(TransformMessage(accepted, authority))
         return len(accepted) == len(sent)
 
-    def static_transforms(self, authority: str | None = None) -> tuple[TransformStamped, ...]:
-        """The static transforms of one sender, or of all, in the order of their children."""
-        senders = self._statics if authority is None else [authority]
-        return tuple(
-            transform for sender in senders for transform in self._statics.get(sender, {}).values()
+    def receive_static(
+        self, transforms: Iterable[TransformStamped], authority: str
+    ) -> tuple[TransformStamped, ...]:
+        """Take in what another process's node holds for all time, for those who come late too.
+
+        Returns:
+            What the buffer took.
+        """
+        return self._store_static(transforms, authority, self._far_statics)
+
+    def _store_static(
+        self,
+        transforms: Iterable[TransformStamped],
+        authority: str,
+        held: dict[str, TransformStamped],
+    ) -> tuple[TransformStamped, ...]:
+        accepted = tuple(
+            one for one in transforms if self.buffer.set_transform_static(one, authority)
         )
+        held.update((one.child_frame_id, one) for one in accepted)
+        return accepted
+
+    def static_transforms(self, authority: str | None = None) -> tuple[TransformStamped, ...]:
+        """The static transforms of one sender here, or of all, in the order they became known."""
+        if authority is not None:
+            return tuple(self._statics.get(authority, {}).values())
+        held = [self._far_statics, *self._statics.values()]
+        return tuple(transform for one in held for transform in one.values())
 
     async def wait_for_transform(
         self,

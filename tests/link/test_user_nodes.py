@@ -1,0 +1,58 @@
+"""Users' nodes, each started by a `tftool run` of its own, as in terminals of their own."""
+
+import sys
+from pathlib import Path
+
+import pytest
+
+from tests.link.processes import Process
+
+pytestmark = pytest.mark.skipif(sys.platform == "win32", reason="interrupts as POSIX does")
+
+NODES = Path(__file__).parent / "nodes"
+
+
+def node(name, *words):
+    return Process("run", *words, NODES / f"{name}.py")
+
+
+@pytest.mark.parametrize("order", [("talker", "listener"), ("listener", "talker")])
+def test_a_talker_and_a_listener_in_two_terminals_find_each_other_in_any_order(order):
+    first, second = order
+    with node(first) as one:
+        one.says("No session is running here")
+        with node(second) as other:
+            other.says("Joined the session of 'tftool run'")
+            listener = one if first == "listener" else other
+            listener.says("[listener]: I heard: Hello")
+            assert other.interrupt() == 130
+        assert one.interrupt() == 130
+    assert "Traceback" not in one.text + other.text
+
+
+def test_a_listener_that_comes_late_knows_statics_sent_before():
+    with Process("static", "--z", "3", "--frame-id", "A", "--child-frame-id", "B") as static:
+        static.says("Spinning")
+        with node("listener") as listener:
+            listener.says("B is 3.0 above A")
+
+
+def test_services_parameters_actions_and_latched_topics_reach_another_terminal():
+    with node("server") as server:
+        server.says("No session is running here")
+        with node("client") as client:
+            assert client.end() == 0
+            server.says("New subscription discovered on topic '/noise' (node 'client')")
+    told = [line.partition("[client]: ")[2] for line in client.lines if "[INFO]" in line]
+    assert told == [
+        "parameters: ['speed', 'use_sim_time']",
+        "set: True",
+        "set: False",
+        "enabled: std_srvs.srv.SetBool_Response(success=True, message='speed 4.5')",
+        "map: the attic",
+        "fibonacci: 4 [0, 1, 1, 2, 3, 5]",
+    ]
+    warning = "New publisher discovered on topic '/noise' (node 'server'), offering incompatible"
+    assert sum(warning in line for line in client.lines) == 1
+    assert "the noise was heard" not in client.text
+    assert "Traceback" not in server.text + client.text
