@@ -48,6 +48,8 @@ session = ZenohSession.get_instance("127.0.0.1", PORT)
 registry = get_registry(DEFINITIONS)
 registry.load_message_type("tf2_msgs/msg/TFMessage")
 registry.load_message_type("geometry_msgs/msg/Twist")
+registry.load_message_type("std_msgs/msg/String")
+registry.load_message_type("rcl_interfaces/msg/Parameter")
 types = session.store.types
 
 TF = {"msg_type": "tf2_msgs/msg/TFMessage", "router_port": PORT}
@@ -56,6 +58,11 @@ listening = [
     ROS2Subscriber("/tf", callback=hear("tf"), **TF),
     ROS2Subscriber("/tf_static", callback=hear("tf_static"), qos=latched, **TF),
 ]
+STRING = {"msg_type": "std_msgs/msg/String", "router_port": PORT}
+listening.append(
+    ROS2Subscriber("/chatter", callback=lambda message: tell(chatter=message.data), **STRING)
+)
+words = ROS2Publisher("/words", node_name="foreign_talker", **STRING)
 transforms = ROS2Publisher("/tf", node_name="foreign_broadcaster", **TF)
 twists = ROS2Publisher("/turtle1/cmd_vel", msg_type="geometry_msgs/msg/Twist", router_port=PORT)
 Vector3 = types["geometry_msgs/msg/Vector3"]
@@ -76,7 +83,30 @@ def send():
             )
         ]
     )
+    words.publish(data="größe")
     twists.publish(linear=Vector3(1.0, 0.0, 0.0), angular=Vector3(0.0, 0.0, 0.5))
+
+
+def ask(kind, **request):
+    name = {"GetParameters": "get_parameters", "SetParameters": "set_parameters"}[kind]
+    client = ROS2ServiceClient(
+        f"/turtlesim/{name}",
+        srv_type=f"rcl_interfaces/srv/{kind}",
+        router_port=PORT,
+        timeout=10.0,
+    )
+    return client.call(**request)
+
+
+def change(name, number):
+    none = np.array([], dtype=np.int64)
+    value = types["rcl_interfaces/msg/ParameterValue"](
+        2, False, number, 0.0, "", none.astype(np.uint8), none.astype(bool), none,
+        none.astype(np.float64), [],
+    )  # fmt: skip
+    parameter = types["rcl_interfaces/msg/Parameter"](name, value)
+    (result,) = ask("SetParameters", parameters=[parameter]).results
+    return {"successful": bool(result.successful), "reason": result.reason}
 
 
 tell(ready=True)
@@ -96,4 +126,8 @@ while True:
                 x=np.float32(3.0), y=np.float32(4.0), theta=np.float32(0.0), name="sdk_turtle"
             )
             tell(spawned=None if answer is None else answer.name)
+            for tried in (255, 256):
+                tell(set=tried, **change("background_r", tried))
+            answer = ask("GetParameters", names=["background_r", "holonomic"])
+            tell(parameters=[[one.type, int(one.integer_value)] for one in answer.values])
     threading.Event().wait(0.1)

@@ -14,6 +14,7 @@ from tests.link.conftest import new_world, until
 from tests.link.definitions import SERVICES
 from tftool.frames.sample import TransformStamped
 from tftool.geometry.rigid import Transform
+from tftool.interfaces.classes import INTERFACES
 from tftool.link.graph import Role
 from tftool.link.membership import Options
 from tftool.link.reach import Reach
@@ -24,6 +25,7 @@ from tftool.runtime.supervisor import live
 
 pytest.importorskip("zenoh_ros2_sdk", reason="zenoh-ros2-sdk, of the extra 'test', is missing")
 
+STRING = INTERFACES.message("std_msgs/String")
 HERE = Path(__file__).parent
 
 DEFINITIONS = {
@@ -40,6 +42,20 @@ DEFINITIONS = {
     "service_msgs/msg/ServiceEventInfo.msg": (
         "uint8 event_type\nbuiltin_interfaces/Time stamp\nchar[16] client_gid\n"
         "int64 sequence_number\n"
+    ),
+    "std_msgs/msg/String.msg": "string data\n",
+    "rcl_interfaces/msg/ParameterValue.msg": (
+        "uint8 type\nbool bool_value\nint64 integer_value\nfloat64 double_value\n"
+        "string string_value\nbyte[] byte_array_value\nbool[] bool_array_value\n"
+        "int64[] integer_array_value\nfloat64[] double_array_value\nstring[] string_array_value\n"
+    ),
+    "rcl_interfaces/msg/Parameter.msg": "string name\nParameterValue value\n",
+    "rcl_interfaces/msg/SetParametersResult.msg": "bool successful\nstring reason\n",
+    "rcl_interfaces/srv/GetParameters.srv": (
+        "string[] names\n---\nrcl_interfaces/ParameterValue[] values\n"
+    ),
+    "rcl_interfaces/srv/SetParameters.srv": (
+        "rcl_interfaces/Parameter[] parameters\n---\nrcl_interfaces/SetParametersResult[] results\n"
     ),
     "turtlesim/srv/Spawn.srv": "\n---\n".join(SERVICES["turtlesim/srv/Spawn"]) + "\n",
 }
@@ -160,6 +176,28 @@ def test_a_foreign_ros_2_peer_hears_us_and_is_heard(tmp_path):
                 assert {one.node for one in link.graph.entities("MP", name="tf")} == {
                     "foreign_broadcaster"
                 }
+
+                # A message of a type that is neither turtlesim's nor tf's, both ways, ...
+                heard = []
+                world.topic("words", STRING).subscribe(heard.append)
+
+                def said():
+                    world.topic("chatter", STRING).publish(STRING(data="Hello ☺"))
+                    return foreign.check() and heard and foreign.with_key("chatter")
+
+                await until(said, within=30)
+                assert heard[0] == STRING(data="größe")
+                assert foreign.with_key("chatter")[0] == {"chatter": "Hello ☺"}
+                assert foreign.with_key("topics")[0]["topics"]["/tf"] == ["tf2_msgs/msg/TFMessage"]
+
+                # ... and the simulator's parameters, set, refused and read.
+                await until(lambda: foreign.check() and foreign.with_key("parameters"), within=30)
+                accepted, refused = foreign.with_key("set")
+                assert accepted == {"set": 255, "successful": True, "reason": ""}
+                assert refused["successful"] is False
+                assert "from 0 to 255, not 256" in refused["reason"]
+                assert foreign.with_key("parameters") == [{"parameters": [[2, 255], [1, 0]]}]
+                assert simulator.background.r == 255
                 assert link.refused == 0
             finally:
                 living.cancel()
