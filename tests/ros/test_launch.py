@@ -265,7 +265,6 @@ def test_a_node_that_fails_does_not_stop_the_others(tmp_path):
         ("Node(package='turtlesm', executable='x')", "no package 'turtlesm'.*mean 'turtlesim'"),
         ("Node(package='turtlesim', executable='turtlesim')", "did you mean 'turtlesim_node'"),
         ("Node(package='pkg_tf', executable='follow')", "package 'pkg_tf' has no executable"),
-        ("Node(package='rviz2', executable='rviz2')", "is 'tftool view' here"),
         ("Node(executable='x')", "a Node needs a package"),
         ("Node(package='turtlesim', executable='turtlesim_node', name='a b')", "'a b' cannot be"),
         ("LogInfo(msg=LaunchConfiguration('x'))", "launch configuration 'x' does not exist"),

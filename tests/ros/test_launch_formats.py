@@ -236,6 +236,26 @@ def test_parameters_of_each_kind_and_place_arrive(brief):
     ]
 
 
+def test_what_has_a_command_of_its_own_is_left_out_and_said(tmp_path):
+    done = described(
+        tmp_path,
+        "Node(package='rviz2', executable='rviz2', arguments=['-d', 'a.rviz'])",
+        "Node(package='turtlesim', executable='turtle_teleop_key', prefix='xterm -e')",
+        "Node(package='turtlesim', executable='turtlesim_node', namespace='there')",
+    )
+
+    assert done.said("launch") == [
+        "left out: 'rviz2 rviz2' is 'tftool view' here, in a terminal of its own",
+        "prefix of a Node has no effect here",
+        "left out: 'turtlesim turtle_teleop_key' is 'tftool teleop' here, in a terminal of its own",
+    ]
+    assert [str(one) for one in done.records if "Starting" in one.text] == [
+        "[INFO] [1000.000000000] [there.turtlesim]: "
+        "Starting turtlesim with node name /there/turtlesim"
+    ]
+    assert done.failed == []
+
+
 def test_what_has_no_effect_on_nodes_of_one_process_is_said(brief):
     done = described(
         brief,

@@ -23,6 +23,10 @@ from tftool.runtime.node import Node
 from tftool.runtime.world import World
 
 
+class HasItsOwnCommand(UsageError):
+    """A program that people look at, or press keys in, was to be started among others."""
+
+
 @dataclass(frozen=True, slots=True)
 class Asked:
     """How an executable of ours is to be started.
@@ -238,6 +242,7 @@ def start(
         on_exit: Called once a program of a user's has ended.
 
     Raises:
+        HasItsOwnCommand: If it is one for a terminal of its own.
         UsageError: If there is no such package or executable; the nearest is told.
         InputError: If its file cannot be read or is no Python.
     """
@@ -253,7 +258,7 @@ def start(
         return _start_ours(world, ours, arguments, options)
     elsewhere = _ELSEWHERE.get((package, executable))
     if elsewhere is not None:
-        raise UsageError(
+        raise HasItsOwnCommand(
             f"'{package} {executable}' is '{elsewhere}' here, in a terminal of its own"
         )
     known = [name for one, name in _OURS if one == package]

@@ -33,9 +33,10 @@ class LogRecord:
     text: str
 
     def __str__(self) -> str:
-        """The line as ROS 2's console shows it."""
+        """The line as ROS 2's console shows it; a logger's name has dots for a node's slashes."""
         second, rest = divmod(self.stamp, NANOSECONDS)
-        return f"[{self.level}] [{second}.{rest:09d}] [{self.node}]: {self.text}"
+        logger = self.node.replace("/", ".")
+        return f"[{self.level}] [{second}.{rest:09d}] [{logger}]: {self.text}"
 
 
 class Log:

@@ -170,17 +170,22 @@ class Launch(Node):
         ]
 
         def start() -> None:
-            node = executables.start(
-                self.world,
-                self.context.workspace,
-                executable.package,
-                executable.name,
-                label=label,
-                argv=argv,
-                arguments=executable.arguments,
-                options=options,
-                on_exit=lambda program: self._program_ended(action, label, program),
-            )
+            try:
+                node = executables.start(
+                    self.world,
+                    self.context.workspace,
+                    executable.package,
+                    executable.name,
+                    label=label,
+                    argv=argv,
+                    arguments=executable.arguments,
+                    options=options,
+                    on_exit=lambda program: self._program_ended(action, label, program),
+                )
+            except executables.HasItsOwnCommand as error:
+                # The others do without it.
+                self.warn(f"left out: {error}")
+                return
             if not isinstance(node, Program):
                 self.labels[node.name] = label
             self._running[label] = node

@@ -54,9 +54,9 @@ class Startable(Action):
         """Say what was given and has no effect here."""
         given = [name for name in ("prefix", *names) if getattr(self, name)]
         if given:
-            context.launch.warn(
-                f"{' and '.join(given)} of a {type(self).__name__} have no effect here"
-            )
+            verb = "has" if len(given) == 1 else "have"
+            what = f"{' and '.join(given)} of a {type(self).__name__}"
+            context.launch.warn(f"{what} {verb} no effect here")
 
 
 def seconds_of(context: LaunchContext, value: Any, what: str) -> float:
