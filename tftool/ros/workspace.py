@@ -118,12 +118,17 @@ def _folders(root: Path, depth: int) -> Iterator[Path]:
     if depth == 0:
         return
     try:
-        below = sorted(one for one in root.iterdir() if one.is_dir() and not one.is_symlink())
+        below = sorted(one for one in root.iterdir() if one.is_dir())
     except OSError:
         return
     for folder in below:
-        if folder.name not in _SKIPPED and not folder.name.startswith("."):
+        if folder.name in _SKIPPED or folder.name.startswith("."):
+            continue
+        if not folder.is_symlink():
             yield from _folders(folder, depth - 1)
+        elif any((folder / mark).is_file() for mark in _MARKS):
+            # A package linked into a workspace; where other links lead is not looked at.
+            yield folder
 
 
 def _package(folder: Path) -> Package | None:
