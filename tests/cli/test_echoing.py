@@ -5,7 +5,7 @@ import json
 import pytest
 
 from tftool.cli.echoing import Echo, Printer, Question
-from tftool.cli.session import Session
+from tftool.cli.lifetime import Session
 from tftool.errors import BackwardExtrapolationException, LookupException, TransformException
 from tftool.frames.sample import TransformStamped
 from tftool.geometry.rigid import Transform

@@ -602,7 +602,7 @@ def test_a_peer_that_talks_in_another_domain_is_said_once(session_dir, monkeypat
 
 
 def test_nobody_at_the_other_end_is_a_sentence(monkeypatch):
-    monkeypatch.setattr("tftool.link.session.REACHING", 0.2)
+    monkeypatch.setattr("tftool.link.opening.REACHING", 0.2)
 
     with pytest.raises(LinkError, match=r"nobody answers at tcp/127\.0\.0\.1:\d+ within"):
         Link(Options(reach=Reach(connect=(f"tcp/127.0.0.1:{free_port()}",))))
@@ -656,7 +656,7 @@ def certificates(folder):
 
 @pytest.mark.skipif(shutil.which("openssl") is None, reason="needs openssl to make certificates")
 def test_over_tls_only_who_has_a_certificate_is_let_in(session_dir, monkeypatch, tmp_path):
-    monkeypatch.setattr("tftool.link.session.REACHING", 1.0)
+    monkeypatch.setattr("tftool.link.opening.REACHING", 1.0)
     files = certificates(tmp_path)
 
     async def reach():

@@ -117,7 +117,7 @@ def _judge_of(
         return
 
     from tftool.cli import console_log
-    from tftool.cli.session import notice
+    from tftool.cli.notices import notice
     from tftool.ros import hosting
     from tftool.scenario.exercise import Exercise
     from tftool.views.escaping import visible_lines

@@ -4,7 +4,7 @@ import os
 import sys
 from collections.abc import Mapping
 
-from tftool.cli.session import notice
+from tftool.cli.notices import notice
 from tftool.runtime.log import LogRecord
 from tftool.views.escaping import visible_lines
 

@@ -62,8 +62,9 @@ def demo(
     tftool demo carrot --source-frame carrot1
     tftool demo time_travel --rate 2 --set delay=3
     """
+    from tftool.cli.lifetime import shared
     from tftool.cli.onscreen import driver_of, has_terminal, run_app, simulator_of
-    from tftool.cli.session import HOME, host_link, join_session, shared
+    from tftool.cli.session import HOME, host_link, join_session
     from tftool.cli.sharing import choice
     from tftool.runtime.clock import WallClock
     from tftool.scenario.builtin import find

@@ -87,7 +87,8 @@ def echo(
     tftool echo turtle2 turtle1 --offset -5 --fixed-frame world
     """
     from tftool.cli.echoing import Echo, Printer, Question
-    from tftool.cli.session import notice, open_session
+    from tftool.cli.notices import notice
+    from tftool.cli.session import open_session
     from tftool.runtime.clock import SimClock
     from tftool.views.echo import in_words
 

@@ -8,7 +8,7 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from difflib import get_close_matches
 
-from tftool.cli.session import notice
+from tftool.cli.notices import notice
 from tftool.errors import (
     BackwardExtrapolationException,
     LookupException,

@@ -102,8 +102,9 @@ def follow(
     tftool follow turtle1 turtle2 --delay 5        where turtle1 was 5 s ago
     """
     from tftool.cli import console_log
+    from tftool.cli.notices import notice
     from tftool.cli.onscreen import simulator_of
-    from tftool.cli.session import notice, open_session
+    from tftool.cli.session import open_session
     from tftool.cli.sharing import refuse_read_only
     from tftool.errors import UsageError
     from tftool.motion.pid import Gains

@@ -47,7 +47,8 @@ def launch(
     from pathlib import Path
 
     from tftool.cli import console_log
-    from tftool.cli.session import notice, open_empty_session, open_session
+    from tftool.cli.notices import notice
+    from tftool.cli.session import open_empty_session, open_session
     from tftool.cli.sharing import Mode, choice
     from tftool.errors import NodeFailed, TftoolError, UsageError
     from tftool.ros import hosting

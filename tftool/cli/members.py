@@ -35,7 +35,7 @@ def session(
     """
     import json
 
-    from tftool.cli.session import notice
+    from tftool.cli.notices import notice
     from tftool.cli.sharing import choice, open_link
     from tftool.errors import UsageError
 

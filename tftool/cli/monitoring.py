@@ -10,7 +10,7 @@ from rich.console import Console
 from rich.live import Live
 
 from tftool.cli.echoing import Echo, Printer, Question
-from tftool.cli.session import notice
+from tftool.cli.notices import notice
 from tftool.errors import TransformException
 from tftool.frames.sample import TransformStamped
 from tftool.frames.traffic import NetDelay, Traffic

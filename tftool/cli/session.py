@@ -5,25 +5,22 @@ runs on this machine is joined; if none runs, the command hosts one, and others 
 it. A world hosted while a session runs keeps to itself, so that two worlds never mix.
 """
 
-import asyncio
-import sys
-from collections.abc import Awaitable, Callable, Coroutine, Iterator
-from contextlib import contextmanager
-from dataclasses import dataclass, replace
-from typing import TYPE_CHECKING, Any, TypeVar
+from collections.abc import Callable
+from dataclasses import replace
+from typing import TYPE_CHECKING, TypeVar
 
+from tftool.cli.lifetime import Session, lived, shared
+from tftool.cli.notices import notice
 from tftool.cli.sharing import Choice, Mode, choice, open_link
 from tftool.errors import LinkError, UsageError
 from tftool.runtime import clock as clocks
-from tftool.runtime.clock import Clock, Phase, WallClock, run
-from tftool.runtime.supervisor import live
+from tftool.runtime.clock import Clock, WallClock
 from tftool.runtime.world import World
-from tftool.stamps import Duration, Stamp, as_seconds, seconds
+from tftool.stamps import Duration, Stamp, seconds
 from tftool.views.escaping import visible
 
 if TYPE_CHECKING:
     from tftool.link.session import Link
-    from tftool.runtime.log import LogRecord
     from tftool.scenario.schema import NodeEntry, Scenario
 
 T = TypeVar("T")
@@ -37,101 +34,6 @@ HEAD_START = seconds(3)
 
 CACHE_TIME = seconds(10)
 """How far back the buffer of a joined world remembers; tf2's own figure."""
-
-
-@dataclass(frozen=True, slots=True)
-class Session:
-    """A world to work in, and what keeps it alive.
-
-    Attributes:
-        world: Its frames and topics.
-        is_hosted: Whether this process runs it.
-        name: What it is called, in sentences: "scenario 'turtles'".
-        live: Lives the world through, for ever or until a moment.
-        head_start: How much of it is lived through before work begins.
-        duration: How long its scenario lasts; None where nothing says so.
-        link: What joins it to other processes; None for a world on its own.
-    """
-
-    world: World
-    is_hosted: bool
-    name: str
-    live: Callable[[Stamp | None], Awaitable[None]]
-    head_start: Duration = 0
-    duration: Duration | None = None
-    link: "Link | None" = None
-
-    def departures(self) -> int:
-        """How many of the other processes have left by now that transforms came from."""
-        return 0 if self.link is None else self.link.departures
-
-    def run(self, work: Coroutine[Any, Any, T]) -> T:
-        """Do some work while the world lives, on the world's clock.
-
-        Returns:
-            What the work returns; the world ends with it.
-
-        Raises:
-            NodeFailed: If a node of the world raised first.
-            KeyboardInterrupt: If a signal ended it.
-        """
-        return run(self.world.clock, self.along(work))
-
-    def moment(self, after: Duration) -> Stamp:
-        """The moment so long after the world began.
-
-        Raises:
-            UsageError: If its scenario is over by then.
-        """
-        if self.duration is not None and after > self.duration:
-            raise UsageError(
-                f"{self.name} lasts {as_seconds(self.duration):g} s: "
-                f"{as_seconds(after):g} s is after its end."
-            )
-        return self.world.clock.epoch + after
-
-    def live_until(self, moment: Stamp) -> None:
-        """Live the world through, its own instant included, with nothing beside it.
-
-        Raises:
-            NodeFailed: If a node of the world raised.
-        """
-
-        async def lived() -> None:
-            await self.live(moment)
-
-        run(self.world.clock, lived())
-
-    async def along(self, work: Coroutine[Any, Any, T]) -> T:
-        """The same inside a running loop, for those who bring their own."""
-        stop_telling = self.world.log.listen(_tell)
-        living = asyncio.ensure_future(self.live(None))
-        working = asyncio.ensure_future(self._after_head_start(work))
-        both = {living, working}
-        try:
-            await asyncio.wait(both, return_when=asyncio.FIRST_COMPLETED)
-            if not working.done():
-                # A world that failed ends the work; one that merely ended does not.
-                living.result()
-            return await working
-        finally:
-            for task in both:
-                task.cancel()
-            await asyncio.gather(*both, return_exceptions=True)
-            stop_telling()
-
-    async def lasting(self, duration: Duration | None) -> None:
-        """Do nothing for so long, in nanoseconds; for ever if None."""
-        if duration is None:
-            await asyncio.get_running_loop().create_future()
-        else:
-            await self.world.clock.sleep(duration, Phase.WATCH)
-
-    async def _after_head_start(self, work: Coroutine[Any, Any, T]) -> T:
-        clock = self.world.clock
-        if self.head_start:
-            await clock.sleep_until(clock.epoch + self.head_start, Phase.WATCH)
-        return await work
 
 
 def open_session(
@@ -199,7 +101,7 @@ def open_empty_session(clock: Clock | None = None) -> Session:
     """Give a world with nothing in it to whoever brings all there is to it; others see it."""
     world = World(clock or WallClock())
     link = _open_link(choice()) if _is_real(world.clock) else None
-    alive = _lived(world, link, "source")
+    alive = lived(world, link, "source")
     return Session(world, True, "an empty world", alive, link=link)
 
 
@@ -236,7 +138,7 @@ def _look_around(
             world = World(WallClock(), cache_time=cache_time or CACHE_TIME)
             name = _name_of(link)
             notice(f"Joined {name}.")
-            return Session(world, False, name, _lived(world, link, "guest"), link=link), None
+            return Session(world, False, name, lived(world, link, "guest"), link=link), None
         if chosen.mode is Mode.JOIN or chosen.read_only:
             link.close()
             what = "session with turtles" if there else "session"
@@ -296,37 +198,6 @@ def host_link(source: str) -> "Link | None":
     return _look_around(source, False, None)[1]
 
 
-@contextmanager
-def shared(link: "Link | None", world: World, role: str = "host") -> Iterator[None]:
-    """Let others share a world for as long as this lasts; call inside its loop.
-
-    Args:
-        link: What joins it to the others; None to keep to itself.
-        world: What is shared.
-        role: What this process is to the others, as `link.graph.Role` has it.
-    """
-    if link is None:
-        yield
-        return
-    from tftool.link.graph import Role
-
-    try:
-        link.attach(world, role=Role(role))
-        yield
-    finally:
-        link.close()
-
-
-def _lived(
-    world: World, link: "Link | None", role: str
-) -> Callable[[Stamp | None], Awaitable[None]]:
-    async def alive(until: Stamp | None) -> None:
-        with shared(link, world, role):
-            await live(world, until=until)
-
-    return alive
-
-
 def _open_link(chosen: Choice) -> "Link | None":
     """Open the link; a place that has none can still host, and says why it is alone.
 
@@ -376,22 +247,6 @@ def _name_of(link: "Link") -> str:
     if nodes:
         return f"the session of ROS node '{visible(nodes[0])}'"
     return f"what is at {visible(', '.join(choice().connect))}, which is nobody yet"
-
-
-def is_news(record: "LogRecord") -> bool:
-    """Whether the link has something to say that every user wants to know."""
-    return record.node == "link" and record.level == "WARN"
-
-
-def _tell(record: "LogRecord") -> None:
-    if is_news(record):
-        notice(visible(record.text))
-
-
-def notice(sentence: str) -> None:
-    """Tell the user something that is no result."""
-    sys.stderr.write(sentence + "\n")
-    sys.stderr.flush()
 
 
 def _lived_in(

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 if TYPE_CHECKING:
-    from tftool.cli.session import Session
+    from tftool.cli.lifetime import Session
     from tftool.cli.static_arguments import StaticArguments
 
 Metres = Annotated[str | None, typer.Option(metavar="METRES")]
@@ -93,7 +93,7 @@ def publish(said: "StaticArguments", *, spin: bool) -> None:
 
 
 async def _published(session: "Session", said: "StaticArguments", spin: bool) -> None:
-    from tftool.cli.session import notice
+    from tftool.cli.notices import notice
     from tftool.cli.static_arguments import advice
     from tftool.errors import UsageError
     from tftool.frames.sample import TransformStamped

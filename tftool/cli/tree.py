@@ -14,7 +14,7 @@ from tftool.stamps import Duration, seconds
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-    from tftool.cli.session import Session
+    from tftool.cli.lifetime import Session
     from tftool.frames.sample import Snapshot
     from tftool.runtime.log import LogRecord
 
@@ -148,7 +148,7 @@ def _write(snapshot: "Snapshot", form: Format, output: Path | None) -> None:
 
 
 def _content(snapshot: "Snapshot", form: Format, *, to_file: bool) -> str | bytes:
-    from tftool.cli.session import notice
+    from tftool.cli.notices import notice
     from tftool.views import frame_tree
 
     if form is Format.json:
@@ -192,7 +192,7 @@ def _watch(open_session: "Callable[[], Session]", duration: Duration | None) -> 
     from rich.live import Live
     from rich.text import Text
 
-    from tftool.cli.session import is_news
+    from tftool.cli.notices import is_news
     from tftool.runtime.clock import Phase
     from tftool.views import frame_tree
     from tftool.views.escaping import visible

@@ -10,7 +10,7 @@ from tftool.errors import UsageError
 from tftool.stamps import Duration, seconds
 
 if TYPE_CHECKING:
-    from tftool.cli.session import Session
+    from tftool.cli.lifetime import Session
     from tftool.screens.browser.server import PageServer
 
 
@@ -65,7 +65,7 @@ async def _show(
 ) -> None:
     import asyncio
 
-    from tftool.cli.session import notice
+    from tftool.cli.notices import notice
 
     async with page:
         if page.asked_port not in (0, page.port):

@@ -49,10 +49,10 @@ class Membership:
         received: Messages that were taken in.
     """
 
-    def __init__(self, options: Options, wire: Wire) -> None:
+    def __init__(self, options: Options, wire: Wire, graph: Graph) -> None:
         self.options = options
         self.wire = wire
-        self.graph = Graph(wire.zid, options.domain)
+        self.graph = graph
         self.refused = 0
         self.received = 0
         self._world: World | None = None

@@ -6,24 +6,21 @@ the difference; a service of another process is a service of the world.
 """
 
 import asyncio
-import contextlib
 import os
 import re
-import threading
 from collections.abc import Callable
-from typing import Any, Final, TypeVar
+from typing import Any, TypeVar
 
-from tftool.errors import InputError, LinkError, MalformedMessage
+from tftool.errors import InputError, MalformedMessage
 from tftool.interfaces.classes import INTERFACES
 from tftool.link import keys
 from tftool.link.actions import ActionClient, ActionServer
 from tftool.link.graph import Process, Role, hosts
 from tftool.link.keys import Entity
 from tftool.link.membership import NAME, Membership, Options, plain
-from tftool.link.rendezvous import Rendezvous
+from tftool.link.opening import Opening
 from tftool.link.services import ServiceClient, ServiceServer
 from tftool.link.topics import StaticBridge, TopicBridge, TransformBridge
-from tftool.link.transport import Wire
 from tftool.link.types import VALUES, action_type, service_type, topic_type
 from tftool.runtime.clock import WallClock
 from tftool.runtime.endpoints import PUBLISHER, SUBSCRIPTION, Endpoint
@@ -32,19 +29,6 @@ from tftool.runtime.world import TransformMessage, World
 
 T = TypeVar("T")
 
-REACHING: Final = 3.0
-"""Seconds to wait for somebody at the other end of `connect`."""
-
-NEARBY: Final = 1.0
-"""Seconds to wait for the processes of this machine."""
-
-INTRODUCED: Final = 1.0
-"""Seconds to wait for tokens of those who are connected."""
-
-SHOWN: Final = 0.3
-"""Seconds to wait for the tokens of all, once those of some are there."""
-
-_STEP = 0.005
 _PLAIN = re.compile(r"[A-Za-z_][A-Za-z0-9_]*(/[A-Za-z_][A-Za-z0-9_]*)*", re.ASCII)
 
 
@@ -65,22 +49,8 @@ class Link(Membership):
         Raises:
             LinkError: If there is no place to meet, or zenoh is missing or refuses.
         """
-        self._place: Rendezvous | None = None
-        endpoint = ""
-        others: tuple[str, ...] = ()
-        if options.reach.config is None:
-            self._place = Rendezvous(options.domain)
-            self._place.enter()
-            endpoint, others = self._place.endpoint, self._place.others
-        try:
-            wire = Wire(options.reach, endpoint, others)
-        except LinkError:
-            if self._place is not None:
-                self._place.leave()
-            raise
-        super().__init__(options, wire)
-        self._reach_out(len(others))
-        self._take_in_tokens(len(others))
+        self._opening = Opening(options)
+        super().__init__(options, self._opening.wire, self._opening.graph)
         self._stops: list[Callable[[], None]] = []
         self._bridges: dict[str, TopicBridge | TransformBridge] = {}
         self._servers: dict[str, tuple[Offer[Any], ServiceServer | ActionServer]] = {}
@@ -94,8 +64,7 @@ class Link(Membership):
 
     def settle(self) -> None:
         """Let other processes of this machine join from now on."""
-        if self._place is not None:
-            self._place.settle()
+        self._opening.settle()
 
     # Taking part
 
@@ -137,9 +106,7 @@ class Link(Membership):
             stop()
         for stop in self._stops:
             stop()
-        self.wire.close()
-        if self._place is not None:
-            self._place.leave()
+        self._opening.close()
 
     def __enter__(self) -> "Link":
         return self
@@ -340,56 +307,6 @@ class Link(Membership):
                 f"Somebody talks in domain {domain}; this is domain {self.options.domain} and "
                 f"hears nothing of it. To join: --domain {domain}.",
             )
-
-    # Opening
-
-    def _reach_out(self, others: int) -> None:
-        """Wait until somebody is there, where somebody should be."""
-        # zenoh itself gives up waiting early, and a busy machine is slow to say hello: who
-        # took that for nobody would host a second world. A stopped process never says it.
-        self._await_neighbours(others, NEARBY)
-        reach = self.options.reach
-        if reach.config is not None:
-            self._await_neighbours(1, NEARBY)
-        elif reach.connect and not self._await_neighbours(others + 1, REACHING):
-            self.close_quietly()
-            raise LinkError(
-                f"nobody answers at {', '.join(reach.connect)} within {REACHING:g} s; "
-                "is the other side running, and reachable from here?"
-            )
-
-    def _await_neighbours(self, count: int, patience: float) -> bool:
-        pause = threading.Event()
-        for _ in range(round(patience / _STEP)):
-            if len(self.wire.neighbours) >= count:
-                return True
-            pause.wait(_STEP)
-        return len(self.wire.neighbours) >= count
-
-    def close_quietly(self) -> None:
-        """Give up while opening."""
-        with contextlib.suppress(Exception):
-            self.wire.close()
-        if self._place is not None:
-            self._place.leave()
-
-    def _take_in_tokens(self, others: int) -> None:
-        """Fill the graph with who is there now, where somebody should be."""
-        expected = others or self.options.reach.connect or self.options.reach.config
-        pause = threading.Event()
-        patience = round(INTRODUCED / _STEP) if expected else 1
-        # Connected is not yet introduced: routers take a moment to pass tokens on.
-        while patience > 0:
-            for prefix in (keys.LIVELINESS, keys.OURS):
-                for token in self.wire.tokens(f"{prefix}/{self.options.domain}/**"):
-                    self.graph.add(token)
-            if not expected or self.wire.neighbours <= self.graph.sessions:
-                return
-            if not self.graph.is_empty:
-                # Those who only look never show a token: no reason to wait for long.
-                patience = min(patience, round(SHOWN / _STEP))
-            patience -= 1
-            pause.wait(_STEP)
 
 
 def is_plain(name: str) -> bool:
