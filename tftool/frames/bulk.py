@@ -15,7 +15,7 @@ from tftool.frames.forest import Forest
 from tftool.frames.links import Link, Sample
 from tftool.frames.lookups import Lookups
 from tftool.frames.plans import Plan
-from tftool.geometry import batch
+from tftool.geometry.batch import Floats
 from tftool.stamps import Stamp
 
 CHUNK = 1 << 16
@@ -104,16 +104,18 @@ class _Batch:
         self.columns = Columns()
         self.plan = routes.steady_plan(forest, self.target, self.source)
         self.first, self.last = -(2**63), 2**63 - 1
-        self.rows_at_once = CHUNK
+        # Whether moments in no order are sorted first: long histories do not fit a cache.
+        self.sorts = False
         for link in self.plan.moving if self.plan else ():
             column = self.columns.of(link)
             assert isinstance(column, Column)
             self.first = max(self.first, column.oldest)
             self.last = min(self.last, column.newest)
             if len(column.stamps) > kernel.MOST_INTERVALS:
-                self.rows_at_once = SECTION
+                self.sorts = True
+        self.rows_at_once = SECTION if self.sorts else CHUNK
         self.ready: dict[int, kernel.Edge] = {}
-        self.spare: list[kernel.Workspace] = []
+        self.rooms: list[Floats] = []
         self.latest: tuple[Stamp, Sample] | TransformException | None = None
         n = len(times)
         self.stamps = np.empty(n, dtype=np.int64)
@@ -123,8 +125,12 @@ class _Batch:
 
     def run(self, complete: bool, workers: int) -> None:
         """Answer every row; if they must be complete, the first that is refused raises."""
-        starts = range(0, len(self.times), self.rows_at_once)
-        if workers == 1 or len(starts) < 2:
+        n = len(self.times)
+        # Alike, so that no thread is left with more than the others.
+        pieces = -(-n // (self.rows_at_once * workers)) * workers
+        self.rows_at_once = -(-n // pieces) if pieces else 1
+        starts = range(0, n, self.rows_at_once)
+        if workers == 1:
             for start in starts:
                 self.fill(start, complete)
             return
@@ -141,11 +147,11 @@ class _Batch:
         rows = slice(start, start + self.rows_at_once)
         times = self.times[rows]
         self.stamps[rows] = times
-        usable = (times >= self.first) & (times <= self.last) & (times != 0)
-        if self.plan is not None and usable.all():
+        if self.plan is not None and self.has_all(times):
             self.solve(self.plan, times, self.translations[rows], self.rotations[rows])
             self.valid[rows] = True
             return
+        usable = (times >= self.first) & (times <= self.last) & (times != 0)
         self.valid[rows] = False
         self.translations[rows] = np.nan
         self.rotations[rows] = np.nan
@@ -165,34 +171,36 @@ class _Batch:
             for row in (start + np.flatnonzero(~self.valid[rows])).tolist():
                 self.put(row, self.ask(int(self.times[row])))
 
-    def solve(
-        self, plan: Plan, times: Stamps, translations: batch.Floats, rotations: batch.Floats
-    ) -> None:
+    def has_all(self, times: Stamps) -> bool:
+        """Whether the steady plan has data for all moments, and none asks for the latest."""
+        least, most = int(times.min()), int(times.max())
+        return self.first <= least and most <= self.last and (least > 0 or bool(times.all()))
+
+    def solve(self, plan: Plan, times: Stamps, translations: Floats, rotations: Floats) -> None:
         """Answer moments that a plan has data for."""
         up, down = self.edges(plan.up), self.edges(plan.down)
         in_order = bool(np.all(times[1:] >= times[:-1]))
-        if not in_order and self.rows_at_once == SECTION:
+        if not in_order and self.sorts:
             order = np.argsort(times)
             turned = np.empty((len(times), 4)), np.empty((len(times), 3))
             self.solve(plan, times[order], turned[1], turned[0])
             rotations[order], translations[order] = turned
             return
-        for start in range(0, len(times), kernel.BLOCK):
-            rows = slice(start, start + kernel.BLOCK)
+        room = self.room()
+        workspace = None
+        for rows in kernel.blocks(len(times)):
             block = times[rows]
-            workspace = self.workspace(len(block))
+            if workspace is None or workspace.count != len(block):
+                workspace = kernel.Workspace(room, len(block))
             workspace.solve(up, down, block, in_order, translations[rows], rotations[rows])
-            if len(block) == kernel.BLOCK:
-                self.spare.append(workspace)
+        self.rooms.append(room)
 
-    def workspace(self, count: int) -> kernel.Workspace:
-        """One that no thread works in."""
-        if count == kernel.BLOCK:
-            try:
-                return self.spare.pop()
-            except IndexError:
-                pass
-        return kernel.Workspace(count)
+    def room(self) -> Floats:
+        """Some that no thread works in."""
+        try:
+            return self.rooms.pop()
+        except IndexError:
+            return kernel.room(len(self.times))
 
     def edges(self, links: Iterable[Link]) -> list[kernel.Edge]:
         """Links made ready for the arithmetic, each once."""
@@ -277,9 +285,11 @@ def _paired(target_times: npt.ArrayLike, source_times: npt.ArrayLike) -> tuple[S
 
 
 def _workers(threads: int | None) -> int:
-    """How many threads to use: as many as were asked for, else one for each core."""
+    """How many threads to use: as many as were asked for, else one for each core we may use."""
     if threads is None:
-        return os.cpu_count() or 1
+        # Where the system tells, those it allows us; a container may have more.
+        allowed = getattr(os, "sched_getaffinity", None)
+        return len(allowed(0)) if allowed else os.cpu_count() or 1
     if threads < 1:
         raise ValueError(f"threads must be 1 or more, not {threads}")
     return threads

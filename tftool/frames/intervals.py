@@ -9,6 +9,8 @@ toward the second, at right angles to A and θ long. That is the shorter arc at 
 speed, but for its length, √(1 + s²θ²), which is divided out once at the end of a chain.
 """
 
+from typing import TypeVar
+
 import numpy as np
 import numpy.typing as npt
 
@@ -27,6 +29,8 @@ SERIES = (
     929569.0 / 638512875.0,
 )
 
+T = TypeVar("T", np.int64, np.float64)
+
 _WXYZ = [6, 3, 4, 5]
 
 # What a left-out term may amount to.
@@ -41,8 +45,10 @@ class Intervals:
 
     Attributes:
         stamps: Where each interval begins, int64, shape (k,).
-        places: P and 1 over the interval's length in nanoseconds, shape (k, 4).
-        paths: D and θ², shape (k, 4).
+        rates: 1 over its length in nanoseconds, shape (k,).
+        bends: θ², shape (k,).
+        places: P, shape (k, 4); the last number is of no use, as in `paths`.
+        paths: D, shape (k, 4).
         starts: A, shape (k, 4).
         turns: C, shape (k, 4).
         endless: Whether one of them begins or ends at infinity.
@@ -50,7 +56,18 @@ class Intervals:
         terms: How many terms of the series the largest turn needs; 0 if too many.
     """
 
-    __slots__ = ("endless", "paths", "places", "row_by_row", "stamps", "starts", "terms", "turns")
+    __slots__ = (
+        "bends",
+        "endless",
+        "paths",
+        "places",
+        "rates",
+        "row_by_row",
+        "stamps",
+        "starts",
+        "terms",
+        "turns",
+    )
 
     def __init__(self, column: Column, first: npt.NDArray[np.intp] | slice) -> None:
         """Work out some intervals of a column.
@@ -72,11 +89,11 @@ class Intervals:
             # Between two parents there is no way: the older sample stays as it is.
             still |= column.parents[first] != column.parents[second]
         k = len(first)
-        self.places: Floats = np.empty((k, 4))
-        self.paths: Floats = np.empty((k, 4))
+        self.places: Floats = np.zeros((k, 4))
+        self.paths: Floats = np.zeros((k, 4))
         self.turns: Floats = np.empty((k, 4))
         self.places[:, :3] = begin[:, :3]
-        self.places[:, 3] = np.where(still, 0.0, 1.0 / np.where(still, 1.0, length))
+        self.rates: Floats = np.where(still, 0.0, 1.0 / np.where(still, 1.0, length))
         np.subtract(end[:, :3], begin[:, :3], out=self.paths[:, :3])
         self.paths[still] = 0.0
         self.endless = not np.isfinite(self.paths[:, :3]).all()
@@ -94,9 +111,23 @@ class Intervals:
         stretch = np.where(tiny, 1.0, theta / np.where(tiny, 1.0, sine))
         # ahead − cos θ · start, without the cancellation.
         np.multiply(apart + 0.5 * square * self.starts, stretch, out=self.turns)
-        theta *= theta
-        self.paths[:, 3] = theta[:, 0]
-        self.terms = _terms(float(theta.max(initial=0.0)))
+        self.bends: Floats = theta[:, 0] * theta[:, 0]
+        self.terms = _terms(float(self.bends.max(initial=0.0)))
+
+    def fetch(
+        self, table: npt.NDArray[T], index: npt.NDArray[np.intp], out: npt.NDArray[T]
+    ) -> None:
+        """Write what one of these tables has for each moment.
+
+        Args:
+            table: Shape (k,) or (k, 4).
+            index: The interval of each moment, shape (n,).
+            out: Is written to, shape (n,) or (n, 4).
+        """
+        if self.row_by_row:
+            np.copyto(out, table)
+        else:
+            table.take(index, 0, out, "clip")
 
 
 def _dot(first: Floats, second: Floats) -> Floats:

@@ -4,21 +4,25 @@ Everything happens in blocks of a few thousand moments, in arrays made once that
 the processor's cache.
 """
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from typing import TypeAlias
 
 import numpy as np
-from numpy import add, copyto, multiply, subtract, take
+from numpy import add, copyto, multiply, subtract
 
 from tftool.frames.columns import Column, Stamps
 from tftool.frames.intervals import SERIES, Intervals
 from tftool.frames.links import Sample
-from tftool.frames.search import Buckets, find_sorted, settle_oldest
+from tftool.frames.search import Buckets, Indices, find_sorted, settle_oldest
 from tftool.geometry.batch import Floats
 from tftool.geometry.lanes import Place, Turn, chain, rotate
 
-BLOCK = 1 << 14
-"""Moments worked on together."""
+BLOCK = 1 << 15
+"""Moments worked on together: with more the cache is too small, with fewer threads get in
+each other's way, for between two operations of numpy only one of them can run."""
+
+GROUP = 6
+"""Links whose shares of the way are worked out together, in fewer and longer operations."""
 
 # The intervals of so long a history are still worked out as one: 136 bytes each.
 MOST_INTERVALS = 1 << 16
@@ -60,33 +64,80 @@ class Fixed:
 Edge: TypeAlias = "Moving | Fixed"
 
 
+class _Rows:
+    """Hands out rows of some room, one after the other."""
+
+    def __init__(self, room: Floats, count: int) -> None:
+        self._rows = room[: ROWS * count].reshape(ROWS, count)
+        self._taken = 0
+
+    def __call__(self, number: int) -> Floats:
+        """The next so many rows, of as many columns as there are moments."""
+        self._taken += number
+        return self._rows[self._taken - number : self._taken]
+
+
 class _Side:
     """What came together on the way up from the source, or from the target."""
 
     __slots__ = ("empty", "place", "square", "turn", "unused")
 
-    def __init__(self, count: int) -> None:
+    def __init__(self, rows: _Rows) -> None:
         self.empty = True
-        self.place = Place(np.empty((5, count)))
-        self.turn, self.unused = Turn(np.empty((6, count))), Turn(np.empty((6, count)))
+        self.place = Place(rows(5))
+        self.turn, self.unused = Turn(rows(6)), Turn(rows(6))
         # The quaternions are as long as they come out; this is their length squared.
-        self.square: Floats = np.empty(count)
+        self.square = rows(1)[0]
+
+
+ROWS = 56 + 4 * GROUP
+"""How many numbers are kept for each moment of a block."""
+
+
+# So many numbers fill a line of the processor's cache.
+_LINE = 8
+
+
+def blocks(count: int) -> Iterator[slice]:
+    """Cut so many moments into blocks, all alike but for the last."""
+    size = -(-count // -(-count // BLOCK))
+    # Rows of whole lines: an operation that crosses them at each step takes longer.
+    size += -size % _LINE
+    for start in range(0, count, size):
+        yield slice(start, min(start + size, count))
+
+
+def room(count: int) -> Floats:
+    """Room for any of the blocks of so many moments.
+
+    In one piece, because the system maps a large one by large pages: it is made and
+    reached more quickly than many small ones.
+    """
+    numbers = np.empty(ROWS * (min(count, BLOCK) + _LINE) + _LINE)
+    address: int = numbers.__array_interface__["data"][0]
+    return numbers[-address // 8 % _LINE :]
 
 
 class Workspace:
     """The arrays in which a block of moments is worked on, and what is done in them."""
 
-    def __init__(self, count: int) -> None:
-        """Make room for blocks of exactly so many moments."""
-        self._index = np.empty(count, dtype=np.intp)
-        self._whole = np.empty(count, dtype=np.int64)
-        self._flags = np.empty(count, dtype=np.bool_)
-        self._some, self._more = np.empty((2, count, 4))
-        self._share, self._bend, self._factor, self._square = np.empty((4, count))
-        self._spare: Floats = np.empty((3, count))
-        self._cross, self._place = Place(np.empty((5, count))), Place(np.empty((5, count)))
-        self._turn = Turn(np.empty((6, count)))
-        self._up, self._down = _Side(count), _Side(count)
+    def __init__(self, room: Floats, count: int) -> None:
+        """Lay out some room for blocks of exactly so many moments."""
+        self.count = count
+        rows = _Rows(room, count)
+        self._flags = rows(1)[0].view(np.bool_)[:count]
+        # For each link of a group: the interval, the share of the way, and that of the turn.
+        self._index = rows(GROUP).view(np.intp)[:, :count]
+        self._shares, self._bows = rows(GROUP), rows(GROUP)
+        # The square of half the angle turned, then the factor for `rotate`.
+        self._bends = rows(GROUP)
+        self._whole: Stamps = self._bends.view(np.int64)
+        # What is fetched is used up before the next link is turned.
+        shared = rows(8)
+        self._some, self._more = shared.reshape(2, count, 4)
+        self._spare, self._cross = shared[:3], Place(shared[3:])
+        self._place, self._turn = Place(rows(5)), Turn(rows(6))
+        self._up, self._down = _Side(rows), _Side(rows)
 
     def solve(
         self,
@@ -115,76 +166,74 @@ class Workspace:
     def _climb(self, side: _Side, edges: Sequence[Edge], times: Stamps, in_order: bool) -> None:
         """Chain the links of one side."""
         side.empty = not edges
-        factor: Floats | float
-        for number, edge in enumerate(edges):
-            if number == 0:
+        side.square.fill(1.0)
+        for start in range(0, len(edges), GROUP):
+            group = edges[start : start + GROUP]
+            moving = [edge for edge in group if isinstance(edge, Moving)]
+            found = iter(self._prepare(side, moving, times, in_order))
+            rows = iter(zip(self._index, self._shares, self._bows, self._bends, strict=True))
+            for number, edge in enumerate(group, start):
+                place, turn = (self._place, self._turn) if number else (side.place, side.turn)
+                factor: Floats | float = 2.0
                 if isinstance(edge, Moving):
-                    self._interpolate(edge, times, in_order, side.place, side.turn, side.square)
+                    index, share, bow, factor = next(rows)
+                    self._interpolate(next(found), index, share, bow, place, turn)
                 else:
-                    copyto(side.place.xyz, edge.place)
-                    copyto(side.turn.rows, edge.turn.rows)
-                    side.square.fill(1.0)
+                    copyto(place.xyz, edge.place)
+                    copyto(turn.rows, edge.turn.rows)
+                if number:
+                    rotate(turn, factor, side.place, self._cross, self._spare)
+                    add(side.place.xyz, place.xyz, side.place.xyz)
+                    chain(turn, side.turn, side.unused, self._spare)
+                    side.turn, side.unused = side.unused, side.turn
                 side.place.close()
-                continue
-            if isinstance(edge, Moving):
-                step, turn, factor = self._place.xyz, self._turn, self._factor
-                self._interpolate(edge, times, in_order, self._place, turn, self._square)
-                multiply(side.square, self._square, side.square)
-                np.divide(2.0, self._square, factor)
-            else:
-                step, turn, factor = edge.place, edge.turn, 2.0
-            rotate(turn, factor, side.place, self._cross, self._spare)
-            add(side.place.xyz, step, side.place.xyz)
-            side.place.close()
-            chain(turn, side.turn, side.unused, self._spare)
-            side.turn, side.unused = side.unused, side.turn
 
-    def _interpolate(
-        self,
-        edge: Moving,
-        times: Stamps,
-        in_order: bool,
-        place: Place,
-        turn: Turn,
-        square: Floats,
-    ) -> None:
-        """Write a link's pose at each moment, and the square of its quaternion's length."""
-        index, whole, share = self._index, self._whole, self._share
-        intervals = self._find(edge, times, in_order)
-        row_by_row = intervals.row_by_row
-        if row_by_row:
-            # Worked out row by row: nothing to be fetched.
-            begun, some, more = intervals.stamps, intervals.places, intervals.paths
-        else:
-            begun = take(intervals.stamps, index, None, whole, "clip")
-            some = take(intervals.places, index, 0, self._some, "clip")
-            more = take(intervals.paths, index, 0, self._more, "clip")
-        subtract(times, begun, whole)
-        copyto(share, whole)
-        multiply(share, some[:, 3], share)
-        multiply(share, more.T[:3], place.xyz)
-        add(place.xyz, some.T[:3], place.xyz)
-        if intervals.endless:
-            # No way leads from or to infinity, but a sample is met as it is.
-            met = np.flatnonzero(share == 0.0)
-            place.xyz[:, met] = some[met, :3].T
-        self._bow(share, more[:, 3], intervals.terms, square)
-        if row_by_row:
-            some, more = intervals.starts, intervals.turns
-        else:
-            some = take(intervals.starts, index, 0, self._some, "clip")
-            more = take(intervals.turns, index, 0, self._more, "clip")
-        multiply(share, more.T, turn.wxyz)
-        add(turn.wxyz, some.T, turn.wxyz)
-        turn.close()
+    def _prepare(
+        self, side: _Side, edges: Sequence[Moving], times: Stamps, in_order: bool
+    ) -> list[Intervals]:
+        """Find each moment's interval in some links, and the shares of the way and the turn.
 
-    def _find(self, edge: Moving, times: Stamps, in_order: bool) -> Intervals:
-        """The intervals to use, with each moment's number in `_index`."""
-        index, column = self._index, edge.column
+        Leaves the factors for `rotate` in `_bends`, and multiplies the side's square.
+        """
+        count = len(edges)
+        if not count:
+            return []
+        whole, shares = self._whole[:count], self._shares[:count]
+        bows, bends = self._bows[:count], self._bends[:count]
+        found = [
+            self._find(edge, times, in_order, index)
+            for edge, index in zip(edges, self._index, strict=False)
+        ]
+        for intervals, index, row in zip(found, self._index, whole, strict=False):
+            intervals.fetch(intervals.stamps, index, row)
+        subtract(times, whole, whole)
+        copyto(shares, whole)
+        for intervals, index, row in zip(found, self._index, bends, strict=False):
+            intervals.fetch(intervals.rates, index, row)
+        multiply(shares, bends, shares)
+        for intervals, index, row in zip(found, self._index, bends, strict=False):
+            intervals.fetch(intervals.bends, index, row)
+        multiply(bends, shares, bends)
+        multiply(bends, shares, bends)
+        terms = [intervals.terms for intervals in found]
+        _bow(bends, bows, min(terms) and max(terms))
+        # What the turns are long, squared, as their vector part is the tangent.
+        multiply(bends, bows, bends)
+        multiply(bends, bows, bends)
+        add(bends, 1.0, bends)
+        multiply(bows, shares, bows)
+        for row in bends:
+            multiply(side.square, row, side.square)
+        np.divide(2.0, bends, bends)
+        return found
+
+    def _find(self, edge: Moving, times: Stamps, in_order: bool, index: Indices) -> Intervals:
+        """The intervals to use, with each moment's number in `index`."""
+        column = edge.column
         if in_order:
             find_sorted(column.stamps, times, index)
         else:
-            edge.buckets.find(times, index, self._whole, self._flags)
+            edge.buckets.find(times, index, self._whole[0], self._flags)
         settle_oldest(column, times, index)
         if edge.intervals is not None:
             return edge.intervals
@@ -195,34 +244,34 @@ class Workspace:
                 return Intervals(column, slice(first, last + 1))
         return Intervals(column, index)
 
-    def _bow(self, share: Floats, theta_squared: Floats, terms: int, square: Floats) -> None:
-        """Turn shares of the arc into shares of its tangent, in place; give 1 + their square."""
-        bend = self._bend
-        if terms == 0:
-            np.sqrt(theta_squared, bend)
-            multiply(share, bend, square)
-            np.tan(square, square)
-            # Where there is no turn at all, the share itself will do.
-            np.divide(square, bend, share, where=bend > 0.0)
-            multiply(square, square, square)
-            add(square, 1.0, square)
-            return
-        if terms > 1:
-            multiply(share, share, bend)
-            multiply(bend, theta_squared, bend)
-            multiply(bend, SERIES[terms - 1], square)
-            for term in range(terms - 2, 0, -1):
-                add(square, SERIES[term], square)
-                multiply(square, bend, square)
-            add(square, 1.0, square)
-            multiply(share, square, share)
-        multiply(share, share, square)
-        multiply(square, theta_squared, square)
-        add(square, 1.0, square)
+    def _interpolate(
+        self,
+        intervals: Intervals,
+        index: Indices,
+        share: Floats,
+        bow: Floats,
+        place: Place,
+        turn: Turn,
+    ) -> None:
+        """Write a link's pose at each moment, given the shares of the way and of the turn."""
+        some, more = self._some, self._more
+        intervals.fetch(intervals.places, index, some)
+        intervals.fetch(intervals.paths, index, more)
+        multiply(share, more.T[:3], place.xyz)
+        add(place.xyz, some.T[:3], place.xyz)
+        if intervals.endless:
+            # No way leads from or to infinity, but a sample is met as it is.
+            met = np.flatnonzero(share == 0.0)
+            place.xyz[:, met] = some[met, :3].T
+        intervals.fetch(intervals.starts, index, some)
+        intervals.fetch(intervals.turns, index, more)
+        multiply(bow, more.T, turn.wxyz)
+        add(turn.wxyz, some.T, turn.wxyz)
+        turn.close()
 
     def _join(self, translations: Floats, rotations: Floats) -> None:
         """Put the two sides together, and write the answers."""
-        up, down, scale = self._up, self._down, self._factor
+        up, down, scale = self._up, self._down, self._bends[0]
         place, turn, square = up.place, up.turn, up.square
         if not down.empty:
             np.divide(2.0, down.square, scale)
@@ -250,7 +299,8 @@ class Workspace:
 
     def _lead(self, turn: Turn, square: Floats) -> Floats:
         """The numbers whose sign tf2 makes positive; see `quaternions.canonical`."""
-        small, large, lead, size = self._bend, self._flags, self._share, self._spare
+        small, large, size = self._bows[0], self._flags, self._spare
+        lead: Floats = self._shares[0]
         multiply(turn.w, turn.w, small)
         multiply(square, 0.25, square)
         np.less_equal(small, square, large)
@@ -267,3 +317,24 @@ class Workspace:
         copyto(lead, y, where=np.logical_and(large, second, second))
         copyto(lead, z, where=np.logical_and(large, third, third))
         return lead
+
+
+def _bow(bends: Floats, bows: Floats, terms: int) -> None:
+    """Write tan(x)/x.
+
+    Args:
+        bends: x².
+        bows: Is written to.
+        terms: How many terms of the series it takes; 0 for the tangent itself.
+    """
+    if terms == 0:
+        angles = np.sqrt(bends)
+        np.tan(angles, bows)
+        # Where there is no angle, the limit.
+        bows[angles == 0.0] = 1.0
+        np.divide(bows, angles, bows, where=angles > 0.0)
+        return
+    bows.fill(SERIES[terms - 1])
+    for term in range(terms - 2, -1, -1):
+        multiply(bows, bends, bows)
+        add(bows, SERIES[term], bows)

@@ -56,15 +56,15 @@ def find_sorted(stamps: Stamps, times: Stamps, index: Indices) -> None:
 
     Where samples are fewer than moments, it is the samples that are searched for.
     """
-    first = int(np.searchsorted(stamps, times[0], "right")) - 1
-    last = int(np.searchsorted(stamps, times[-1], "right")) - 1
+    first, last = (stamps.searchsorted(times[[0, -1]], "right") - 1).tolist()
     if last - first > len(times):
         np.subtract(np.searchsorted(stamps[first : last + 1], times, "right"), 1 - first, out=index)
         return
-    marks = np.empty(last - first + 2, dtype=np.intp)
-    marks[0], marks[-1] = 0, len(times)
-    marks[1:-1] = np.searchsorted(times, stamps[first + 1 : last + 1], "left")
-    index[:] = np.repeat(np.arange(first, last + 1), np.diff(marks))
+    # Counted up from one sample to the next: other than `repeat`, that lets threads run.
+    index.fill(0)
+    np.add.at(index, times.searchsorted(stamps[first + 1 : last + 1], "left"), 1)
+    index[0] += first
+    np.add.accumulate(index, 0, None, index)
 
 
 def settle_oldest(column: Column, times: Stamps, index: Indices) -> None:
