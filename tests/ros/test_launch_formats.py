@@ -299,3 +299,80 @@ def test_rarer_substitutions_give_texts_too(tmp_path):
     )
 
     assert done.said("launch") == [*asked.values(), "flat,round", "flat,round"]
+
+
+PARAMETERS = {
+    "xml": """<launch>
+  <set_use_sim_time value="true"/>
+  <set_parameters_from_file filename="$(dirname)/all.yaml"/>
+  <node pkg="mine" exec="brief.py" args="--ros-args -p last:=2" ros_args="--log-level info">
+    <param name="outer">
+      <param name="one" value="1.5"/><param name="two" value="x" type="str"/>
+    </param>
+    <param name="digits" value="007" type="str"/>
+    <param from="$(dirname)/one.yaml" allow_substs="true"/>
+    <env name="A" value="b"/>
+  </node>
+</launch>""",
+    "yaml": """launch:
+- set_use_sim_time: {value: true}
+- set_parameters_from_file: {filename: $(dirname)/all.yaml}
+- node:
+    pkg: mine
+    exec: brief.py
+    args: --ros-args -p last:=2
+    ros_args: --log-level info
+    env: [{name: A, value: b}]
+    param:
+    - name: outer
+      param: [{name: one, value: 1.5}, {name: two, value: x}]
+    - {name: digits, value: '007', type: str}
+    - {from: $(dirname)/one.yaml, allow_substs: true}
+""",
+}
+
+
+@pytest.mark.parametrize("ending", PARAMETERS)
+def test_parameters_are_given_in_xml_and_yaml_alike(brief, ending):
+    (brief / "all.yaml").write_text("/**:\n  ros__parameters:\n    everywhere: [1, 2]\n")
+    (brief / "one.yaml").write_text("brief:\n  ros__parameters:\n    here: $(dirname)\n")
+    file = brief / f"a.launch.{ending}"
+    file.write_text(PARAMETERS[ending])
+    done = launch(file, seconds=2, start=brief)
+
+    assert done.texts("brief") == [
+        f"digits=007 everywhere=[1, 2] here={brief} last=2 outer.one=1.5 outer.two=x "
+        "use_sim_time=True"
+    ]
+    assert done.said("launch") == ["additional_env of a Node has no effect here"]
+
+
+def test_values_of_a_given_type_are_of_that_type(brief):
+    done = described(
+        brief,
+        "Node(package='mine', executable='brief.py', parameters=[{"
+        "'a': ParameterValue(3), 'b': ParameterValue('5', value_type=str), "
+        "'c': ParameterValue('5', value_type=float)}])",
+        start=brief,
+    )
+
+    assert done.texts("brief") == ["a=3 b=5 c=5.0"]
+
+
+def test_a_shutdown_ends_the_nodes_that_run(brief):
+    (brief / "mine" / "scripts" / "long.py").write_text(
+        "import rclpy\nrclpy.init()\nnode = rclpy.create_node('long')\n"
+        "try:\n    rclpy.spin(node)\nfinally:\n    node.get_logger().info('good bye')\n"
+    )
+    done = described(
+        brief,
+        "Node(package='mine', executable='long.py')",
+        "TimerAction(period=1.0, actions=[Shutdown(reason='enough')])",
+        seconds=9,
+        start=brief,
+    )
+
+    assert done.texts("long") == ["good bye"]
+    assert done.said("long.py-1") == ["process started", "process has finished cleanly"]
+    assert done.failed == []
+    assert done.elapsed == 1
