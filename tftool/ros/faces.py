@@ -74,6 +74,14 @@ rclpy.action.client: client.action_client: ActionClient ClientGoalHandle
 rclpy.action.client: client.action_goals: GoalStatus
 rclpy.action.server: client.action_server: ActionServer ServerGoalHandle GoalResponse
 rclpy.action.server: client.action_server: CancelResponse
+rclpy.lifecycle: client.lifecycle: LifecycleNode LifecycleNodeMixin LifecyclePublisher
+rclpy.lifecycle: client.lifecycle: LifecycleState TransitionCallbackReturn ManagedEntity
+rclpy.lifecycle: client.lifecycle: SimpleManagedEntity Node=LifecycleNode State=LifecycleState
+rclpy.lifecycle: client.lifecycle: Publisher=LifecyclePublisher
+rclpy.lifecycle.node: client.lifecycle: LifecycleNode LifecycleNodeMixin LifecycleState
+rclpy.lifecycle.node: client.lifecycle: TransitionCallbackReturn
+rclpy.lifecycle.publisher: client.lifecycle: LifecyclePublisher
+rclpy.lifecycle.managed_entity: client.lifecycle: ManagedEntity SimpleManagedEntity
 rclpy.signals: client.signals: SignalHandlerOptions
 rclpy.utilities: client.utilities: remove_ros_args ok get_default_context timeout_sec_to_nsec
 rclpy.utilities: client.utilities: get_rmw_implementation_identifier shutdown try_shutdown

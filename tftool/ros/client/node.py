@@ -158,7 +158,8 @@ class Node(NodeGraph, NodeParameters):
         """Something to send messages with."""
         _require_message(msg_type)
         profile, full = profile_of(qos_profile), self._tftool.full(topic)
-        return self.__keep(lambda: Publisher(self._tftool, msg_type, topic, full, profile))
+        make = publisher_class or Publisher
+        return self.__keep(lambda: make(self._tftool, msg_type, topic, full, profile))
 
     def create_subscription(
         self,
