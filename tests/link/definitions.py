@@ -16,6 +16,13 @@ MESSAGES = {
         "float32 x\nfloat32 y\nfloat32 theta\nfloat32 linear_velocity\nfloat32 angular_velocity"
     ),
     "turtlesim/msg/Color": "uint8 r\nuint8 g\nuint8 b",
+    "example_interfaces/msg/String": "string data",
+    "example_interfaces/msg/Int64": "int64 data",
+    "example_interfaces/msg/Float64": "float64 data",
+    "example_interfaces/msg/Bool": "bool data",
+}
+MESSAGES |= {
+    f"turtlesim_msgs/msg/{name}": MESSAGES[f"turtlesim/msg/{name}"] for name in ("Pose", "Color")
 }
 
 EVENT_INFO = (
