@@ -1,5 +1,6 @@
 """The options of sharing: what they say, and what cannot be said."""
 
+import sys
 from pathlib import Path
 
 import pytest
@@ -137,6 +138,22 @@ def test_who_does_something_cannot_only_look(tftool, words, purpose):
 
     assert result.status == 2
     assert f"--read-only publishes nothing, and to {purpose} is all {words[0]} does." in result.err
+
+
+def test_without_zenoh_a_world_is_hosted_and_joining_says_what_is_missing(
+    tftool, monkeypatch, simulated
+):
+    monkeypatch.setitem(sys.modules, "zenoh", None)
+    monkeypatch.setattr("tftool.cli.session._is_real", lambda clock: True)
+
+    hosted = tftool("echo", "world", "turtle1", "--once")
+    joined = tftool("echo", "world", "turtle1", "--once", "--join")
+
+    assert hosted.status == 0
+    missing = "talking to other processes needs 'eclipse-zenoh', which is missing here"
+    assert hosted.err.startswith(f"Nobody can join this world: {missing}")
+    assert joined.status == 3
+    assert joined.err.startswith(f"tftool: {missing}")
 
 
 def test_session_has_nothing_to_host(tftool):

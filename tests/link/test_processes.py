@@ -161,6 +161,41 @@ def test_a_folder_that_cannot_be_used_leaves_hosting_alone(session_dir, monkeypa
     assert "Nobody can join this world: no session can meet in" in alone.stderr
 
 
+FULL = """
+set -e
+mount -t tmpfs -o mode=700,size=64k,nr_inodes=$1 tmpfs "$TFTOOL_SESSION_DIR"
+shift
+exec "$@" echo world turtle1 --once
+"""
+
+
+def may_mount():
+    tried = subprocess.run(
+        ["unshare", "-m", "true"] if shutil.which("unshare") else ["false"], check=False
+    )
+    return tried.returncode == 0
+
+
+@pytest.mark.skipif(not may_mount(), reason="needs the right to mount a file system")
+@pytest.mark.parametrize(
+    "files", [2, 3, 4], ids=["no room for the lock", "nor for zenoh's", "nor for the socket"]
+)
+def test_a_full_disk_leaves_hosting_alone(files):
+    alone = subprocess.run(
+        ["unshare", "-m", "sh", "-c", FULL, "sh", str(files), sys.executable, "-m", "tftool"],
+        cwd=ROOT,
+        capture_output=True,
+        text=True,
+        timeout=60,
+        check=False,
+    )
+
+    assert alone.returncode == 0, alone.stderr
+    (told,) = [line for line in alone.stderr.splitlines() if "Nobody can join" in line]
+    assert "No space left on device" in told
+    assert "Traceback" not in alone.stderr
+
+
 def test_who_is_interrupted_leaves_nothing_behind(session_dir):
     with host() as first:
         first.says('"translation"')
@@ -194,6 +229,22 @@ ROLES = {
 }
 READY = {"host": "Successfully spawned turtle2", "static": "Spinning", "guest": "At time"}
 ROUNDS = 20
+
+
+def test_who_is_killed_is_missed_at_once():
+    async def miss(first):
+        with Link(Options("test")) as guest:
+            world = new_world()
+            guest.attach(world, role=Role.GUEST)
+            await until(lambda: world.buffer.frame_exists("turtle1"))
+            first.started.kill()
+            # zenoh's own patience with somebody silent is ten seconds: not that is meant.
+            told = "which hosted, has left"
+            await until(lambda: any(told in one.text for one in world.log.records), within=5)
+
+    with host() as first:
+        first.says('"translation"')
+        clocks.run(WallClock(), miss(first))
 
 
 async def statics_reach_a_newcomer():

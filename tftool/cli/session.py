@@ -2,12 +2,13 @@
 
 A source named on the command line is always hosted. Without one, the session that
 runs on this machine is joined; if none runs, the command hosts one, and others join
-it. A world hosted while a session runs keeps to itself, so that two worlds never mix.
+it. Those who only look are no session: they wait, and share whatever is hosted next.
+While one world is hosted another keeps to itself, so that the two never mix.
 """
 
 from collections.abc import Callable
 from dataclasses import replace
-from typing import TYPE_CHECKING, TypeVar
+from typing import TYPE_CHECKING
 
 from tftool.cli.lifetime import Session, lived, shared
 from tftool.cli.notices import notice
@@ -22,8 +23,6 @@ from tftool.views.escaping import visible
 if TYPE_CHECKING:
     from tftool.link.session import Link
     from tftool.scenario.schema import NodeEntry, Scenario
-
-T = TypeVar("T")
 
 HOME = "turtles"
 """The scenario a command hosts when nothing runs and none was named."""
