@@ -52,9 +52,11 @@ class Walk:
         top: Where the source's side ended.
         end: Where the target's side ended.
         refused: The frame whose link has nothing for the moment, if REFUSED.
+        timeless: Whether it would go the same way at any moment: nothing was refused, and
+            no link that was passed leads elsewhere at times.
     """
 
-    __slots__ = ("down", "end", "ended", "refused", "top", "up")
+    __slots__ = ("down", "end", "ended", "refused", "timeless", "top", "up")
 
     def __init__(self, source: int, target: int) -> None:
         self.ended = UNCONNECTED
@@ -63,6 +65,7 @@ class Walk:
         self.top = source
         self.end = target
         self.refused = NO_PARENT
+        self.timeless = True
 
     def close(self, ended: int) -> "Walk":
         """Note how it ended; where both sides share their upper part, let go of that."""
@@ -150,43 +153,50 @@ class Forest:
         meeting point does not matter.
         """
         walk = Walk(source, target)
-        frames = self.frames
+        frames, up, down = self.frames, walk.up, walk.down
         refused = NO_PARENT
         frame = source
         while True:
             link = frames[frame].link
             if link is None:
                 break
-            parent = link.parent_at(time)
+            parent = link.parent
+            if link.mixed or not (link.oldest_stamp <= time <= link.newest_stamp or time == 0):
+                parent = link.parent_at(time)
+                walk.timeless = walk.timeless and not link.mixed
             if parent < 0:
                 refused = frame
+                walk.timeless = False
                 break
             if frame == target:
                 walk.top = frame
                 return walk.close(ARRIVED)
-            walk.up.append(frame)
+            up.append(frame)
             frame = parent
-            if len(walk.up) > MAX_DEPTH:
+            if len(up) > MAX_DEPTH:
                 walk.top = frame
                 return walk.close(LOOP)
-        walk.top = frame
+        walk.top = top = frame
 
         frame = target
-        while frame != walk.top:
+        while frame != top:
             link = frames[frame].link
             if link is None:
                 break
-            parent = link.parent_at(time)
+            parent = link.parent
+            if link.mixed or not (link.oldest_stamp <= time <= link.newest_stamp or time == 0):
+                parent = link.parent_at(time)
+                walk.timeless = walk.timeless and not link.mixed
             if parent < 0:
                 walk.end = walk.refused = frame
                 return walk.close(REFUSED)
             if frame == source:
-                walk.up.clear()
+                up.clear()
                 walk.end = frame
                 return walk.close(ARRIVED)
-            walk.down.append(frame)
+            down.append(frame)
             frame = parent
-            if len(walk.down) > MAX_DEPTH:
+            if len(down) > MAX_DEPTH:
                 walk.end = frame
                 return walk.close(LOOP)
         walk.end = frame

@@ -46,9 +46,10 @@ class Lookups:
         walk = forest.walk(target_number, source_number, time)
         if walk.ended != ARRIVED:
             raise self._refusal(walk, time, target, source)
-        pose = plan_of(forest, walk).solve(time)
+        plan = plan_of(forest, walk)
+        pose = plan.solve(time)
         assert pose is not None, "a link that answers for its parent answers for its pose"
-        self._remember_plan(target_number, source_number)
+        self._remember(target_number, source_number, walk, plan)
         return time, pose.translation + pose.rotation
 
     def latest_common(self, target: int, source: int) -> Stamp:
@@ -81,7 +82,7 @@ class Lookups:
             return refused
         walk = self._forest.walk(target_number, source_number, time)
         if walk.ended == ARRIVED:
-            self._remember_plan(target_number, source_number)
+            self._remember(target_number, source_number, walk, plan_of(self._forest, walk))
             return None
         return self._refusal(walk, time, target, source)
 
@@ -149,20 +150,19 @@ class Lookups:
             self.plans.clear()
             self._planned = 0
 
-    def _remember_plan(self, target: int, source: int) -> None:
-        """Keep a plan by the newest samples, if no link on the way leads elsewhere at times."""
+    def _remember(self, target: int, source: int, walk: Walk, plan: Plan) -> None:
+        """Keep the plan of a walk that arrived, if no link on the way leads elsewhere at times."""
         forest = self._forest
-        walk = forest.walk(target, source, 0)
-        if walk.ended != ARRIVED:
-            return
-        for number in walk.visited():
-            link = forest.frames[number].link
-            if link is not None and link.mixed:
+        if not walk.timeless:
+            # What leads elsewhere, or has no data, may lie above the way.
+            walk = forest.walk(target, source, 0)
+            links = [forest.frames[number].link for number in walk.visited()]
+            if walk.ended != ARRIVED or any(link is not None and link.mixed for link in links):
                 return
+            plan = plan_of(forest, walk)
         if self._planned >= MOST_PLANS:
             self.drop_plans()
-        plans = self.plans.setdefault(forest.frames[target].name, {})
-        plans[forest.frames[source].name] = plan_of(forest, walk)
+        self.plans.setdefault(forest.frames[target].name, {})[forest.frames[source].name] = plan
         self._planned += 1
 
     def _refusal(self, walk: Walk, time: Stamp, target: str, source: str) -> TransformException:

@@ -29,16 +29,14 @@ class Plan:
         up: Links from the source upward.
         down: Links from the target upward.
         moving: Those of them that are no constants.
-        mixed: Whether a link leads somewhere else at other times.
     """
 
-    __slots__ = ("down", "mixed", "moving", "up")
+    __slots__ = ("down", "moving", "up")
 
     def __init__(self, up: Iterable[Link], down: Iterable[Link]) -> None:
         self.up = folded(up)
         self.down = folded(down)
-        self.moving = tuple(link for link in self.up + self.down if not link.is_static)
-        self.mixed = any(link.mixed for link in self.moving)
+        self.moving = tuple([link for link in self.up + self.down if not link.is_static])
 
     def latest(self) -> Stamp:
         """The newest moment for which every link has data; 0 if none of them moves."""
@@ -100,20 +98,22 @@ def folded(links: Iterable[Link]) -> tuple[Link, ...]:
         if link.is_static:
             run.append(link)
             continue
-        result.extend(_one(run))
-        run = []
+        if run:
+            result.append(_one(run))
+            run = []
         result.append(link)
-    result.extend(_one(run))
+    if run:
+        result.append(_one(run))
     return tuple(result)
 
 
-def _one(run: list[Link]) -> list[Link]:
-    if len(run) < 2:
-        return run
+def _one(run: list[Link]) -> Link:
+    if len(run) == 1:
+        return run[0]
     constant = Constant()
     whole = chained(tuple(run), 0)
     constant.newest = None if whole[6] != whole[6] else whole
-    return [constant]
+    return constant
 
 
 def plan_of(forest: Forest, walk: Walk) -> Plan:
@@ -121,4 +121,6 @@ def plan_of(forest: Forest, walk: Walk) -> Plan:
     frames = forest.frames
     up = [frames[number].link for number in walk.up]
     down = [frames[number].link for number in walk.down]
-    return Plan([link for link in up if link], [link for link in down if link])
+    return Plan(
+        [link for link in up if link is not None], [link for link in down if link is not None]
+    )
