@@ -22,6 +22,7 @@ SWITCH = "TFTOOL_COMPILE"
 # stay plain: compiled code refuses a wrong type in its own words, before ours are reached.
 MODULES = (
     "tftool/frames/chains.py",
+    "tftool/frames/forest.py",
     "tftool/frames/history.py",
     "tftool/frames/links.py",
     "tftool/frames/plans.py",

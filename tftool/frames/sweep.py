@@ -1,7 +1,8 @@
 """All frames at one moment, in one sweep."""
 
 from tftool.frames.chains import joined
-from tftool.frames.forest import Forest, Frame
+from tftool.frames.forest import Forest
+from tftool.frames.frame import Frame
 from tftool.frames.links import IDENTITY, Link, Sample
 from tftool.frames.sample import FrameInfo, Snapshot
 from tftool.geometry import rigid
