@@ -4,11 +4,12 @@ from typing import TYPE_CHECKING, Final, Literal
 
 from tftool.errors import TransformException
 from tftool.frames import export, names, refusals, sweep, velocity
+from tftool.frames.chains import joined
 from tftool.frames.plans import Plan
 from tftool.frames.requests import NEVER, Callback
 from tftool.frames.sample import FrameInfo, Snapshot, TransformStamped
 from tftool.frames.store import Store
-from tftool.geometry import rigid
+from tftool.geometry import quaternions, rigid
 from tftool.geometry.rigid import Transform
 from tftool.stamps import Duration, Stamp, whole
 
@@ -82,16 +83,24 @@ class Buffer(Store):
         Raises:
             TransformException: As `lookup_transform`; frames are always checked, even equal ones.
         """
-        for frame, argument in (
-            (target_frame, "target_frame"),
-            (source_frame, "source_frame"),
-            (fixed_frame, "fixed_frame"),
+        plans = self._lookups.plans
+        if not (
+            # Whose names were found good before.
+            source_frame in plans.get(fixed_frame, _NO_PLANS)
+            and fixed_frame in plans.get(target_frame, _NO_PLANS)
         ):
-            self._lookups.number(frame, argument, "lookupTransform", target_frame, source_frame)
-        fixed_from_source = self.lookup_transform(fixed_frame, source_frame, source_time)
-        target_from_fixed = self.lookup_transform(target_frame, fixed_frame, target_time)
-        found = rigid.canonical(target_from_fixed.transform @ fixed_from_source.transform)
-        return TransformStamped(target_from_fixed.stamp, target_frame, source_frame, found)
+            for frame, argument in (
+                (target_frame, "target_frame"),
+                (source_frame, "source_frame"),
+                (fixed_frame, "fixed_frame"),
+            ):
+                self._lookups.number(frame, argument, "lookupTransform", target_frame, source_frame)
+        inner = self.lookup_transform(fixed_frame, source_frame, source_time).transform
+        stamp, _, _, outer = self.lookup_transform(target_frame, fixed_frame, target_time)
+        found = joined(outer.translation + outer.rotation, inner.translation + inner.rotation)
+        turn = quaternions.canonical(quaternions.unit(found[3:]))
+        pose = rigid.transform(found[:3], turn)
+        return _new(TransformStamped, (stamp, target_frame, source_frame, pose))
 
     def lookup_transforms(
         self,
