@@ -1,12 +1,13 @@
 """One content in Python, XML and YAML; and what each says of its mistakes."""
 
+import re
 from pathlib import Path
 
 import pytest
 
 from tests.ros.test_launch import described
 from tests.ros.tutorial import TUTORIAL, launch
-from tftool.errors import InputError, NodeFailed
+from tftool.errors import InputError, NodeFailed, TftoolError
 from tftool.ros.hosting import show_arguments
 from tftool.ros.importing import ros_free
 from tftool.ros.workspace import Workspace
@@ -107,6 +108,63 @@ def test_what_goes_wrong_later_is_told_with_the_line_that_says_it(tmp_path, endi
         f"{file}:6: launch configuration 'gone' does not exist: declare it with "
         "DeclareLaunchArgument, or pass gone:=…"
     )
+
+
+@pytest.mark.parametrize(
+    ("action", "told"),
+    [
+        (
+            "OpaqueFunction(function=lambda context: context.launch_configurations['gone'])",
+            r"some\.launch\.py:\d+: KeyError: 'gone'\n.*some\.launch\.py:\d+, in <lambda>: Opaque",
+        ),
+        (
+            "RegisterEventHandler(OnExecutionComplete(on_completion=lambda event, context: 1 / 0))",
+            r"ZeroDivisionError: division by zero\n.*some\.launch\.py:\d+, in <lambda>",
+        ),
+        ("'turtlesim'", "a launch description holds actions, not 'turtlesim'"),
+        ("OpaqueFunction(function=lambda context: ['x'])", "holds actions, not 'x'"),
+    ],
+)
+def test_what_a_launch_files_own_code_does_wrong_is_told_with_its_line(tmp_path, action, told):
+    with pytest.raises(NodeFailed) as refused:
+        described(tmp_path, action)
+
+    assert isinstance(refused.value.__cause__, TftoolError)
+    assert re.search(told, str(refused.value.__cause__))
+
+
+@pytest.mark.parametrize("ending", ["py", "xml"])
+def test_a_file_that_includes_itself_is_found_out(tmp_path, ending):
+    file = tmp_path / f"a.launch.{ending}"
+    file.write_text(
+        {
+            "xml": "<launch><include file='$(filename)'/></launch>",
+            "py": "from launch import LaunchDescription\n"
+            "from launch.actions import IncludeLaunchDescription\n"
+            "def generate_launch_description():\n"
+            "    return LaunchDescription([IncludeLaunchDescription(__file__)])\n",
+        }[ending]
+    )
+
+    with pytest.raises(NodeFailed, match="is included 50 deep: does it include itself"):
+        launch(file, seconds=1)
+
+
+def test_a_file_is_included_from_beside_the_one_that_includes_it(tmp_path):
+    below = tmp_path / "below"
+    below.mkdir()
+    (tmp_path / "a.launch.xml").write_text(
+        "<launch><include file='$(dirname)/below/b.launch.xml'/><log message='$(filename)'/>"
+        "</launch>"
+    )
+    (below / "b.launch.xml").write_text(
+        "<launch><include file='$(dirname)/c.launch.xml'/></launch>"
+    )
+    (below / "c.launch.xml").write_text("<launch><arg name='deep' default='1'/></launch>")
+    file = tmp_path / "a.launch.xml"
+    done = launch(file, seconds=1, arguments={"deep": "2"})
+
+    assert done.said("launch") == [str(file)]
 
 
 @pytest.mark.parametrize(

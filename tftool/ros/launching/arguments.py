@@ -7,6 +7,7 @@ from pathlib import Path
 from typing import Any
 
 from tftool.errors import TftoolError, UsageError
+from tftool.ros.launching.action import Action
 from tftool.ros.launching.composition import IncludeLaunchDescription
 from tftool.ros.launching.context import LaunchContext
 from tftool.ros.launching.description import LaunchDescription
@@ -26,17 +27,22 @@ def declared(description: LaunchDescription, context: LaunchContext) -> list[Dec
                     context.launch_configurations.setdefault(entity.name, "")
             elif isinstance(entity, IncludeLaunchDescription):
                 before = set(found)
+                files = context.files
                 try:
                     passed = {perform(context, name) for name, _ in entity.launch_arguments}
-                    inner, _ = entity.source.load(context)
+                    inner, path = entity.source.load(context)
+                    if path is not None and path.absolute() not in files:
+                        context.enter_file(path)
+                        look(inner.entities)
                 except TftoolError:
                     continue  # it is said when the file is really included
-                look(inner.entities)
+                finally:
+                    context.files = files
                 for name in set(found) - before & passed:
                     del found[name]
             elif isinstance(entity, LaunchDescription):
                 look(entity.entities)
-            else:
+            elif isinstance(entity, Action):
                 look(entity.describe_sub_entities())
 
     kept = dict(context.launch_configurations)

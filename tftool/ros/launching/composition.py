@@ -90,24 +90,29 @@ class IncludeLaunchDescription(Action):
         """Its actions, after its arguments."""
         description, path = self.source.load(context)
         arguments = [SetLaunchConfiguration(name, value) for name, value in self.launch_arguments]
-        before = dict(context.locals)
-        enter, leave = _Locals(path, before), _Locals(None, before)
-        return [*arguments, enter, *description.entities, leave]
+        if path is None:
+            return [*arguments, *description.entities]
+        return [*arguments, _EnterFile(path), *description.entities, _LeaveFile()]
 
 
-class _Locals(Action):
-    """Which file one is in."""
+class _EnterFile(Action):
+    """Goes into a launch file that is included."""
 
-    def __init__(self, path: Path | None, before: Mapping[str, str]) -> None:
+    def __init__(self, path: Path) -> None:
         super().__init__()
-        self.path, self.before = path, before
+        self.path = path
 
     def execute(self, context: LaunchContext) -> Any:
-        """Note it."""
-        if self.path is None:
-            context.locals = dict(self.before)
-        else:
-            context.enter_file(self.path)
+        """Be there."""
+        context.enter_file(self.path)
+
+
+class _LeaveFile(Action):
+    """Goes back to the launch file that included this one."""
+
+    def execute(self, context: LaunchContext) -> Any:
+        """Be there again."""
+        context.files = context.files[:-1]
 
 
 class TimerAction(Action):

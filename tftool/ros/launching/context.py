@@ -6,7 +6,11 @@ from contextlib import contextmanager
 from pathlib import Path
 from typing import Any
 
+from tftool.errors import UsageError
 from tftool.ros.workspace import Workspace
+
+DEEPEST = 50
+"""How many launch files may include each other in a row."""
 
 
 class LaunchContext:
@@ -15,7 +19,7 @@ class LaunchContext:
     Attributes:
         launch_configurations: Arguments and their values.
         environment: Environment variables, a copy.
-        locals: What holds in the file that is being launched.
+        files: The launch file one is in, last, after those that include it.
         namespace: Where nodes are put.
         remaps: Rules for all nodes of the scope.
         parameters: (node, name, value) for the nodes of the scope; "" is each of them.
@@ -29,7 +33,7 @@ class LaunchContext:
     ) -> None:
         self.launch_configurations: dict[str, str] = {}
         self.environment: dict[str, str] = dict(os.environ)
-        self.locals: dict[str, str] = {}
+        self.files: tuple[Path, ...] = ()
         self.namespace = ""
         self.remaps: list[tuple[str, str]] = []
         self.parameters: list[tuple[str, str, Any]] = []
@@ -49,19 +53,21 @@ class LaunchContext:
         return str(substitution.perform(self))
 
     def enter_file(self, path: Path) -> None:
-        """Be in a launch file from now on."""
-        whole = path.absolute()
-        self.locals = {
-            "current_launch_file_path": str(whole),
-            "current_launch_file_directory": str(whole.parent),
-        }
+        """Be in a launch file from now on.
+
+        Raises:
+            UsageError: If it is included too deep to be meant.
+        """
+        if len(self.files) >= DEEPEST:
+            raise UsageError(f"'{path}' is included {DEEPEST} deep: does it include itself?")
+        self.files = (*self.files, path.absolute())
 
     def kept(self) -> tuple[Any, ...]:
         """The scope one is in, to come back to."""
         return (
             dict(self.launch_configurations),
             dict(self.environment),
-            dict(self.locals),
+            self.files,
             self.namespace,
             list(self.remaps),
             list(self.parameters),
@@ -89,7 +95,7 @@ class LaunchContext:
         (
             self.launch_configurations,
             self.environment,
-            self.locals,
+            self.files,
             self.namespace,
             self.remaps,
             self.parameters,

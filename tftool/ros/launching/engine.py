@@ -8,7 +8,7 @@ from collections.abc import Callable, Iterable, Mapping, Sequence
 from pathlib import Path
 from typing import Any, ClassVar
 
-from tftool.errors import TftoolError, UsageError
+from tftool.errors import InputError, TftoolError, UsageError
 from tftool.ros import executables, users
 from tftool.ros.launching.arguments import declared, refuse_unknown
 from tftool.ros.launching.context import LaunchContext
@@ -108,15 +108,29 @@ class Launch(Node):
     # What actions ask for
 
     def do(self, entities: Any) -> None:
-        """Carry out entities, and what they give, one after the other."""
+        """Carry out entities, and what they give, one after the other.
+
+        Raises:
+            UsageError: If one cannot be carried out as the launch file says; its line is told.
+            InputError: If the launch file's own code raises.
+        """
         for entity in entities if isinstance(entities, Iterable) else [entities]:
-            try:
-                following = entity.visit(self.context)
-            except UsageError as error:
-                where = getattr(entity, "where", "")
-                raise UsageError(f"{where}: {error}" if where else f"{error}") from error
+            following = self._visit(entity)
             if following:
                 self.do(following)
+
+    def _visit(self, entity: Any) -> Any:
+        if not hasattr(entity, "visit"):
+            raise UsageError(f"a launch description holds actions, not {entity!r}")
+        where = getattr(entity, "where", "")
+        try:
+            return entity.visit(self.context)
+        except UsageError as error:
+            raise UsageError(f"{where}: {error}" if where else f"{error}") from error
+        except TftoolError:
+            raise
+        except Exception as error:
+            raise InputError(f"{where}: {users.sentence_of(error)}") from error
 
     def emit(self, event: Event) -> None:
         """Tell an event to whoever waits for it."""

@@ -89,7 +89,8 @@ def _arg(element: Element) -> Any:
 
 def _startable(element: Element) -> dict[str, Any]:
     """What nodes and commands have in common."""
-    element.get("emulate_tty"), element.get("sigterm_timeout"), element.get("sigkill_timeout")
+    for name in ("emulate_tty", "sigterm_timeout", "sigkill_timeout"):
+        element.get(name)
     on_exit = element.get("on_exit")
     if on_exit not in (None, "shutdown"):
         raise element.refusal(f"on_exit may be 'shutdown', not '{on_exit}'", "", ())

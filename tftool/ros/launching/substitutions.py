@@ -203,7 +203,7 @@ class ThisLaunchFile(Substitution):
 
     def perform(self, context: LaunchContext) -> str:
         """The path."""
-        return context.locals.get("current_launch_file_path", "")
+        return str(context.files[-1]) if context.files else ""
 
 
 class ThisLaunchFileDir(Substitution):
@@ -211,7 +211,7 @@ class ThisLaunchFileDir(Substitution):
 
     def perform(self, context: LaunchContext) -> str:
         """The folder."""
-        return context.locals.get("current_launch_file_directory", "")
+        return str(context.files[-1].parent) if context.files else ""
 
 
 class AnonName(Substitution):
