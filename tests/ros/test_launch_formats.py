@@ -158,13 +158,16 @@ def test_a_file_is_included_from_beside_the_one_that_includes_it(tmp_path):
         "</launch>"
     )
     (below / "b.launch.xml").write_text(
-        "<launch><include file='$(dirname)/c.launch.xml'/></launch>"
+        "<launch><include file='$(dirname)/c.launch.xml'>"
+        "<arg name='from' value='$(filename)'/></include></launch>"
     )
-    (below / "c.launch.xml").write_text("<launch><arg name='deep' default='1'/></launch>")
+    (below / "c.launch.xml").write_text(
+        "<launch><arg name='deep' default='1'/><log message='$(var deep) $(var from)'/></launch>"
+    )
     file = tmp_path / "a.launch.xml"
     done = launch(file, seconds=1, arguments={"deep": "2"})
 
-    assert done.said("launch") == [str(file)]
+    assert done.said("launch") == [f"2 {below / 'b.launch.xml'}", str(file)]
 
 
 @pytest.mark.parametrize(
