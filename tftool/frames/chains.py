@@ -6,7 +6,6 @@ from math import sin
 from typing import Final, TypeAlias
 
 from tftool.frames.links import IDENTITY, NOWHERE, RECORD, Link, Sample
-from tftool.geometry import quaternions
 from tftool.stamps import Stamp
 
 # Compiled, this is quicker than to look the name up each time; `sin` is C's own there.
@@ -137,11 +136,20 @@ def chained(links: tuple[Link, ...], time: Stamp) -> Sample:
 def joined(outer: Sample, inner: Sample) -> Sample:
     """One pose after another: `a_from_c` from `a_from_b` and `b_from_c`."""
     ox, oy, oz, ax, ay, az, aw = outer
-    ix, iy, iz, bx, by, bz, bw = inner
-    turn = (ax, ay, az, aw)
-    x, y, z = quaternions.rotate(turn, (ix, iy, iz))
-    qx, qy, qz, qw = quaternions.multiply(turn, (bx, by, bz, bw))
-    return x + ox, y + oy, z + oz, qx, qy, qz, qw
+    x, y, z, bx, by, bz, bw = inner
+    # As quaternions.rotate and quaternions.multiply.
+    cx = 2.0 * (ay * z - az * y)
+    cy = 2.0 * (az * x - ax * z)
+    cz = 2.0 * (ax * y - ay * x)
+    return (
+        x + aw * cx + ay * cz - az * cy + ox,
+        y + aw * cy + az * cx - ax * cz + oy,
+        z + aw * cz + ax * cy - ay * cx + oz,
+        aw * bx + ax * bw + ay * bz - az * by,
+        aw * by + ay * bw + az * bx - ax * bz,
+        aw * bz + az * bw + ax * by - ay * bx,
+        aw * bw - ax * bx - ay * by - az * bz,
+    )
 
 
 def _newest(links: tuple[Link, ...]) -> Sample:

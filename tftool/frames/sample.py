@@ -26,8 +26,7 @@ class TransformStamped(NamedTuple):
     transform: Transform
 
 
-@dataclass(frozen=True, slots=True)
-class FrameInfo:
+class FrameInfo(NamedTuple):
     """One frame, and the link it hangs by.
 
     Attributes:

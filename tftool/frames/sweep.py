@@ -1,16 +1,21 @@
 """All frames at one moment, in one sweep."""
 
+from typing import TypeAlias
+
 from tftool.frames.chains import joined
 from tftool.frames.forest import Forest
 from tftool.frames.frame import Frame
-from tftool.frames.links import IDENTITY, Link, Sample
+from tftool.frames.links import IDENTITY, NO_PARENT, Link, Sample
 from tftool.frames.sample import FrameInfo, Snapshot
-from tftool.geometry import rigid
+from tftool.geometry import quaternions, rigid
 from tftool.geometry.rigid import Transform
 from tftool.stamps import Duration, Stamp
 
 # tf2 divides by no less than this when it tells a rate.
 _SHORTEST: Duration = 100_000
+
+_Place: TypeAlias = tuple[int, Sample | None, Sample | None]
+"""A root's number (below 0: a loop), the pose in the parent, and the pose in the root."""
 
 
 def snapshot(forest: Forest, now: Stamp, at: Stamp) -> Snapshot:
@@ -31,72 +36,59 @@ class _Sweep:
     def __init__(self, forest: Forest, at: Stamp) -> None:
         self.frames = forest.frames
         self.at = at
-        self.poses: dict[tuple[int, Stamp], tuple[int, Sample | None]] = {}
+        self.places: dict[Stamp, dict[int, _Place]] = {}
         self.latest: dict[int, tuple[Stamp, int]] = {}
 
     def info(self, frame: Frame, now: Stamp) -> FrameInfo:
-        link = frame.link
-        parent = self.parent(frame.number, self.at)
-        latest, newest_root = self.latest_of(frame.number)
-        root, pose = self.pose(frame.number, self.at or latest)
-        if self.at == 0 and root != newest_root:
-            # At the latest moment of the whole chain it still hung from another tree.
-            root, pose = newest_root, None
+        number, at = frame.number, self.at
+        if at == 0:
+            latest, newest_root = self.latest_of(number)
+            root, _, pose = self.place(number, latest)
+            if root != newest_root:
+                # At the latest moment of the whole chain it still hung from another tree.
+                root, pose = newest_root, None
+            own = None if frame.link is None else frame.link.newest
+        else:
+            root, own, pose = self.place(number, at)
         root_name = None if root < 0 else self.frames[root].name
         root_from_frame = None if pose is None else _transform(pose)
-        if link is None or link.newest is None:
+        parent = self.parent(number, at)
+        link = frame.link
+        if link is None or parent < 0:
+            # By place, which takes a third of the time that names take.
             return FrameInfo(
-                frame=frame.name,
-                parent=None,
-                is_static=False,
-                authority=frame.authority,
-                samples=0,
-                rate=0.0,
-                oldest=0,
-                newest=0,
-                buffer_length=0,
-                age=0,
-                transform=rigid.IDENTITY,
-                root=root_name,
-                root_from_frame=root_from_frame,
-            )
-        own = link.at(self.at)
+                frame.name, None, False, frame.authority,
+                0, 0.0, 0, 0, 0, 0,
+                rigid.IDENTITY, root_name, root_from_frame,
+            )  # fmt: skip
+        is_static, oldest, newest = link.is_static, link.oldest_stamp, link.newest_stamp
+        age = 0 if is_static else now - newest
         return FrameInfo(
-            frame=frame.name,
-            parent=self.frames[parent].name,
-            is_static=link.is_static,
-            authority=frame.authority,
-            samples=len(link),
-            rate=rate(link),
-            oldest=link.oldest_stamp,
-            newest=link.newest_stamp,
-            buffer_length=link.newest_stamp - link.oldest_stamp,
-            age=0 if link.is_static else now - link.newest_stamp,
-            transform=None if own is None else _transform(own),
-            root=root_name,
-            root_from_frame=root_from_frame,
-        )
+            frame.name, self.frames[parent].name, is_static, frame.authority,
+            len(link), rate(link), oldest, newest, newest - oldest, age,
+            None if own is None else _transform(own), root_name, root_from_frame,
+        )  # fmt: skip
 
     def parent(self, number: int, time: Stamp) -> int:
         """The parent at that moment, or the newest one where the history does not reach."""
         link = self.frames[number].link
         if link is None or link.newest is None:
-            return -1
+            return NO_PARENT
+        if not link.mixed:
+            return link.parent
         parent = link.parent_at(time)
         return link.parent if parent < 0 else parent
 
     def latest_of(self, number: int) -> tuple[Stamp, int]:
         """The newest moment the whole chain has data for, and its root, by newest parents."""
         chain: list[int] = []
-        seen: set[int] = set()
         while True:
             known = self.latest.get(number)
             if known is not None:
                 break
-            if number in seen:
+            if len(chain) > len(self.frames):
                 known = (0, -1)
                 break
-            seen.add(number)
             parent = self.parent(number, 0)
             if parent < 0:
                 known = self.latest[number] = (0, number)
@@ -112,33 +104,37 @@ class _Sweep:
             self.latest[number] = (latest, root)
         return latest, root
 
-    def pose(self, number: int, time: Stamp) -> tuple[int, Sample | None]:
-        """The root at that moment (below 0: a loop), and the pose in it if it is known."""
+    def place(self, number: int, time: Stamp) -> _Place:
+        """Where a frame is at that moment."""
+        places = self.places.get(time)
+        if places is None:
+            places = self.places[time] = {}
+        known = places.get(number)
+        if known is not None:
+            return known
         chain: list[int] = []
-        seen: set[int] = set()
-        while True:
-            known = self.poses.get((number, time))
-            if known is not None:
-                break
-            if number in seen:
-                known = (-1, None)
-                break
+        while known is None:
             parent = self.parent(number, time)
             if parent < 0:
-                known = self.poses[number, time] = (number, IDENTITY)
+                known = places[number] = (number, None, IDENTITY)
                 break
-            seen.add(number)
+            if len(chain) > len(self.frames):
+                known = (-1, None, None)
+                break
             chain.append(number)
             number = parent
-        root, pose = known
+            known = places.get(number)
+        root, _, pose = known
         for number in reversed(chain):
             link = self.frames[number].link
             own = None if link is None else link.at(time)
             pose = None if own is None or pose is None else joined(pose, own)
-            self.poses[number, time] = (root, pose)
-        return root, pose
+            known = places[number] = (root, own, pose)
+        return known
 
 
 def _transform(sample: Sample) -> Transform:
     x, y, z, qx, qy, qz, qw = sample
-    return rigid.canonical(rigid.transform((x, y, z), (qx, qy, qz, qw)))
+    if not qw > 0.5:
+        qx, qy, qz, qw = quaternions.canonical((qx, qy, qz, qw))
+    return rigid.transform((x, y, z), (qx, qy, qz, qw))
