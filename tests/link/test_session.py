@@ -16,7 +16,7 @@ from tftool.link.graph import Role, hosts
 from tftool.link.membership import Options
 from tftool.link.reach import Certificates, Reach
 from tftool.link.session import Link
-from tftool.link.topics import TF
+from tftool.link.tf import TF
 from tftool.link.transforms import encode_transforms
 from tftool.messages import (
     Clear,

@@ -20,7 +20,8 @@ from tftool.link.keys import Entity
 from tftool.link.membership import NAME, Membership, Options, plain
 from tftool.link.opening import Opening
 from tftool.link.services import ServiceClient, ServiceServer
-from tftool.link.topics import StaticBridge, TopicBridge, TransformBridge
+from tftool.link.tf import StaticBridge, TransformBridge
+from tftool.link.topics import TopicBridge
 from tftool.link.types import VALUES, action_type, service_type, topic_type
 from tftool.runtime.clock import WallClock
 from tftool.runtime.endpoints import PUBLISHER, SUBSCRIPTION, Endpoint

@@ -1,0 +1,165 @@
+"""`tf` and `tf_static` of a world and of everybody else, joined."""
+
+from typing import Final
+
+from tftool.errors import MalformedMessage
+from tftool.frames.sample import TransformStamped
+from tftool.link import keys
+from tftool.link.membership import Membership
+from tftool.link.topics import Sender
+from tftool.link.transforms import decode_columns, decode_transforms, encode_transforms
+from tftool.link.transport import Arrived
+from tftool.link.types import TRANSFORMS
+from tftool.runtime.endpoints import Quality
+from tftool.runtime.topics import Topic
+from tftool.runtime.world import TransformMessage
+from tftool.stamps import Stamp, as_seconds, seconds
+
+TF: Final = Quality(depth=100)
+"""tf2's quality of /tf."""
+
+TF_STATIC: Final = Quality(depth=1, is_latched=True)
+"""tf2's quality of /tf_static."""
+
+LARGE: Final = 256 * 1024
+"""Bytes from which a message of transforms may be taken in as arrays: whole paths at once."""
+
+LONG: Final = 64
+"""How many samples a link has in it on the average, at least, for that to pay."""
+
+YEAR: Final = seconds(365.25 * 24 * 3600)
+
+_NO_SENDER = bytes(16)
+
+
+class TransformBridge:
+    """`tf`: transforms of many nodes, each of them a publisher of its own."""
+
+    quality = TF
+
+    def __init__(self, link: Membership, topic: Topic[TransformMessage]) -> None:
+        self._link = link
+        self._topic = topic
+        self._senders: dict[str, Sender] = {}
+        self._inbound: TransformMessage | None = None
+        topic.relay = self._publish
+        key = keys.any_hash_key(link.options.domain, topic.name, TRANSFORMS)
+        entity = link.entity(keys.SUBSCRIBER, link.main_node, topic.name, TRANSFORMS, self.quality)
+        self._stops = [
+            link.wire.subscriber(key, self._arrived, latched=self.quality.is_latched),
+            link.show(entity),
+        ]
+        self.refresh()
+
+    def refresh(self) -> None:
+        """The buffer always listens; whoever else does is counted."""
+        others = self._link.graph.entities(keys.SUBSCRIBER, name=self._topic.name)
+        self._topic.far_subscribers = len(others)
+
+    def close(self) -> None:
+        """Neither send nor listen any more."""
+        self._topic.relay = None
+        self._topic.far_subscribers = 0
+        for stop in self._stops:
+            stop()
+        for sender in self._senders.values():
+            sender.close()
+
+    def _publish(self, message: TransformMessage) -> None:
+        if message is self._inbound or self._link.options.read_only:
+            return
+        sender = self._senders.get(message.authority)
+        if sender is None:
+            sender = self._senders[message.authority] = Sender(
+                self._link,
+                message.authority,
+                self._topic.name,
+                TRANSFORMS,
+                self.quality,
+            )
+        if not sender.is_wanted:
+            return
+        try:
+            sender.put(encode_transforms(message.transforms))
+        except MalformedMessage as refusal:
+            self._link.refuse(self._topic.name, refusal)
+
+    def _arrived(self, message: Arrived) -> None:
+        link = self._link
+        try:
+            gid = keys.parse_attachment(message.attachment).gid if message.attachment else None
+            authority = link.authority(gid or _NO_SENDER, self._topic.name)
+            if self._takes_paths(message.payload, authority):
+                link.received += 1
+                return
+            transforms = decode_transforms(message.payload)
+        except MalformedMessage as refusal:
+            link.refuse(self._topic.name, refusal)
+            return
+        link.received += 1
+        accepted = self._store(transforms, authority)
+        if accepted:
+            self._inbound = TransformMessage(accepted, authority)
+            try:
+                self._topic.publish(self._inbound)
+            finally:
+                self._inbound = None
+
+    def _takes_paths(self, payload: bytes, authority: str) -> bool:
+        """Take in long paths of few links at once; False where that would not be faster.
+
+        Raises:
+            MalformedMessage: If the bytes are no transforms.
+        """
+        # Whoever listens to the topic wants every single one, so they may as well be made.
+        listened_to = self._topic.near_subscribers > 0
+        if self.quality.is_latched or len(payload) < LARGE or listened_to:
+            return False
+        columns = decode_columns(payload)
+        paths: dict[tuple[str, str], list[int]] = {}
+        for row, link in enumerate(zip(columns.parents, columns.children, strict=True)):
+            paths.setdefault(link, []).append(row)
+        moves = len({child for _, child in paths}) < len(paths)
+        if moves or len(columns) < LONG * len(paths):
+            return False
+        self._compare_clocks(int(columns.stamps[0]), authority)
+        for (parent, child), rows in paths.items():
+            self._link.world.buffer.set_transforms(
+                parent,
+                child,
+                columns.stamps[rows],
+                columns.translations[rows],
+                columns.rotations[rows],
+                authority,
+            )
+        return True
+
+    def _store(
+        self, transforms: tuple[TransformStamped, ...], authority: str
+    ) -> tuple[TransformStamped, ...]:
+        if transforms:
+            self._compare_clocks(transforms[0].stamp, authority)
+        store = self._link.world.buffer.set_transform
+        return tuple(one for one in transforms if store(one, authority))
+
+    def _compare_clocks(self, stamp: Stamp, authority: str) -> None:
+        ahead = stamp - self._link.world.clock.now()
+        if -YEAR < ahead < YEAR:
+            return
+        self._link.say_once(
+            f"clock {authority}",
+            f"'{authority}' stamps its transforms {as_seconds(abs(ahead)) / as_seconds(YEAR):.1f} "
+            f"years {'after' if ahead > 0 else 'before'} this machine's clock: ages and waits "
+            "mean little until both clocks agree (or one of them is simulated).",
+        )
+
+
+class StaticBridge(TransformBridge):
+    """`tf_static`: who comes later gets all statics of everybody who is there."""
+
+    quality = TF_STATIC
+
+    def _store(
+        self, transforms: tuple[TransformStamped, ...], authority: str
+    ) -> tuple[TransformStamped, ...]:
+        return self._link.world.receive_static(transforms, authority)
