@@ -1,5 +1,8 @@
+from pathlib import Path
+
 import pytest
 
+import tftool
 from tftool.errors import NodeFailed, TftoolError
 from tftool.nodes.turtlesim import Turtlesim
 
@@ -78,6 +81,126 @@ def test_a_test_file_may_import_rclpy_at_its_top_with_ros_free(pytester):
     )
 
     result = pytester.runpytest("--ros-free", "-p", "tftool.ros.pytest_plugin")
+
+    result.assert_outcomes(passed=1)
+
+
+def test_tests_sleep_and_start_threads_in_the_nodes_time_with_ros_free(pytester):
+    pytester.makepyfile(
+        robot="""
+        import time
+        from rclpy.node import Node
+
+        class Robot(Node):
+            def __init__(self):
+                super().__init__("robot")
+                self.started = time.monotonic()
+                self.ticks = 0
+                self.create_timer(60.0, self.tick)
+
+            def tick(self):
+                self.ticks += 1
+        """,
+        test_robot="""
+        import threading
+        import time
+        import rclpy
+        from rclpy.executors import SingleThreadedExecutor
+        from robot import Robot
+
+        EARLY = time.time()
+        LATE = threading.Event()
+
+        def test_it_ticks_every_minute(ros_runtime):
+            rclpy.init()
+            robot, executor = Robot(), SingleThreadedExecutor()
+            executor.add_node(robot)
+            thread = threading.Thread(target=executor.spin, daemon=True)
+            thread.start()
+            time.sleep(3601.0)
+            assert robot.ticks == 60
+            assert time.monotonic() - robot.started == 3601.0 == ros_runtime.elapsed()
+            assert not LATE.wait(timeout=1.0)
+            executor.shutdown()
+            thread.join(timeout=1.0)
+            assert not thread.is_alive()
+            assert time.time() < EARLY
+        """,
+    )
+
+    result = pytester.runpytest("--ros-free", "-p", "tftool.ros.pytest_plugin")
+
+    result.assert_outcomes(passed=1)
+
+
+def test_a_fixture_for_many_tests_shares_its_runtime_with_them(pytester):
+    pytester.makepyfile(
+        """
+        import unittest
+        import pytest
+        import rclpy
+
+        @pytest.fixture(scope="module")
+        def node():
+            rclpy.init()
+            node = rclpy.create_node("shared")
+            yield node
+            node.destroy_node()
+            rclpy.shutdown()
+
+        def test_one(node, ros_runtime):
+            ros_runtime.sleep(3.0)
+
+        def test_two(node, ros_runtime):
+            assert ros_runtime.elapsed() == 3.0
+            assert node.get_name() == "shared"
+
+        class TestThree(unittest.TestCase):
+            @classmethod
+            def setUpClass(cls):
+                cls.context = rclpy.Context()
+                rclpy.init(context=cls.context)
+
+            @classmethod
+            def tearDownClass(cls):
+                rclpy.shutdown(context=cls.context)
+
+            def test_it(self):
+                node = rclpy.create_node("other", context=self.context)
+                assert rclpy.ok(context=self.context)
+                node.destroy_node()
+        """
+    )
+    pytester.makepyfile(
+        test_another="""
+        import rclpy
+
+        def test_the_next_file_begins_anew(ros_runtime):
+            assert ros_runtime.elapsed() == 0.0
+            rclpy.init()
+        """
+    )
+
+    result = pytester.runpytest("--ros-free", "-p", "tftool.ros.pytest_plugin")
+
+    result.assert_outcomes(passed=4)
+
+
+def test_workers_of_xdist_have_it_too(pytester, monkeypatch):
+    monkeypatch.setenv("PYTHONPATH", str(Path(tftool.__file__).parent.parent))
+    pytester.makepyfile(
+        """
+        import rclpy
+
+        def test_hello():
+            rclpy.init()
+            assert rclpy.ok()
+        """
+    )
+
+    result = pytester.runpytest_subprocess(
+        "--ros-free", "-n1", "-p", "tftool.ros.pytest_plugin", "-p", "no:cacheprovider"
+    )
 
     result.assert_outcomes(passed=1)
 

@@ -976,3 +976,17 @@ def test_a_log_level_asked_for_on_the_command_line_holds(ros_runtime):
     node.get_logger().debug("heard")
 
     assert ros_runtime.log("probe") == ["heard"]
+
+
+def test_a_pool_may_ask_and_log_but_not_wait_on_simulated_time(node, ros_runtime):
+    from concurrent.futures import ThreadPoolExecutor
+
+    from tftool.errors import TftoolError
+
+    with ThreadPoolExecutor() as pool:
+        assert pool.submit(node.get_topic_names_and_types).result()
+        pool.submit(node.get_logger().info, "from the pool").result()
+        with pytest.raises(TftoolError, match="thread of a pool cannot wait"):
+            pool.submit(node.wait_for_node, "probe", 1.0).result()
+
+    assert ros_runtime.log("probe") == ["from the pool"]

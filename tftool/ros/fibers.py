@@ -239,7 +239,7 @@ class Fiber:
                 value = request()
                 if inspect.isawaitable(value):
                     if self.interrupted:
-                        _discard(value)
+                        discard(value)
                         refused += 1
                         raise asyncio.CancelledError
                     value = await value
@@ -342,7 +342,8 @@ def _done(future: "asyncio.Future[None]") -> None:
         future.set_result(None)
 
 
-def _discard(awaitable: Any) -> None:
+def discard(awaitable: Any) -> None:
+    """Give an awaitable up that nobody will await."""
     close = getattr(awaitable, "close", None) or getattr(awaitable, "cancel", None)
     if close is not None:
         close()

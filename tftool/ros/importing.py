@@ -104,6 +104,8 @@ class _Finder(MetaPathFinder):
 
     def __init__(self) -> None:
         self.roots: list[Path] = []
+        self.tested: Path | None = None
+        """The folder of tests, and of what they test; others load what is in it."""
 
     def find_spec(
         self, fullname: str, path: Sequence[str] | None = None, target: ModuleType | None = None
@@ -119,6 +121,8 @@ class _Finder(MetaPathFinder):
             return _spec(fullname, is_package=below)
         if package in known:
             raise ModuleNotFoundError(missing_module(fullname), name=fullname)
+        if self.tested is not None:
+            return self._tested(fullname, path, target)
         if not self.roots:
             return None
         search = list(path) if path is not None else [str(root) for root in self.roots]
@@ -128,6 +132,21 @@ class _Finder(MetaPathFinder):
         if isinstance(spec.loader, importlib.machinery.SourceFileLoader):
             spec.loader = _UserLoader(fullname, spec.origin)
         return spec
+
+    def _tested(
+        self, fullname: str, path: Sequence[str] | None, target: ModuleType | None
+    ) -> importlib.machinery.ModuleSpec | None:
+        """What the others find; a file in the tests' folder is loaded with our builtins."""
+        for finder in sys.meta_path[sys.meta_path.index(self) + 1 :]:
+            spec = finder.find_spec(fullname, path, target)
+            if spec is None:
+                continue
+            origin = Path(spec.origin or "")
+            inside = self.tested is not None and origin.is_relative_to(self.tested)
+            if inside and spec.loader is not None and "site-packages" not in origin.parts:
+                spec.loader = _TestedLoader(spec.loader)
+            return spec
+        return None
 
     def _is_users(self, origin: str) -> bool:
         return any(Path(origin).is_relative_to(root) for root in self.roots)
@@ -146,6 +165,23 @@ class _UserLoader(importlib.machinery.SourceFileLoader):
 
     def set_data(self, path: str, data: Any, *, _mode: int = 0o666) -> None:
         """Leave no __pycache__ in a user's folders."""
+
+
+class _TestedLoader(Loader):
+    """Another's loader, which may rewrite assertions, and our builtins."""
+
+    def __init__(self, loader: Loader) -> None:
+        self._loader = loader
+
+    def __getattr__(self, name: str) -> Any:
+        return getattr(self._loader, name)
+
+    def create_module(self, spec: importlib.machinery.ModuleSpec) -> ModuleType | None:
+        return self._loader.create_module(spec)
+
+    def exec_module(self, module: ModuleType) -> None:
+        module.__dict__["__builtins__"] = builtins_for_users()
+        self._loader.exec_module(module)
 
 
 class _Arguments(UserList[str]):
@@ -181,13 +217,32 @@ def ros_free(*, insist: bool = False) -> Iterator["_Finder"]:
     Raises:
         UsageError: If a real ROS 2 is sourced and we are not told to insist.
     """
-    global _finder
     found = real_ros()
     if found and not insist:
         raise UsageError(
             f"a real ROS 2 is sourced ({found}): run the file with it, or say --ros-free to "
             "run it without ROS"
         )
+    with own_arguments(), ros_modules() as finder:
+        yield finder
+
+
+@contextmanager
+def own_arguments() -> Iterator[None]:
+    """Give every program its own `sys.argv` inside this block."""
+    argv = sys.argv
+    if not isinstance(argv, _Arguments):
+        sys.argv = _Arguments(argv)  # type: ignore[assignment]
+    try:
+        yield
+    finally:
+        sys.argv = argv
+
+
+@contextmanager
+def ros_modules() -> Iterator["_Finder"]:
+    """Answer to ROS 2's modules inside this block, whatever is sourced."""
+    global _finder
     if _finder is not None:
         yield _finder
         return
@@ -196,13 +251,10 @@ def ros_free(*, insist: bool = False) -> Iterator["_Finder"]:
     for name in before:
         del sys.modules[name]
     sys.meta_path.insert(0, _finder)
-    argv = sys.argv
-    sys.argv = _Arguments(argv)  # type: ignore[assignment]
     loaded = set(sys.modules)
     try:
         yield _finder
     finally:
-        sys.argv = argv
         sys.meta_path.remove(_finder)
         for name in set(sys.modules) - loaded:
             if _is_theirs(name) or _is_below(sys.modules[name], _finder.roots):

@@ -5,6 +5,7 @@ the world it is a node; the nodes it makes join beside it.
 """
 
 import asyncio
+import inspect
 import sys
 import threading
 from collections.abc import Awaitable, Callable, Sequence
@@ -29,6 +30,10 @@ READINGS = 2_000
 
 TICK = seconds(0.001)
 """How far simulated time moves then: a loop that only polls must see an end of its waiting."""
+
+
+_living: "set[Program]" = set()
+"""The programs that run at the moment, in whatever world."""
 
 
 class ProgramNode(Node):
@@ -123,11 +128,13 @@ class Program(Node):
         """
         self._loop = asyncio.get_running_loop()
         self._loop_thread = threading.get_ident()
+        _living.add(self)
         try:
             await self.fiber.drive()
         except Exception as error:
             self.failure = error
         finally:
+            _living.discard(self)
             for other in self._others:
                 other.cancel()
             if self._others:
@@ -178,9 +185,22 @@ class Program(Node):
             return fiber.ask(request)
         if threading.get_ident() == self._loop_thread:
             return request()
+        if self.strict:
+            return self._ask_beside(request)
         if self._loop is None:
             raise TftoolError(f"program '{self.name}' is not running yet")
         return asyncio.run_coroutine_threadsafe(_as_coroutine(request), self._loop).result()
+
+    def _ask_beside(self, request: Callable[[], Any]) -> Any:
+        # A pool's thread, for which a fiber waits: the loop stands still meanwhile.
+        value = request()
+        if inspect.isawaitable(value):
+            fibers.discard(value)
+            raise TftoolError(
+                "on simulated time a thread of a pool cannot wait for anything in the world: "
+                "start it with threading.Thread"
+            )
+        return value
 
     def now(self) -> Stamp:
         """The moment it is, by the world's clock."""
@@ -227,17 +247,37 @@ async def _as_coroutine(request: Callable[[], Any]) -> Any:
     return await value if isinstance(value, Awaitable) else value
 
 
+def let_outsiders_join(found: "Callable[[], Program | None] | None") -> None:
+    """Have `found` say whose code is running where nobody else knows; None ends that."""
+    global _outsiders
+    _outsiders = found
+
+
+_outsiders: "Callable[[], Program | None] | None" = None
+
+
+def running() -> Program | None:
+    """The program whose code is running; None outside of one."""
+    fiber = fibers.current()
+    owner: Program | None = None if fiber is None else fiber.owner
+    if owner is None and fiber is None and len(_living) == 1:
+        # A thread that no program started, a pool's say: there is only one it can work for.
+        (owner,) = _living
+    if owner is None and fiber is None and _outsiders is not None:
+        owner = _outsiders()
+    return owner
+
+
 def current() -> Program:
     """The program whose code is running.
 
     Raises:
         TftoolError: Outside of one.
     """
-    fiber = fibers.current()
-    owner = fiber.owner if fiber is not None else None
+    owner = running()
     if owner is None:
         raise TftoolError(
             "this rclpy lives inside tftool: start the file by 'tftool run' or 'tftool launch', "
             "or use the pytest fixture 'ros_runtime'"
         )
-    return owner  # type: ignore[no-any-return]
+    return owner

@@ -1,7 +1,9 @@
 """pytest: test ROS nodes without ROS.
 
 The fixture `ros_runtime` is a `tftool.ros.testing.RosRuntime`. With `pytest --ros-free`
-every test has one, and test files may say `import rclpy` at their top.
+every test has one, and test files may say `import rclpy` at their top. A fixture for
+a class, a module or the session that uses rclpy has one that lasts as long as itself,
+and the tests it is for share it.
 """
 
 from collections.abc import Iterator
@@ -10,6 +12,10 @@ from typing import Any
 import pytest
 
 _imports: list[Any] = []
+_set_up: list[Any] = []
+"""The fixtures that are being set up, the innermost last."""
+_shared: list[Any] = []
+"""The runtimes of fixtures that outlive a test."""
 
 
 def pytest_addoption(parser: pytest.Parser) -> None:
@@ -24,17 +30,51 @@ def pytest_addoption(parser: pytest.Parser) -> None:
 def pytest_configure(config: pytest.Config) -> None:
     """Answer to ROS 2's modules before test files are imported."""
     if config.getoption("--ros-free"):
-        from tftool.ros.importing import ros_free
+        from tftool.ros import program
+        from tftool.ros.importing import ros_modules
 
-        imports = ros_free(insist=True)
-        imports.__enter__()
+        imports = ros_modules()
+        # Tests sleep and start threads as nodes do, so they need the same time.
+        imports.__enter__().tested = config.rootpath
         _imports.append(imports)
+        program.let_outsiders_join(_program_of_fixture)
 
 
 def pytest_unconfigure(config: pytest.Config) -> None:
     """Give the imports back."""
+    if _imports:
+        from tftool.ros import program
+
+        program.let_outsiders_join(None)
     while _imports:
         _imports.pop().__exit__(None, None, None)
+
+
+@pytest.hookimpl(hookwrapper=True)
+def pytest_fixture_setup(fixturedef: Any) -> Iterator[None]:
+    """Note which fixture is being set up."""
+    _set_up.append(fixturedef)
+    yield
+    _set_up.pop()
+
+
+def _program_of_fixture() -> Any:
+    """Whose code a fixture is that uses rclpy before its tests have begun."""
+    if not _set_up:
+        return None
+    from tftool.ros.testing import RosRuntime
+
+    runtime = RosRuntime()
+    runtime.__enter__()
+    _shared.append(runtime)
+
+    def close() -> None:
+        _shared.remove(runtime)
+        runtime.__exit__(None, None, None)
+
+    # Before the fixture has got so far as to have an end of its own, so it comes after that.
+    _set_up[-1].addfinalizer(close)
+    return runtime.program
 
 
 @pytest.fixture
@@ -42,6 +82,9 @@ def ros_runtime() -> Iterator[Any]:
     """A world on simulated time; the test is a program in it and may use rclpy."""
     from tftool.ros.testing import RosRuntime
 
+    if _shared:
+        yield _shared[-1]
+        return
     with RosRuntime() as runtime:
         yield runtime
 

@@ -12,9 +12,13 @@ from functools import cache
 from types import ModuleType
 from typing import Any
 
-from tftool.ros import program
+from tftool.ros import fibers, program
 from tftool.ros.fibers import Fiber
 from tftool.stamps import NANOSECONDS, seconds
+
+_REAL_SLEEP = time.sleep  # noqa: TID251
+_PAUSE = 0.001
+"""Seconds between two looks at what another thread does."""
 
 
 class _Shim(ModuleType):
@@ -32,44 +36,61 @@ class _Shim(ModuleType):
         return dir(self._real)
 
 
+def _owner() -> "program.Program | None":
+    """Whose code is running; None for code outside of every program: a test file, imported."""
+    fiber = fibers.current()
+    return None if fiber is None else fiber.owner
+
+
 def _sleep(secs: float) -> None:
+    owner = _owner()
+    if owner is None:
+        _REAL_SLEEP(secs)
+        return
     if secs < 0:
         raise ValueError("sleep length must be non-negative")
-    program.current().sleep(seconds(secs))
+    owner.sleep(seconds(secs))
 
 
 def _now_ns() -> int:
-    return program.current().now()
+    owner = _owner()
+    return time.time_ns() if owner is None else owner.now()
 
 
 def _elapsed_ns() -> int:
-    owner = program.current()
-    return owner.now() - owner.clock.epoch
+    owner = _owner()
+    return time.monotonic_ns() if owner is None else owner.now() - owner.clock.epoch
 
 
 class UserThread(threading.Thread):
     """A thread of a user's program: a fiber more."""
 
+    _fiber: Fiber | None = None
+
     def start(self) -> None:
         """Run it beside the code that started it."""
-        owner = program.current()
-        self._fiber = Fiber(self.name, self.run, strict=owner.strict)
-        self._drive = owner.ask(lambda: [owner.start_fiber(self._fiber)])[0]
+        owner = _owner()
+        if owner is None:
+            super().start()
+            return
         self._owner = owner
+        self._fiber = fiber = Fiber(self.name, self.run, strict=owner.strict)
+        owner.ask(lambda: [owner.start_fiber(fiber)])
 
     def join(self, timeout: float | None = None) -> None:
         """Wait for its end."""
-        if not hasattr(self, "_fiber"):
-            raise RuntimeError("cannot join thread before it is started")
+        if self._fiber is None:
+            super().join(timeout)
+            return
         limit = None if timeout is None else self._owner.now() + seconds(max(0.0, timeout))
         while not self._fiber.ended and not self._owner.interrupted:
             if limit is not None and self._owner.now() >= limit:
                 return
-            self._owner.sleep(seconds(0.001))
+            _sleep(_PAUSE)
 
     def is_alive(self) -> bool:
         """Whether it runs."""
-        return hasattr(self, "_fiber") and not self._fiber.ended
+        return super().is_alive() if self._fiber is None else not self._fiber.ended
 
 
 class UserEvent:
@@ -92,12 +113,12 @@ class UserEvent:
 
     def wait(self, timeout: float | None = None) -> bool:
         """Block until it is set; whether it is."""
-        owner = program.current()
-        limit = None if timeout is None else owner.now() + seconds(max(0.0, timeout))
-        while not self._set and not owner.interrupted:
-            if limit is not None and owner.now() >= limit:
+        limit = None if timeout is None else _now_ns() + seconds(max(0.0, timeout))
+        while not self._set and (limit is None or _now_ns() < limit):
+            owner = _owner()
+            if owner is not None and owner.interrupted:
                 break
-            owner.sleep(seconds(0.001))
+            _sleep(_PAUSE)
         return self._set
 
 

@@ -25,6 +25,7 @@ class RosRuntime:
     Attributes:
         clock: The simulated clock; it starts at 1000 s.
         world: Where nodes live.
+        program: What the test itself is there.
     """
 
     def __init__(self) -> None:
@@ -35,7 +36,7 @@ class RosRuntime:
 
     def __enter__(self) -> "RosRuntime":
         self._finder = self._imports.__enter__()
-        self._program = Program(self.world, "test", None, on_exit=lambda _: self.world.stop())
+        self.program = Program(self.world, "test", None, on_exit=lambda _: self.world.stop())
         self._thread = threading.Thread(target=self._live, name="tftool", daemon=True)
         self._thread.start()
         # The first answer proves that the loop lives.
@@ -44,7 +45,7 @@ class RosRuntime:
 
     def __exit__(self, *args: object) -> None:
         try:
-            self._program.fiber.release()
+            self.program.fiber.release()
             self._thread.join()
         finally:
             self._imports.__exit__(None, None, None)
@@ -59,11 +60,11 @@ class RosRuntime:
 
     def ask(self, request: Callable[[], Any]) -> Any:
         """Have something done in the world, and awaited if it can be: `ask(lambda: …)`."""
-        return self._program.ask(request)
+        return self.program.ask(request)
 
     def sleep(self, duration: float) -> None:
         """Let so many seconds pass; everything due in them happens."""
-        self._program.ask(lambda: self.clock.sleep(seconds(duration), Phase.WATCH))
+        self.program.ask(lambda: self.clock.sleep(seconds(duration), Phase.WATCH))
 
     def elapsed(self) -> float:
         """Seconds since the start."""

@@ -4,7 +4,7 @@ import inspect
 from enum import IntEnum
 from typing import Any
 
-from tftool.ros import fibers, program
+from tftool.ros import program
 from tftool.runtime.log import Level
 from tftool.stamps import Duration, Stamp, seconds
 
@@ -74,9 +74,9 @@ class RcutilsLogger:
         `once`, `skip_first` and `throttle_duration_sec` count per call in the code, and hold
         together: with two of them a line must pass both.
         """
-        if fibers.current() is None or not self.is_enabled_for(severity):
+        owner = program.running()
+        if owner is None or not self.is_enabled_for(severity):
             return False
-        owner = program.current()
         if once or skip_first or throttle_duration_sec:
             place = _caller()
             if place not in self._filters:
