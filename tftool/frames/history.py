@@ -259,7 +259,7 @@ class History(Link):
             return TOO_OLD
         place = self._later(stamp)
         behind = place - 1
-        while behind >= self.start and self._stamp(behind) == stamp:
+        while behind >= self.start and records[WORDS * behind] == stamp:
             if self._sample(behind) == sample and self._parent(behind) == parent:
                 return KNOWN
             behind -= 1
@@ -272,14 +272,14 @@ class History(Link):
             records[WORDS * place : WORDS * (place + 1)] = array("q", record)
             if self._parents is not None:
                 self._parents[place] = parent
+            self._begin(place)
         else:
             records[WORDS * place : WORDS * place] = array("q", record)
             if self._parents is not None:
                 self._parents.insert(place, parent)
             if place < self._run:
                 self._run += 1
-        self._begin(min(place, self.start))
-        last = self._count() - 1
+        last = len(records) // WORDS - 1
         if place >= last - 1:
             self.previous_stamp = self._stamp(last - 1)
             self.previous = sample if place == last - 1 else self._sample(last - 1)
