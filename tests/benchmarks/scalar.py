@@ -98,14 +98,19 @@ def questions(
     back: int,
     wanted: tuple[float | None, float | None] = (None, None),
     kind: str = "lookup",
+    again: bool = False,
 ) -> Workload:
-    """Questions about the last so many periods; 0 for the latest."""
+    """Questions about the last so many periods; 0 for the latest.
+
+    Asked `again`, they are about the same frames in every turn.
+    """
     count = max(100, MOST // (1 + len(world.links) // 25)) if world.ends else MOST
 
     def command(random: Random) -> list[str]:
         words = ["ask", kind]
+        pairs = Random(name) if again else random
         for _ in range(count):
-            target, source = world.pair(random)
+            target, source = world.pair(pairs)
             moment = world.newest - 1 - random.randrange(back * PERIOD) if back else 0
             words += [target, str(moment), source]
             if kind == "full":
@@ -162,8 +167,11 @@ def workloads() -> Iterator[Workload]:
     for samples in (100, 10_000):
         yield questions(f"any time in {samples:,} samples, 5 links", chain(5, samples), samples - 2)
     for frames in (100, 1000, 10_000):
-        yield questions(f"{frames:,} frames, any two siblings", tree(frames, frames), 1)
-    yield questions("10,000 frames, any two of a tree", tree(10_000, 4), 1)
+        world = tree(frames, frames)
+        yield questions(f"{frames:,} frames, any two siblings", world, 1, again=True)
+    world = tree(10_000, 4)
+    yield questions("10,000 frames, any two of a tree", world, 1, again=True)
+    yield questions("the same, each two for the first time", world, 1)
     yield inserts("a sample set, in order", lambda random: list(range(MOST)), 1500, (2.0, 2.0))
     yield inserts("a sample set, every second one late", _late, 1500)
     yield inserts("a sample set, in reverse order", lambda random: list(range(900, 0, -1)), 500)

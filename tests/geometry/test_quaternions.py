@@ -107,4 +107,4 @@ def test_any_other_size_is_scaled_to_length_one(scale):
 def test_a_unit_quaternion_is_left_as_it_is():
     turn = (0.0, 0.0, math.sin(0.35), math.cos(0.35))
 
-    assert quaternions.unit(turn) is turn
+    assert quaternions.unit(turn) == turn

@@ -34,6 +34,11 @@ NUMBERS: dict[str, tuple[tuple[str, ...], Callable[[Step], Any]]] = {
 }
 
 
+def _values(step: Step) -> Step:
+    """With the lists of a file made the tuples that a program has."""
+    return {key: tuple(value) if isinstance(value, list) else value for key, value in step.items()}
+
+
 def same_rotation(found: Any, wanted: Any) -> bool:
     return close(found, wanted) or close(found, negated(wanted))
 
@@ -68,7 +73,7 @@ def run_math(case: Step) -> None:
             read, ask = NUMBERS[step["op"]]
             fields(step, *read, "want", "tol")
             want = step["want"] if isinstance(step["want"], list) else [step["want"]]
-            assert close(ask(step), want, step.get("tol", DEFAULT)), step
+            assert close(ask(_values(step)), want, step.get("tol", DEFAULT)), step
         else:
             raise Unknown(f"operation {step['op']}")
 
