@@ -138,7 +138,7 @@ def test_what_nobody_sends_any_more_is_waited_for_anew(world, capsys):
     out, err, _ = echoed(world, capsys, count=5, departures=Departures(world.clock, 3.1))
 
     assert places(out) == ["0.000", "1.000", "2.000", "3.000", "10.000"]
-    assert err == "Waiting for a in world: nothing new has come since who sent it left\n"
+    assert err == "Waiting for a in world: nothing new has come since its sender left\n"
 
 
 def test_what_goes_on_after_somebody_left_is_not_interrupted(world, capsys):
@@ -167,7 +167,7 @@ def test_who_has_said_how_long_to_wait_waits_no_longer_for_who_has_left(world, c
     )
 
     assert len(places(out)) == 4
-    assert str(raised) == "nothing new has come since who sent it left"
+    assert str(raised) == "nothing new has come since its sender left"
     assert world.clock.elapsed() == seconds(6)
 
 

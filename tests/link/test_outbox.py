@@ -7,6 +7,7 @@ import pytest
 from tftool.errors import LinkError
 from tftool.link import outbox
 from tftool.link.outbox import Outbox
+from tftool.link.transport import Outlet
 
 
 @pytest.fixture
@@ -48,6 +49,31 @@ def test_while_a_reader_takes_nothing_the_loop_goes_on_and_nothing_is_lost(out):
     out.close()
 
     assert sent == list(range(1000))
+
+
+def test_a_message_goes_out_by_a_reader_that_takes_nothing_without_waiting_for_it(out):
+    class Publisher:
+        def __init__(self):
+            self.stuck, self.calls = Stuck(), []
+
+        def put(self, payload, *, attachment):
+            self.stuck()
+            self.calls.append((payload, attachment))
+
+        def undeclare(self):
+            self.calls.append("undeclared")
+
+    publisher = Publisher()
+    outlet = Outlet(publisher, out, keeps=False)
+    outlet.put(b"one", b"1")
+    outlet.put(b"two", b"2")
+    outlet.close()
+    assert publisher.stuck.begun.wait(20)
+    assert publisher.calls == []
+    publisher.stuck.let_go.set()
+    out.close()
+
+    assert publisher.calls == [(b"one", b"1"), (b"two", b"2"), "undeclared"]
 
 
 def test_there_is_an_end_to_what_waits(out, monkeypatch):

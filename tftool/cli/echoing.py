@@ -245,7 +245,7 @@ class Echo:
         self._hint()
 
     def _nothing_new(self) -> str:
-        return "nothing new has come since who sent it left"
+        return "nothing new has come since its sender left"
 
     def _hint(self) -> None:
         """Name the frames there are, when one of those asked for is not among them."""
