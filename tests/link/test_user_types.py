@@ -113,25 +113,27 @@ def test_nothing_is_turned_into_bytes_while_nobody_else_listens(monkeypatch):
     play(send())
 
 
-def test_a_latched_subscription_gets_what_was_sent_before_and_others_do_not():
+def test_a_latched_subscription_gets_what_was_sent_before_and_others_hear_all_once():
     async def send():
         async with Two() as two:
             publish = publisher(two.here, is_latched=True, depth=2)
-            for word in ("one", "two", "three"):
-                publish(STRING(data=word))
             early, late, plain = [], [], []
             subscription(two.there, plain)
+            await until(lambda: two.host.graph.entities("MS", name="chatter"))
+            for word in ("one", "two", "three"):
+                publish(STRING(data=word))
+            await until(lambda: len(plain) == 3)
             subscription(two.there, early, node="early", is_latched=True)
             await until(lambda: len(early) == 2)
             subscription(two.there, late, node="late", is_latched=True)
             await until(lambda: len(late) == 2)
             await until(lambda: len(two.host.graph.entities("MS", name="chatter")) == 3)
             publish(STRING(data="four"))
-            await until(lambda: plain and len(early) == 3 and len(late) == 3)
+            await until(lambda: len(plain) == 4 and len(early) == 3 and len(late) == 3)
 
             assert [one.data for one, _ in early] == ["two", "three", "four"]
             assert [one.data for one, _ in late] == ["two", "three", "four"]
-            assert [one.data for one, _ in plain] == ["four"]
+            assert [one.data for one, _ in plain] == ["one", "two", "three", "four"]
 
     play(send())
 

@@ -59,6 +59,7 @@ class Link(Membership):
         self._closed = False
         self._settling = False
         self._reconciling = False
+        self._loop: asyncio.AbstractEventLoop | None = None
         self._since = 0
         self.departures = 0
         self._forgotten = 0
@@ -78,7 +79,8 @@ class Link(Membership):
         """
         self._world = world
         self._since = WallClock().epoch
-        self.wire.start(asyncio.get_running_loop())
+        self._loop = asyncio.get_running_loop()
+        self.wire.start(self._loop)
         domain = self.options.domain
         if not self.options.read_only:
             process = Process(
@@ -88,7 +90,7 @@ class Link(Membership):
         # Every domain: a peer that talks in another one is worth a word.
         for pattern in (f"{keys.LIVELINESS}/*/**", f"{keys.OURS}/*/**"):
             self._stops.append(self.wire.watch_tokens(pattern, self._on_token))
-        self._stops.append(world.watch(self._reconcile))
+        self._stops.append(world.watch(self._world_changed))
         self._reconcile()
         self.settle()
 
@@ -117,19 +119,36 @@ class Link(Membership):
 
     # Keeping up with the world
 
+    def _world_changed(self) -> None:
+        """Carry new topics at once, before their first value; the rest can wait a moment.
+
+        A crowd of turtles changes the world thousands of times, and one look serves all.
+        """
+        if not self._closed and not self._settling:
+            self._match(self._match_nodes, self._carry_topics)
+            self._reconcile_soon()
+
     def _reconcile(self) -> None:
         """Bring what is declared in line with what the world and the others have."""
-        # Serving another's service changes the world, which calls this again.
         self._reconciling = False
+        self._match(
+            self._match_nodes,
+            self._match_endpoints,
+            self._name_topics,
+            self._carry_topics,
+            self._refresh_topics,
+            self._match_servers,
+            self._match_clients,
+        )
+
+    def _match(self, *steps: Callable[[], None]) -> None:
+        # Serving another's service changes the world, which calls this again.
         if self._closed or self._settling:
             return
         self._settling = True
         try:
-            self._match_nodes()
-            self._match_endpoints()
-            self._match_topics()
-            self._match_servers()
-            self._match_clients()
+            for step in steps:
+                step()
         finally:
             self._settling = False
 
@@ -162,20 +181,25 @@ class Link(Membership):
             )
             self._endpoints[entity] = endpoint, self.world.endpoints.add(endpoint)
 
-    def _match_topics(self) -> None:
+    def _name_topics(self) -> None:
+        """Name others' topics, so that whoever looks through the world's topics sees them."""
         values = {ros_type: value for value, ros_type in VALUES.items()}
         for entity in self.graph.entities(keys.PUBLISHER):
             value = values.get(entity.ros_type)
-            # Named here, so that whoever looks through the world's topics sees it.
             if value and entity.name not in self.world.topics() and is_plain(entity.name):
                 self.world.topic(entity.name, value)
-        topics = self.world.topics()
-        for name in [name for name in self._bridges if name not in topics]:
-            self._bridges.pop(name).close()
+
+    def _refresh_topics(self) -> None:
         for bridge in self._bridges.values():
             bridge.refresh()
-        for name, topic in topics.items():
-            if name in self._bridges or not is_plain(name):
+
+    def _carry_topics(self) -> None:
+        topics = self.world.topics()
+        for name in self._bridges.keys() - topics.keys():
+            self._bridges.pop(name).close()
+        for name in topics.keys() - self._bridges.keys():
+            topic = topics[name]
+            if not is_plain(name):
                 continue
             if topic.kind is TransformMessage:
                 made = StaticBridge if name == "tf_static" else TransformBridge
@@ -229,18 +253,20 @@ class Link(Membership):
             elif part == "send_goal" and INTERFACES.has(entity.ros_type.removesuffix("_SendGoal")):
                 wanted[action] = entity
         for name, client in list(self._clients.items()):
-            if name not in wanted or self._is_served_here(name):
+            if name not in wanted or not self._is_offered(name, remote=True):
                 del self._clients[name]
                 client.close()
         for name, entity in wanted.items():
-            if name in self._clients or self._is_served_here(name) or not is_plain(name):
+            taken = name in self._clients or self._is_offered(name, remote=False)
+            if taken or not is_plain(name):
                 continue
             made = ServiceClient if name == entity.name else ActionClient
             self._clients[name] = made(self, name, entity)
 
-    def _is_served_here(self, name: str) -> bool:
+    def _is_offered(self, name: str, *, remote: bool) -> bool:
+        """Whether a service or an action of that name is answered here, or elsewhere."""
         offers = (self.world.services().get(name), self.world.actions().get(name))
-        return any(offer is not None and not offer.is_remote for offer in offers)
+        return any(offer is not None and offer.is_remote is remote for offer in offers)
 
     def _warn_of_rival(self, name: str, served: str) -> None:
         for rival in self.graph.entities(keys.SERVER, name=served):
@@ -278,9 +304,12 @@ class Link(Membership):
     def _graph_changed(self) -> None:
         """Reconcile soon: tokens come in crowds, and one look serves them all."""
         self._senders.clear()
-        if not self._reconciling:
+        self._reconcile_soon()
+
+    def _reconcile_soon(self) -> None:
+        if not self._reconciling and self._loop is not None:
             self._reconciling = True
-            asyncio.get_running_loop().call_soon(self._reconcile)
+            self._loop.call_soon(self._reconcile)
 
     def _came(self, process: Process) -> None:
         alone = process.role is Role.HOST and len(hosts(self.graph.processes())) == 1
