@@ -24,6 +24,9 @@ CHUNK = 1 << 16
 SECTION = 1 << 18
 """The same where histories are long: moments in no order are sorted first, so many at a time."""
 
+# Of shorter blocks, no thread has much before it must wait for another.
+_LEAST_BLOCK = 1 << 11
+
 # Below this, a second thread costs more than it brings.
 _WORTH_A_THREAD = 2 * CHUNK
 
@@ -114,6 +117,8 @@ class _Batch:
             if len(column.stamps) > kernel.MOST_INTERVALS:
                 self.sorts = True
         self.rows_at_once = SECTION if self.sorts else CHUNK
+        # There the intervals are worked out anew for each block, which takes room as well.
+        self.block = kernel.BLOCK // 2 if self.sorts else kernel.BLOCK
         self.ready: dict[int, kernel.Edge] = {}
         self.rooms: list[Floats] = []
         self.latest: tuple[Stamp, Sample] | TransformException | None = None
@@ -126,8 +131,12 @@ class _Batch:
     def run(self, complete: bool, workers: int) -> None:
         """Answer every row; if they must be complete, the first that is refused raises."""
         n = len(self.times)
+        # More threads than two share the memory that two take.
+        crowd = max(workers / 2, 1)
+        self.block = max(int(self.block / crowd), _LEAST_BLOCK)
+        most = max(int(self.rows_at_once / crowd), self.block)
         # Alike, so that no thread is left with more than the others.
-        pieces = -(-n // (self.rows_at_once * workers)) * workers
+        pieces = -(-n // (most * workers)) * workers
         self.rows_at_once = -(-n // pieces) if pieces else 1
         starts = range(0, n, self.rows_at_once)
         if workers == 1:
@@ -148,8 +157,7 @@ class _Batch:
         times = self.times[rows]
         self.stamps[rows] = times
         if self.plan is not None and self.has_all(times):
-            self.solve(self.plan, times, self.translations[rows], self.rotations[rows])
-            self.valid[rows] = True
+            self.solve(self.plan, rows)
             return
         usable = (times >= self.first) & (times <= self.last) & (times != 0)
         self.valid[rows] = False
@@ -157,7 +165,7 @@ class _Batch:
         self.rotations[rows] = np.nan
         rest = np.flatnonzero(times != 0)
         if self.plan is not None:
-            self.scatter(self.plan, start, np.flatnonzero(usable))
+            self.solve(self.plan, start + np.flatnonzero(usable))
             rest = np.flatnonzero(~usable & (times != 0))
         if len(rest):
             moments = times[rest]
@@ -165,7 +173,7 @@ class _Batch:
                 self.forest, self.columns, self.target, self.source, moments
             ):
                 held = routes.covered(plan, self.columns, moments[chosen])
-                self.scatter(plan, start, rest[chosen[held]])
+                self.solve(plan, start + rest[chosen[held]])
         self.fill_latest(start + np.flatnonzero(times == 0))
         if complete:
             for row in (start + np.flatnonzero(~self.valid[rows])).tolist():
@@ -176,23 +184,33 @@ class _Batch:
         least, most = int(times.min()), int(times.max())
         return self.first <= least and most <= self.last and (least > 0 or bool(times.all()))
 
-    def solve(self, plan: Plan, times: Stamps, translations: Floats, rotations: Floats) -> None:
-        """Answer moments that a plan has data for."""
+    def solve(self, plan: Plan, rows: "slice | routes.Rows") -> None:
+        """Answer rows that a plan has data for."""
+        times = self.times[rows]
+        if not len(times):
+            return
         up, down = self.edges(plan.up), self.edges(plan.down)
         in_order = bool(np.all(times[1:] >= times[:-1]))
-        if not in_order and self.sorts:
+        if self.sorts and not in_order:
             order = np.argsort(times)
-            turned = np.empty((len(times), 4)), np.empty((len(times), 3))
-            self.solve(plan, times[order], turned[1], turned[0])
-            rotations[order], translations[order] = turned
-            return
+            rows = order + rows.start if isinstance(rows, slice) else rows[order]
+            times, in_order = times[order], True
         room = self.room()
         workspace = None
-        for rows in kernel.blocks(len(times)):
-            block = times[rows]
+        for part in kernel.blocks(len(times), self.block):
+            block = times[part]
             if workspace is None or workspace.count != len(block):
                 workspace = kernel.Workspace(room, len(block))
-            workspace.solve(up, down, block, in_order, translations[rows], rotations[rows])
+            if isinstance(rows, slice):
+                here = slice(rows.start + part.start, rows.start + part.stop)
+                translations, rotations = self.translations[here], self.rotations[here]
+                workspace.solve(up, down, block, in_order, translations, rotations)
+            else:
+                translations, rotations = np.empty((len(block), 3)), np.empty((len(block), 4))
+                workspace.solve(up, down, block, in_order, translations, rotations)
+                self.translations[rows[part]] = translations
+                self.rotations[rows[part]] = rotations
+        self.valid[rows] = True
         self.rooms.append(room)
 
     def room(self) -> Floats:
@@ -200,7 +218,7 @@ class _Batch:
         try:
             return self.rooms.pop()
         except IndexError:
-            return kernel.room(len(self.times))
+            return kernel.room(min(len(self.times), self.block))
 
     def edges(self, links: Iterable[Link]) -> list[kernel.Edge]:
         """Links made ready for the arithmetic, each once."""
@@ -218,17 +236,6 @@ class _Batch:
                 self.ready[id(link)] = edge
             ready.append(edge)
         return ready
-
-    def scatter(self, plan: Plan, start: int, rows: routes.Rows) -> None:
-        """Answer some rows of a chunk."""
-        if not len(rows):
-            return
-        rows = rows + start
-        translations, rotations = np.empty((len(rows), 3)), np.empty((len(rows), 4))
-        self.solve(plan, self.times[rows], translations, rotations)
-        self.translations[rows] = translations
-        self.rotations[rows] = rotations
-        self.valid[rows] = True
 
     def fill_latest(self, rows: routes.Rows) -> None:
         """Answer the rows that ask for the latest: all alike."""

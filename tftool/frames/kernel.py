@@ -98,9 +98,9 @@ ROWS = 56 + 4 * GROUP
 _LINE = 8
 
 
-def blocks(count: int) -> Iterator[slice]:
-    """Cut so many moments into blocks, all alike but for the last."""
-    size = -(-count // -(-count // BLOCK))
+def blocks(count: int, most: int) -> Iterator[slice]:
+    """Cut so many moments, at least one, into blocks of at most so many: alike but the last."""
+    size = -(-count // -(-count // most))
     # Rows of whole lines: an operation that crosses them at each step takes longer.
     size += -size % _LINE
     for start in range(0, count, size):
@@ -108,12 +108,12 @@ def blocks(count: int) -> Iterator[slice]:
 
 
 def room(count: int) -> Floats:
-    """Room for any of the blocks of so many moments.
+    """Room for blocks of at most so many moments.
 
     In one piece, because the system maps a large one by large pages: it is made and
     reached more quickly than many small ones.
     """
-    numbers = np.empty(ROWS * (min(count, BLOCK) + _LINE) + _LINE)
+    numbers = np.empty(ROWS * (count + _LINE) + _LINE)
     address: int = numbers.__array_interface__["data"][0]
     return numbers[-address // 8 % _LINE :]
 
