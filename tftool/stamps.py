@@ -44,6 +44,9 @@ def whole(stamp: object) -> Stamp:
     Raises:
         TypeError: If it is a float, or nothing like a whole number.
     """
+    # Nearly always it is one, and to ask for a protocol takes microseconds before Python 3.12.
+    if type(stamp) is int:
+        return stamp
     if isinstance(stamp, SupportsIndex):
         return stamp.__index__()
     raise TypeError(
