@@ -1,11 +1,16 @@
 """Commands as processes of their own, and what they say."""
 
+import contextlib
+import io
 import os
 import signal
 import subprocess
 import sys
 import threading
+from dataclasses import dataclass
 from pathlib import Path
+
+from tftool.cli.app import main
 
 ROOT = Path(__file__).parents[2]
 TRIES, PAUSE = 800, 0.025
@@ -92,3 +97,20 @@ def run(*words, cwd=ROOT):
         timeout=60,
         check=False,
     )
+
+
+@dataclass(frozen=True)
+class Done:
+    """A command that has ended."""
+
+    returncode: int
+    stdout: str
+    stderr: str
+
+
+def run_here(*words):
+    """Run `tftool WORDS` to its end in this process, among those of others."""
+    out, err = io.StringIO(), io.StringIO()
+    with contextlib.redirect_stdout(out), contextlib.redirect_stderr(err):
+        status = main([str(word) for word in words])
+    return Done(status, out.getvalue(), err.getvalue())

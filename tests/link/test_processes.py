@@ -14,7 +14,7 @@ from pathlib import Path
 import pytest
 
 from tests.link.conftest import new_world, until
-from tests.link.processes import PAUSE, ROOT, TRIES, Process, run
+from tests.link.processes import PAUSE, ROOT, TRIES, Process, run_here
 from tftool.link.graph import Role
 from tftool.link.membership import Options
 from tftool.link.session import Link
@@ -46,7 +46,7 @@ def test_the_first_hosts_and_says_so_and_the_others_join():
 def test_a_static_transform_reaches_who_listens_and_who_comes_later():
     with Process("static", "--z", "3", "--frame-id", "A", "--child-frame-id", "B") as static:
         static.says("Spinning")
-        late = run("echo", "A", "B", "--once")
+        late = run_here("echo", "A", "B", "--once")
         assert late.returncode == 0
         assert "- Translation: [0.000, 0.000, 3.000]" in late.stdout
         with Process("echo", "A", "C") as waiting:
@@ -61,18 +61,18 @@ def test_a_static_transform_reaches_who_listens_and_who_comes_later():
 def test_keys_move_the_turtle_of_the_host_and_everybody_sees_it():
     with host() as first:
         first.says('"translation"')
-        pressed = run("teleop", "--keys", "up up")
+        pressed = run_here("teleop", "--keys", "up up")
         assert "Joined the session" in pressed.stderr
         x = float(re.search(r"turtle1 is at x ([\d.]+)", pressed.stdout)[1])
         assert x > 7.5
-        seen = run("echo", "world", "turtle1", "--once", "--json")
+        seen = run_here("echo", "world", "turtle1", "--once", "--json")
         assert json.loads(seen.stdout)["translation"]["x"] == pytest.approx(x, abs=0.01)
 
 
 def test_the_tree_of_a_session_names_the_broadcasters_of_the_host():
     with host() as first:
         first.says('"translation"')
-        tree = run("tree")
+        tree = run_here("tree")
         assert "broadcaster1" in tree.stdout
         assert "broadcaster2" in tree.stdout
 
@@ -80,19 +80,19 @@ def test_the_tree_of_a_session_names_the_broadcasters_of_the_host():
 def test_session_lists_processes_nodes_topics_rates_and_services():
     with host() as first:
         first.says('"translation"')
-        found = json.loads(run("session", "--json").stdout)
+        found = json.loads(run_here("session", "--json").stdout)
         (process,) = found["processes"]
         assert (process["command"], process["pid"], process["role"]) == ("echo", first.pid, "host")
         assert {"turtlesim", "broadcaster1", "follower"} <= set(process["nodes"])
         assert found["topics"]["tf"]["publishers"] == ["broadcaster1", "broadcaster2"]
         assert found["topics"]["turtle1/pose"]["rate"] > 10
         assert found["services"]["spawn"]["type"] == "turtlesim/srv/Spawn"
-        text = run("session").stdout
+        text = run_here("session").stdout
         assert re.search(rf"tftool echo, process {first.pid}, hosts, since \d\d:\d\d:\d\d", text)
 
 
 def test_session_says_when_nobody_is_there():
-    alone = run("session")
+    alone = run_here("session")
 
     assert alone.returncode == 0
     assert alone.stderr.startswith("Nobody is here in domain 0")
@@ -102,10 +102,10 @@ def test_session_says_when_nobody_is_there():
 def test_a_named_world_keeps_to_itself_while_a_session_runs():
     with host() as first:
         first.says('"translation"')
-        alone = run("echo", "map", "odom", "robot", "--once")
+        alone = run_here("echo", "map", "odom", "robot", "--once")
         assert alone.returncode == 0
         assert "this world keeps to itself" in alone.stderr
-        assert "map" not in run("tree").stdout
+        assert "map" not in run_here("tree").stdout
 
 
 @pytest.mark.parametrize("leave", [Process.interrupt, Process.kill])
@@ -129,7 +129,7 @@ def test_a_named_world_is_shared_with_those_who_have_none():
         static.says("Spinning")
         with Process("echo", "map", "odom") as waiting:
             waiting.says("Frames there are so far: B, A.")
-            named = run("echo", "map", "B", "robot", "--once", "--timeout", "1")
+            named = run_here("echo", "map", "B", "robot", "--once", "--timeout", "1")
             # In one session, and in trees that nothing joins.
             assert named.returncode == 4
             assert "not part of the same tree" in named.stderr
@@ -139,12 +139,12 @@ def test_a_named_world_is_shared_with_those_who_have_none():
 def test_another_domain_is_another_session():
     with host() as first:
         first.says('"translation"')
-        other = run("echo", "turtle2", "turtle1", "--once", "--domain", "7")
+        other = run_here("echo", "turtle2", "turtle1", "--once", "--domain", "7")
         assert "No session is running here" in other.stderr
 
 
 def test_joining_where_nothing_runs_says_what_to_do():
-    alone = run("echo", "turtle2", "turtle1", "--join", "--once")
+    alone = run_here("echo", "turtle2", "turtle1", "--join", "--once")
 
     assert alone.returncode == 3
     assert "No session is running in domain 0: start one with 'tftool demo'" in alone.stderr
@@ -155,7 +155,7 @@ def test_a_folder_that_cannot_be_used_leaves_hosting_alone(session_dir, monkeypa
     (session_dir / "file").write_text("")
     monkeypatch.setenv("TFTOOL_SESSION_DIR", str(session_dir / "file" / "s"))
 
-    alone = run("echo", "turtle2", "turtle1", "--once")
+    alone = run_here("echo", "turtle2", "turtle1", "--once")
 
     assert alone.returncode == 0
     assert "Nobody can join this world: no session can meet in" in alone.stderr
@@ -215,7 +215,7 @@ def test_a_stopped_process_keeps_nobody_from_joining():
             static.says("Spinning")
             static.started.send_signal(signal.SIGSTOP)
             try:
-                joined = run("echo", "turtle2", "turtle1", "--once")
+                joined = run_here("echo", "turtle2", "turtle1", "--once")
                 assert joined.returncode == 0
                 assert "Joined" in joined.stderr
             finally:
