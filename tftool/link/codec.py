@@ -35,7 +35,7 @@ class Codec:
         """
         self.kind = kind
         self.name = kind.interface__
-        self._steps = _steps(kind)
+        self._plan = _Plan(kind)
 
     def encode(self, message: Any) -> bytes:
         """The bytes of one message.
@@ -45,7 +45,7 @@ class Codec:
         """
         out = bytearray(HEADER)
         try:
-            _write(out, self._steps, message)
+            self._plan.write(out, message)
         except (struct.error, OverflowError, AttributeError, TypeError, ValueError) as error:
             raise MalformedMessage(self.name, f"a value does not fit its field: {error}") from error
         return bytes(out)
@@ -60,7 +60,7 @@ class Codec:
         if len(payload) == len(HEADER) and not self.kind.fields__:
             # Some writers leave the empty structure's one byte out.
             return self.kind()
-        message = _message(reader, self.kind, self._steps)
+        message = self._plan.read(reader)
         check_rest(self.name, len(payload) - reader.position)
         return message
 
@@ -178,9 +178,8 @@ class _List:
     def __init__(self, path: str, field: Field) -> None:
         self._get = attrgetter(path)
         self._field = field
-        self._kind = field.kind
-        self._steps = [] if isinstance(field.kind, str) else _steps(field.kind)
-        self._item = _SMALLEST_TEXT if isinstance(field.kind, str) else _smallest(self._steps)
+        self._plan = None if isinstance(field.kind, str) else _Plan(field.kind)
+        self._item = _SMALLEST_TEXT if self._plan is None else self._plan.smallest
         self._count = field.size if field.size is not None and field.size >= 0 else None
         self.smallest = 4 if self._count is None else self._count * self._item
 
@@ -190,18 +189,17 @@ class _List:
         if self._count is None:
             write_length(out, len(items))
         for item in items:
-            if isinstance(self._kind, str):
+            if self._plan is None:
                 write_text(out, item)
             else:
-                _write(out, self._steps, item)
+                self._plan.write(out, item)
 
     def read(self, reader: Reader, values: list[Any]) -> None:
         count = reader.count(self._item, self._field.bound) if self._count is None else self._count
-        if isinstance(self._kind, str):
+        if self._plan is None:
             values.append([reader.text(self._field.text_bound) for _ in range(count)])
         else:
-            kind, steps = self._kind, self._steps
-            values.append([_message(reader, kind, steps) for _ in range(count)])
+            values.append([self._plan.read(reader) for _ in range(count)])
 
 
 _Step = _Run | _Text | _Array | _List
@@ -261,15 +259,6 @@ def _placeholder(_: Any) -> int:
     return 0
 
 
-def _smallest(steps: list[_Step]) -> int:
-    return sum(step.smallest for step in steps)
-
-
-def _write(out: bytearray, steps: list[_Step], message: Any) -> None:
-    for step in steps:
-        step.write(out, message)
-
-
 def _check_count(field: Field, count: int) -> None:
     if field.size is not None and 0 <= field.size != count:
         raise ValueError(f"'{field.name}' takes {field.size} values, not {count}")
@@ -277,23 +266,42 @@ def _check_count(field: Field, count: int) -> None:
         raise ValueError(f"'{field.name}' takes at most {field.bound} values, not {count}")
 
 
-def _message(reader: Reader, kind: type[Message], steps: list[_Step]) -> Any:
-    """The message that comes next."""
-    values: list[Any] = []
-    for step in steps:
-        step.read(reader, values)
-    return _assembled(kind, iter(values))
+class _Shape:
+    """How the values of a message's fields, in order, make the message."""
+
+    def __init__(self, kind: type[Message]) -> None:
+        self._kind = kind
+        self._slots: list[tuple[str, _Shape | None]] = []
+        for field in kind.fields__:
+            # A single message's fields lie in line with the others.
+            is_part = field.size is None and not isinstance(field.kind, str)
+            part = _Shape(field.kind) if is_part else None  # type: ignore[arg-type]
+            self._slots.append((f"_{field.name}", part))
+
+    def build(self, values: Iterator[Any]) -> Any:
+        """The message, past the checks of assignment: its values were made to fit."""
+        message = object.__new__(self._kind)
+        for slot, part in self._slots:
+            setattr(message, slot, next(values) if part is None else part.build(values))
+        if not self._slots:
+            next(values)
+        return message
 
 
-def _assembled(kind: type[Message], values: Iterator[Any]) -> Any:
-    """A message of the values of its fields, in order, past the checks of assignment."""
-    message: Any = object.__new__(kind)
-    if not kind.fields__:
-        next(values)
-    for field in kind.fields__:
-        if field.size is None and not isinstance(field.kind, str):
-            value = _assembled(field.kind, values)
-        else:
-            value = next(values)
-        setattr(message, f"_{field.name}", value)
-    return message
+class _Plan:
+    """How one type of message lies in its bytes."""
+
+    def __init__(self, kind: type[Message]) -> None:
+        self._steps = _steps(kind)
+        self._shape = _Shape(kind)
+        self.smallest: int = sum(step.smallest for step in self._steps)
+
+    def write(self, out: bytearray, message: Any) -> None:
+        for step in self._steps:
+            step.write(out, message)
+
+    def read(self, reader: Reader) -> Any:
+        values: list[Any] = []
+        for step in self._steps:
+            step.read(reader, values)
+        return self._shape.build(iter(values))
