@@ -275,7 +275,7 @@ def test_a_node_that_fails_does_not_stop_the_others(tmp_path):
         ("LogInfo(msg=EnvironmentVariable('NO_SUCH'))", "'NO_SUCH' does not exist"),
         ("LogInfo(msg=FindExecutable(name='no-such'))", "no command 'no-such'"),
         ("LogInfo(msg=Command('false'))", r"the command \['false'\] failed"),
-        ("TimerAction(period='soon', actions=[])", "period is seconds, not 'soon'"),
+        ("TimerAction(period='soon', actions=[])", "period is seconds from 0 .*, not 'soon'"),
         ("ExecuteProcess(cmd=['no-such-command'])", "cannot run 'no-such-command'"),
         (
             "Node(package='turtlesim', executable='turtlesim_node', parameters=["

@@ -51,20 +51,40 @@ class Asked:
         """A text parameter; asked for, so it counts as known."""
         return str(self.parameters.pop(name, default))
 
+    def flag(self, name: str, default: bool) -> bool:
+        """A parameter that is true or false.
+
+        Raises:
+            UsageError: If it is neither.
+        """
+        value = self.parameters.pop(name, default)
+        if not isinstance(value, bool):
+            raise UsageError(f"parameter '{name}' is true or false, not {value!r}")
+        return value
+
+    def channel(self, name: str, default: int) -> int:
+        """A parameter that is a channel of a colour.
+
+        Raises:
+            UsageError: If it is none.
+        """
+        value = self.parameters.pop(name, default)
+        if isinstance(value, bool) or not isinstance(value, int) or not 0 <= value <= 255:
+            raise UsageError(f"parameter '{name}' is a whole number from 0 to 255, not {value!r}")
+        return value
+
 
 def _turtlesim(asked: Asked) -> Node:
-    given = asked.parameters
-    defaults = (BACKGROUND.r, BACKGROUND.g, BACKGROUND.b)
-    r, g, b = (
-        int(given.pop(f"background_{channel}", default))
-        for channel, default in zip("rgb", defaults, strict=True)
+    background = Color(
+        asked.channel("background_r", BACKGROUND.r),
+        asked.channel("background_g", BACKGROUND.g),
+        asked.channel("background_b", BACKGROUND.b),
     )
-    holonomic = bool(given.pop("holonomic", False))
     return Turtlesim(
         asked.world,
         asked.name,
-        holonomic=holonomic,
-        background=Color(r, g, b),
+        holonomic=asked.flag("holonomic", False),
+        background=background,
         namespace=asked.namespace,
     )
 

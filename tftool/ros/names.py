@@ -144,6 +144,17 @@ def check_node_name(name: str) -> None:
         raise UsageError(f"'{name}' cannot be a node's name: {fault.reason}")
 
 
+def check_namespace(namespace: str) -> None:
+    """Refuse what ROS 2 refuses as a namespace.
+
+    Raises:
+        UsageError: If it is none.
+    """
+    fault = namespace_fault(f"/{namespace.strip('/')}")
+    if fault is not None:
+        raise UsageError(f"'{namespace}' cannot be a namespace: {fault.reason}")
+
+
 def expand(given: str, name: str, namespace: str) -> str:
     """The full name of a topic or service, without leading slash.
 
@@ -248,9 +259,15 @@ def add_remap(options: RosOptions, text: str) -> None:
         check_node_name(new)
         options.name = new
     elif rest == "__ns":
+        check_namespace(new)
         options.namespace = new
     else:
-        options.remaps.append(Remap(node if found else None, rest.removeprefix("rostopic://"), new))
+        rule = Remap(node if found else None, rest.removeprefix("rostopic://"), new)
+        for name in (rule.old, rule.new):
+            fault = topic_name_fault(name)
+            if fault is not None:
+                raise UsageError(f"'{text}' renames nothing: in '{name}' {fault.reason}")
+        options.remaps.append(rule)
 
 
 def yaml_value(text: str) -> Any:

@@ -7,7 +7,12 @@ from pathlib import Path
 from typing import Any
 from xml.parsers import expat
 
+import yaml
+
 from tftool.errors import InputError
+
+DEEPEST = 100
+"""How many levels of elements, or of `$(…)`, may lie in each other."""
 
 
 @dataclass(slots=True)
@@ -72,6 +77,10 @@ class Element:
                 what = f"'{self.tag}' has no '{child.tag}' inside"
                 raise child.refusal(what, child.tag, self.known)
 
+    def too_deep(self) -> InputError:
+        """That nobody means so many levels."""
+        return InputError(f"{self.where}: more than {DEEPEST} levels of nesting are too deep")
+
     def refusal(self, what: str, word: str, known: Iterable[str]) -> InputError:
         """What is wrong here, and the nearest word that is known."""
         near = get_close_matches(word, list(known), n=1)
@@ -93,6 +102,8 @@ def read_xml(path: Path) -> list[Element]:
 
     def start(tag: str, values: dict[str, Any]) -> None:
         element = Element(tag, f"{path}:{parser.CurrentLineNumber}", dict(values))
+        if len(stack) > DEEPEST:
+            raise element.too_deep()
         stack[-1].children.append(element)
         stack.append(element)
 
@@ -121,8 +132,6 @@ def read_yaml(path: Path) -> list[Element]:
     Raises:
         InputError: If it cannot be read or is laid out otherwise; the line is told.
     """
-    import yaml
-
     try:
         root = yaml.compose(path.read_text(encoding="utf-8"), Loader=yaml.SafeLoader)
     except (OSError, UnicodeDecodeError) as error:
@@ -132,46 +141,81 @@ def read_yaml(path: Path) -> list[Element]:
         mark: Any = getattr(error, "problem_mark", None)
         where = f"{path}:{mark.line + 1}:{mark.column + 1}" if mark else str(path)
         raise InputError(f"{where}: {getattr(error, 'problem', None) or 'not YAML'}") from None
+    except RecursionError:
+        raise Element("", str(path)).too_deep() from None
+    top = Element("launch", str(path))
     if not isinstance(root, yaml.MappingNode) or [key.value for key, _ in root.value] != ["launch"]:
         raise InputError(f"{path}: a launch file has one key at its top, 'launch'")
-    top = Element("launch", str(path))
-    _children(root.value[0][1], top, path)
+    _Yaml(path).children(root.value[0][1], top, 1)
     return top.children
 
 
-def _children(node: Any, parent: Element, path: Path) -> None:
-    """Hang what a list of one-key mappings says below an element."""
-    import yaml
+class _Yaml:
+    """Hangs what the nodes of a YAML document say below elements."""
 
-    where = f"{path}:{node.start_mark.line + 1}"
-    if not isinstance(node, yaml.SequenceNode):
-        raise InputError(f"{where}: '{parent.tag}' is a list of actions, each begun with '- '")
-    for item in node.value:
-        where = f"{path}:{item.start_mark.line + 1}"
-        if not isinstance(item, yaml.MappingNode) or len(item.value) != 1:
-            raise InputError(f"{where}: an action is one key with its attributes below it")
-        key, value = item.value[0]
-        parent.children.append(_element(key.value, value, path))
+    def __init__(self, path: Path) -> None:
+        self.path = path
 
+    def children(self, node: Any, parent: Element, depth: int) -> None:
+        """Take a list of one-key mappings."""
+        if not isinstance(node, yaml.SequenceNode):
+            where = self.where(node)
+            raise InputError(f"{where}: '{parent.tag}' is a list of actions, each begun with '- '")
+        for item in node.value:
+            if not isinstance(item, yaml.MappingNode) or len(item.value) != 1:
+                where = self.where(item)
+                raise InputError(f"{where}: an action is one key with its attributes below it")
+            key, value = item.value[0]
+            parent.children.append(self.element(self.word(key), value, depth))
 
-def _element(tag: str, node: Any, path: Path) -> Element:
-    import yaml
-
-    element = Element(tag, f"{path}:{node.start_mark.line + 1}")
-    if isinstance(node, yaml.SequenceNode):
-        _children(node, element, path)
+    def element(self, tag: str, node: Any, depth: int) -> Element:
+        """Make an element of a mapping of attributes, or of a list of actions."""
+        element = Element(tag, self.where(node))
+        # An alias may stand inside what it stands for.
+        if depth > DEEPEST:
+            raise element.too_deep()
+        if isinstance(node, yaml.SequenceNode):
+            self.children(node, element, depth + 1)
+            return element
+        if not isinstance(node, yaml.MappingNode):
+            raise InputError(
+                f"{element.where}: '{tag}' needs its attributes below it, 'name: value'"
+            )
+        for key, value in node.value:
+            name = self.word(key)
+            nested = isinstance(value, yaml.SequenceNode) and any(
+                isinstance(one, yaml.MappingNode) for one in value.value
+            )
+            if nested and name == "children":
+                self.children(value, element, depth + 1)
+            elif nested:
+                element.children += [self.element(name, one, depth + 1) for one in value.value]
+            else:
+                element.values[name] = self.value(value)
         return element
-    if not isinstance(node, yaml.MappingNode):
-        raise InputError(f"{element.where}: '{tag}' needs its attributes below it, 'name: value'")
-    for key, value in node.value:
-        nested = isinstance(value, yaml.SequenceNode) and any(
-            isinstance(one, yaml.MappingNode) for one in value.value
-        )
-        if nested and key.value == "children":
-            _children(value, element, path)
-        elif nested:
-            element.children += [_element(key.value, one, path) for one in value.value]
-        else:
-            loader = yaml.SafeLoader("")
-            element.values[key.value] = loader.construct_object(value, deep=True)
-    return element
+
+    def word(self, node: Any) -> str:
+        """A key.
+
+        Raises:
+            InputError: If it is no single word.
+        """
+        if not isinstance(node, yaml.ScalarNode):
+            raise InputError(f"{self.where(node)}: a key is one word, not a list or a mapping")
+        return str(node.value)
+
+    def value(self, node: Any) -> Any:
+        """An attribute's value.
+
+        Raises:
+            InputError: If it is none that YAML knows by itself.
+        """
+        try:
+            return yaml.SafeLoader("").construct_object(node, deep=True)
+        except (yaml.YAMLError, ValueError) as error:
+            reason = getattr(error, "problem", None) or error
+            raise InputError(f"{self.where(node)}: {reason}") from None
+
+    def where(self, node: Any) -> str:
+        """The place of a node: "file:line"."""
+        return f"{self.path}:{node.start_mark.line + 1}"

@@ -125,8 +125,9 @@ class Launch(Node):
         where = getattr(entity, "where", "")
         try:
             return entity.visit(self.context)
-        except UsageError as error:
-            raise UsageError(f"{where}: {error}" if where else f"{error}") from error
+        except (UsageError, InputError) as error:
+            kind = UsageError if isinstance(error, UsageError) else InputError
+            raise kind(f"{where}: {error}" if where else f"{error}") from error
         except TftoolError:
             raise
         except Exception as error:
@@ -248,7 +249,7 @@ class Launch(Node):
                 check=False,
             )
         except OSError as error:
-            raise UsageError(f"cannot run '{command.words[0]}': {error.strerror}") from None
+            raise UsageError(_cannot_run(command, error)) from None
         for line in (done.stdout + done.stderr).splitlines():
             self._say("", label, line)
         return done.returncode, ""
@@ -264,7 +265,7 @@ class Launch(Node):
                 start_new_session=True,
             )
         except OSError as error:
-            self._ended(action, label, 127, f"cannot run '{command.words[0]}': {error.strerror}")
+            self._ended(action, label, 127, _cannot_run(command, error))
             return
         self._running[label] = process
         if self._closing:
@@ -355,3 +356,9 @@ class Launch(Node):
                     return str(program.name)
                 return self.labels.get(node.name, node.name)
         return self.labels.get(name, "launch")
+
+
+def _cannot_run(command: Command, error: OSError) -> str:
+    # A folder that is not there is told in the same words as a command that is not.
+    missing = "" if error.filename in (None, command.words[0]) else f" '{error.filename}'"
+    return f"cannot run '{command.words[0]}': {error.strerror}{missing}"

@@ -74,6 +74,7 @@ class Node(Startable):
             names.check_node_name(options.name)
         own = "" if self.namespace is None else perform(context, self.namespace)
         options.namespace = own if own.startswith("/") else names.join(context.namespace, own)
+        names.check_namespace(options.namespace)
         for old, new in [*self._remappings(context), *context.remaps]:
             names.add_remap(options, f"{old}:={new}")
         own_parameters = read_all(context, self.parameters)
@@ -121,6 +122,7 @@ class PushRosNamespace(Action):
     def execute(self, context: LaunchContext) -> Any:
         """Go into it."""
         own = perform(context, self.namespace)
+        names.check_namespace(own)
         absolute = own.startswith("/")
         context.namespace = own.strip("/") if absolute else names.join(context.namespace, own)
 

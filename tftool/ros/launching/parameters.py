@@ -11,6 +11,8 @@ from tftool.ros.launching.context import LaunchContext
 from tftool.ros.launching.parsing import parsed
 from tftool.ros.launching.substitutions import Substitution, is_true, perform
 
+_SINGLE = (str, int, float, bool)
+
 
 class ParameterValue:
     """A parameter's value of a given type."""
@@ -24,7 +26,9 @@ class ParameterValue:
         Raises:
             UsageError: If it is not of that type.
         """
-        if not _is_text(self.value):
+        # A list of texts is one text where one value is wanted.
+        parts = self.value_type in _SINGLE and _is_parts(self.value)
+        if not (parts or _is_text(self.value)):
             return plain(context, self.value)
         text = perform(context, self.value)
         if self.value_type is str:
@@ -73,10 +77,13 @@ def read_all(context: LaunchContext, given: Iterable[Any]) -> list[tuple[str, st
 def _is_text(value: Any) -> bool:
     if isinstance(value, str | Substitution):
         return True
+    return _is_parts(value) and any(isinstance(one, Substitution) for one in value)
+
+
+def _is_parts(value: Any) -> bool:
     return (
         isinstance(value, list | tuple)
         and bool(value)
-        and any(isinstance(one, Substitution) for one in value)
         and all(isinstance(one, str | Substitution) for one in value)
     )
 

@@ -6,6 +6,7 @@ from typing import Any
 
 from tftool.errors import InputError
 from tftool.ros.launching import logic, substitutions
+from tftool.ros.launching.elements import DEEPEST
 from tftool.ros.launching.substitutions import TextSubstitution
 
 
@@ -13,8 +14,10 @@ def parsed(text: Any, where: str) -> list[Any]:
     """A text with its `$(…)` parts as substitutions.
 
     Raises:
-        InputError: If a part is not closed, or not known.
+        InputError: If a part is not closed, or not known, or there are more than anybody means.
     """
+    if str(text).count("$(") > DEEPEST:
+        raise InputError(f"{where}: more than {DEEPEST} '$(…)' in one text are too many")
     parts, rest = _parse(str(text), 0, where, closing=False)
     if rest != len(str(text)):
         raise InputError(f"{where}: '{text}' has a ')' too many")
@@ -61,7 +64,7 @@ def _substitution(text: str, start: int, where: str) -> tuple[Any, int]:
             words.append(word)
     if at >= len(text):
         raise InputError(f"{where}: '$(' in '{text}' is not closed by ')'")
-    if not words or not isinstance(words[0][0], TextSubstitution):
+    if not words or not words[0] or not isinstance(words[0][0], TextSubstitution):
         raise InputError(f"{where}: '$()' in '{text}' names nothing")
     name = words[0][0].text
     make = _SUBSTITUTIONS.get(name)

@@ -11,6 +11,9 @@ from tftool.ros.launching.context import LaunchContext
 from tftool.ros.launching.events import OnProcessExit
 from tftool.ros.launching.substitutions import is_true, perform
 
+LONGEST = 1e9
+"""How many seconds something may wait: about thirty years."""
+
 
 class Startable(Action):
     """What is started, ends some time, and may be started again."""
@@ -67,9 +70,12 @@ def seconds_of(context: LaunchContext, value: Any, what: str) -> float:
     """
     text = perform(context, value)
     try:
-        return float(text)
+        found = float(text)
     except ValueError:
-        raise UsageError(f"{what} is seconds, not '{text}'") from None
+        found = -1.0
+    if not 0.0 <= found <= LONGEST:
+        raise UsageError(f"{what} is seconds from 0 to {LONGEST:g}, not '{text}'")
+    return found
 
 
 @dataclass(frozen=True, slots=True)
@@ -110,13 +116,15 @@ class ExecuteProcess(Startable):
     def execute(self, context: LaunchContext) -> Any:
         """Start it."""
         words = [perform(context, word) for word in self.cmd]
+        if not words or not words[0].strip():
+            raise UsageError("ExecuteProcess is given no command")
         environment = dict(context.environment)
         if self.env is not None:
             environment = _texts(context, self.env)
         environment.update(_texts(context, self.additional_env or {}))
         cwd = None if self.cwd is None else perform(context, self.cwd)
         if self.process_name is None:
-            name = Path(words[0].split()[0]).name if words[0].strip() else "process"
+            name = Path(words[0].split()[0]).name
         else:
             name = perform(context, self.process_name)
         self.handle_exit(context)
