@@ -2,6 +2,7 @@
 
 import pytest
 
+from tftool.messages import KeyPress
 from tftool.nodes.turtlesim import Turtlesim
 
 
@@ -40,7 +41,9 @@ def test_topics_are_told_by_types_ends_and_numbers(node, ros_runtime):
     ros_runtime.ask(lambda: Turtlesim(ros_runtime.world, "sim") and None)
     ros_runtime.sleep(0.1)
 
+    ros_runtime.world.topic("keys", KeyPress)
     topics = dict(node.get_topic_names_and_types())
+    assert "/keys" not in topics
     assert topics["/chatter"] == ["std_msgs/msg/String"]
     assert topics["/turtle1/pose"] == ["turtlesim/msg/Pose"]
     assert topics["/turtle1/cmd_vel"] == [Twist.interface__]

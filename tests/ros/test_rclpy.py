@@ -336,6 +336,25 @@ def test_a_timer_tells_when_it_was_due(node):
     assert infos[0].expected_call_time == infos[0].actual_call_time
 
 
+def test_what_never_waits_cannot_hold_simulated_time_still(node, ros_runtime):
+    from std_msgs.msg import Int32
+
+    fast = []
+    timer = node.create_timer(0, lambda: fast.append(1))
+    spin(node, 0.5)
+    timer.cancel()
+    assert len(fast) == pytest.approx(500, abs=2)
+
+    sender = node.create_publisher(Int32, "numbers", 10)
+    while ros_runtime.elapsed() < 0.502:
+        sender.publish(Int32())
+
+    node.create_subscription(Int32, "numbers", sender.publish, 10)
+    sender.publish(Int32())
+    spin(node, 0.002)
+    assert ros_runtime.elapsed() == pytest.approx(0.504, abs=0.002)
+
+
 def test_a_rate_paces_a_loop(node, ros_runtime):
     rate = node.create_rate(4)
     for _ in range(8):

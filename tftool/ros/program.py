@@ -28,6 +28,9 @@ POLLS = 100
 READINGS = 2_000
 """How often it may read the clock at one simulated instant before time moves on."""
 
+REQUESTS = 10_000
+"""How often it may ask for anything at one simulated instant before time moves on."""
+
 TICK = seconds(0.001)
 """How far simulated time moves then: a loop that only polls must see an end of its waiting."""
 
@@ -182,6 +185,7 @@ class Program(Node):
         """Have something done on the loop's thread, from any thread; see `Fiber.ask`."""
         fiber = fibers.current()
         if fiber is not None:
+            self._count(1.0 / REQUESTS)
             return fiber.ask(request)
         if threading.get_ident() == self._loop_thread:
             return request()

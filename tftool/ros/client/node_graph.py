@@ -61,7 +61,12 @@ class NodeGraph:
 
     def __topics(self) -> NamesAndTypes:
         world = self._tftool.world
-        found = {name: {_type_on(topic.kind)} for name, topic in world.topics().items()}
+        found = {
+            name: {kind}
+            for name, topic in world.topics().items()
+            # What has no type stays among nodes of tftool's own: the keys that are pressed, say.
+            if (kind := types.topic_name(topic.kind))
+        }
         for name in world.endpoints.topics():
             ends = [
                 *world.endpoints.of(name, PUBLISHER),
@@ -192,10 +197,6 @@ class NodeGraph:
             return _listed(find(full))
 
         return self.__look(found)
-
-
-def _type_on(kind: type[object]) -> str:
-    return types.topic_name(kind) or kind.__name__
 
 
 def _listed(pairs: Iterable[tuple[str, str]]) -> NamesAndTypes:

@@ -7,6 +7,7 @@ from typing import Any
 from tftool.ros.client.entities import Entity, Work
 from tftool.ros.client.member import Member
 from tftool.ros.client.time import Clock, Duration, Time
+from tftool.ros.program import TICK
 
 
 class TimerInfo:
@@ -62,10 +63,14 @@ class Timer(Entity):
         """The callback; the next moment is the first of the grid to come."""
         now, due = self.member.now(), self.due
         self._last = now
-        self.due += self._period
-        if self.due < now:
-            missed = -(-(now - self.due) // self._period) if self._period else 0
-            self.due = self.due + missed * self._period if self._period else now
+        # As fast as possible must not hold simulated time still.
+        fastest = TICK if self.member.program.strict else 0
+        if not self._period:
+            self.due = now + fastest
+        else:
+            self.due += self._period
+            if self.due < now:
+                self.due += -(-(now - self.due) // self._period) * self._period
 
         def work() -> Any:
             if self.callback is None:
