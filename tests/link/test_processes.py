@@ -171,7 +171,9 @@ exec "$@" echo world turtle1 --once
 
 def may_mount():
     tried = subprocess.run(
-        ["unshare", "-m", "true"] if shutil.which("unshare") else ["false"], check=False
+        ["unshare", "-m", "true"] if shutil.which("unshare") else ["false"],
+        capture_output=True,
+        check=False,
     )
     return tried.returncode == 0
 

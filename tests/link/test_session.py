@@ -1,6 +1,7 @@
 """Two worlds, two zenoh sessions, real sockets: what one says the other hears."""
 
 import asyncio
+import json
 import math
 import shutil
 import subprocess
@@ -578,6 +579,33 @@ def test_over_tcp_a_guest_reaches_every_process_of_the_other_machine(session_dir
                     await until(lambda: inside.buffer.frame_exists("B"))
 
     play(reach())
+
+
+def test_a_configuration_of_the_users_own_says_where_to_meet(tmp_path):
+    def written(name, **endpoints):
+        path = tmp_path / f"{name}.json5"
+        where = {kind: {"endpoints": [endpoint]} for kind, endpoint in endpoints.items()}
+        scouting = {"multicast": {"enabled": False}}
+        path.write_text(json.dumps({"mode": "peer", "scouting": scouting, **where}))
+        return Options("demo", reach=Reach(config=path))
+
+    async def meet():
+        endpoint = f"tcp/127.0.0.1:{free_port()}"
+        with Link(written("gate", listen=endpoint)) as gate:
+            here = new_world()
+            gate.attach(here, role=Role.HOST)
+            Turtlesim(here)
+            living = asyncio.ensure_future(live(here))
+            here.broadcast([sample(0, "A")], "static", static=True)
+            await until(lambda: here.has_service("spawn"))
+            with Link(written("far", connect=endpoint, listen="tcp/127.0.0.1:0")) as far:
+                there = new_world()
+                far.attach(there, role=Role.GUEST)
+                await until(lambda: there.buffer.frame_exists("A") and there.has_service("spawn"))
+            living.cancel()
+            await asyncio.gather(living, return_exceptions=True)
+
+    play(meet())
 
 
 def test_a_peer_that_talks_in_another_domain_is_said_once(session_dir, monkeypatch):

@@ -3,7 +3,7 @@
 import pytest
 
 from tftool.messages import Pose2D, Twist2D
-from tftool.nodes.far_turtles import FarTurtles
+from tftool.nodes.far_turtles import MOST, FarTurtles
 from tftool.nodes.turtlesim import Turtlesim
 from tftool.runtime.clock import SimClock, run
 from tftool.runtime.node import Node
@@ -85,6 +85,16 @@ def test_who_falls_silent_is_gone_and_leaves_no_line_when_it_comes_back_elsewher
     assert there == ["turtle2"]
     assert list(far.turtles) == ["turtle1", "turtle2"]
     assert len(far.trail.segments) == 0
+
+
+def test_of_a_crowd_only_the_first_are_listened_to(world):
+    far = FarTurtles(world)
+    topics = [world.topic(f"turtle{number}/pose", Pose2D) for number in range(MOST + 10)]
+    for topic in topics:
+        topic.publish(pose(1.0))
+
+    assert len(far.turtles) == MOST
+    assert sum(topic.near_subscribers for topic in topics) == MOST
 
 
 def test_another_simulator_begins_on_an_empty_sheet(world):

@@ -42,7 +42,7 @@ class Reach:
         listen: Endpoints where other machines may come in, "tcp/0.0.0.0:7448".
         connect: Endpoints to go to, "tcp/robot:7447".
         certificates: For endpoints that begin with tls/ or quic/.
-        config: A zenoh configuration, JSON5, taken as it is in place of ours.
+        config: A zenoh configuration, JSON5, taken in place of ours.
     """
 
     listen: tuple[str, ...] = ()
@@ -82,6 +82,8 @@ def open_zenoh(zenoh: Any, reach: Reach, endpoint: str, others: tuple[str, ...])
     try:
         if reach.config is not None:
             config = zenoh.Config.from_file(str(reach.config))
+            # By default a peer has none, and latched messages are told apart by their time.
+            config.insert_json5("timestamping/enabled", "true")
         else:
             config = zenoh.Config()
             for key, value in settings(reach, endpoint, others).items():

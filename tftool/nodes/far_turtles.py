@@ -15,6 +15,9 @@ from tftool.stamps import Stamp, seconds
 SILENT: Final = seconds(1)
 """A turtle that sends no pose for so long is gone, or its simulator is."""
 
+MOST: Final = 50
+"""So many turtles are listened to: each sends 62 poses a second."""
+
 _POSE: Final = "/pose"
 
 
@@ -48,7 +51,7 @@ class FarTurtles:
     """
 
     def __init__(self, world: World) -> None:
-        """Look at every turtle that is there or comes."""
+        """Look at the turtles that are there or come, the first fifty of them."""
         self.trail = Trail()
         self.background: Color = BACKGROUND
         self.revision = 0
@@ -67,6 +70,8 @@ class FarTurtles:
 
     def _look(self) -> None:
         for name, topic in tuple(self._world.topics().items()):
+            if len(self._stops) >= MOST:
+                return
             if name.endswith(_POSE) and topic.kind is Pose2D and name not in self._stops:
                 turtle = name.removesuffix(_POSE)
                 # Noted first: to subscribe may call this again.
