@@ -43,7 +43,7 @@ def changed(draw):
 
 
 @given(changed())
-@settings(max_examples=200)
+@settings(max_examples=100)
 @example(("yaml", "launch:\n- ? [a]\n  : {b: c}\n"))
 @example(("yaml", "launch: &a\n- group: *a\n"))
 @example(("yaml", "launch:\n- log: {message: 2020-13-45}\n"))
@@ -67,7 +67,7 @@ def test_a_file_is_read_or_refused(case):
 
 
 @given(changed())
-@settings(max_examples=40)
+@settings(max_examples=25)
 def test_a_file_is_launched_or_refused(case):
     ending, text = case
     with tempfile.TemporaryDirectory() as folder:
