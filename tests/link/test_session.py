@@ -3,6 +3,7 @@
 import asyncio
 import json
 import math
+import re
 import shutil
 import subprocess
 
@@ -535,6 +536,24 @@ def test_a_clock_that_is_years_off_is_said_once_for_each_sender():
             assert told.startswith("'simulated' stamps its transforms ")
             assert "years before this machine's clock" in told
             assert two.there.buffer.frame_exists("turtle1")
+
+    play(send())
+
+
+def test_a_clock_that_is_ahead_is_said_once_for_all():
+    async def send():
+        async with Two() as two:
+            await until(lambda: two.host.graph.entities("MS", name="tf"))
+            now = two.here.clock.now()
+            two.here.broadcast([sample(now + seconds(1), "late")], "tolerant")
+            for step in range(3):
+                two.here.broadcast([sample(now + seconds(60 + step))], "fast")
+                two.here.broadcast([sample(now + seconds(60 + step), "turtle2")], "faster")
+            await until(lambda: two.guest.received == 7)
+
+            (told,) = [text for text in texts(two.there) if "clock" in text]
+            assert re.match(r"'fast' stamps its transforms (59|60)\.\d s after this machine", told)
+            assert "(demo --rate)" in told
 
     play(send())
 

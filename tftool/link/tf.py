@@ -29,6 +29,9 @@ LONG: Final = 64
 
 YEAR: Final = seconds(365.25 * 24 * 3600)
 
+AHEAD: Final = seconds(2)
+"""So far in the future no clock that agrees with ours can stamp anything."""
+
 _NO_SENDER = bytes(16)
 
 
@@ -144,7 +147,15 @@ class TransformBridge:
 
     def _compare_clocks(self, stamp: Stamp, authority: str) -> None:
         ahead = stamp - self._link.world.clock.now()
-        if -YEAR < ahead < YEAR:
+        if -YEAR < ahead < AHEAD:
+            return
+        if 0 < ahead < YEAR:
+            self._link.say_once(
+                "clock ahead",
+                f"'{authority}' stamps its transforms {as_seconds(ahead):.1f} s after this "
+                "machine's clock, which is slow then, or that one is fast (demo --rate): ages, and "
+                "answers about the present or some seconds ago, are off by as much.",
+            )
             return
         self._link.say_once(
             f"clock {authority}",
