@@ -56,3 +56,45 @@ def test_services_parameters_actions_and_latched_topics_reach_another_terminal()
     assert sum(warning in line for line in client.lines) == 1
     assert "the noise was heard" not in client.text
     assert "Traceback" not in server.text + client.text
+
+
+BALLS = {
+    "src/toys/package.xml": "<package><name>toys</name></package>",
+    "src/toys/msg/Ball.msg": "string<=8 color\nfloat32[<=3] bounces\ngeometry_msgs/Point place\n",
+    "thrower.py": """
+import rclpy
+from geometry_msgs.msg import Point
+from toys.msg import Ball
+
+rclpy.init()
+node = rclpy.create_node("thrower")
+balls = node.create_publisher(Ball, "balls", 10)
+ball = Ball(color="red", bounces=[0.5, 0.25], place=Point(x=1.0))
+node.create_timer(0.1, lambda: balls.publish(ball))
+rclpy.spin(node)
+""",
+    "catcher.py": """
+import rclpy
+from toys.msg import Ball
+
+rclpy.init()
+node = rclpy.create_node("catcher")
+node.create_subscription(Ball, "balls", lambda m: node.get_logger().info(f"caught {m}"), 10)
+rclpy.spin(node)
+""",
+}
+
+
+def test_messages_that_a_workspace_defines_itself_reach_another_terminal(tmp_path):
+    for name, text in BALLS.items():
+        path = tmp_path / name
+        path.parent.mkdir(parents=True, exist_ok=True)
+        path.write_text(text)
+
+    with Process("run", "thrower.py", cwd=tmp_path) as thrower:
+        thrower.says("No session is running here")
+        with Process("run", "catcher.py", cwd=tmp_path) as catcher:
+            catcher.says(
+                "caught toys.msg.Ball(color='red', bounces=array('f', [0.5, 0.25]), "
+                "place=geometry_msgs.msg.Point(x=1.0, y=0.0, z=0.0))"
+            )

@@ -42,6 +42,7 @@ std_msgs/msg/UInt16MultiArray = MultiArrayLayout layout; uint16[] data
 std_msgs/msg/UInt32MultiArray = MultiArrayLayout layout; uint32[] data
 std_msgs/msg/UInt64MultiArray = MultiArrayLayout layout; uint64[] data
 std_msgs/msg/UInt8MultiArray = MultiArrayLayout layout; uint8[] data
+std_msgs/msg/ByteMultiArray = MultiArrayLayout layout; byte[] data
 
 geometry_msgs/msg/Vector3 = float64 x; float64 y; float64 z
 geometry_msgs/msg/Point = float64 x; float64 y; float64 z
@@ -73,6 +74,8 @@ geometry_msgs/msg/TwistWithCovarianceStamped = std_msgs/Header header; TwistWith
 geometry_msgs/msg/AccelWithCovarianceStamped = std_msgs/Header header; AccelWithCovariance accel
 geometry_msgs/msg/TransformStamped = std_msgs/Header header; string child_frame_id; Transform transform
 geometry_msgs/msg/VelocityStamped = std_msgs/Header header; string body_frame_id; string reference_frame_id; Twist velocity
+geometry_msgs/msg/PolygonInstance = Polygon polygon; int64 id
+geometry_msgs/msg/PolygonInstanceStamped = std_msgs/Header header; PolygonInstance polygon
 
 sensor_msgs/msg/PointField = uint8 INT8=1; uint8 UINT8=2; uint8 INT16=3; uint8 UINT16=4; uint8 INT32=5; uint8 UINT32=6; uint8 FLOAT32=7; uint8 FLOAT64=8; string name; uint32 offset; uint8 datatype; uint32 count
 sensor_msgs/msg/PointCloud2 = std_msgs/Header header; uint32 height; uint32 width; PointField[] fields; bool is_bigendian; uint32 point_step; uint32 row_step; uint8[] data; bool is_dense
@@ -87,16 +90,60 @@ sensor_msgs/msg/CameraInfo = std_msgs/Header header; uint32 height; uint32 width
 sensor_msgs/msg/Temperature = std_msgs/Header header; float64 temperature; float64 variance
 sensor_msgs/msg/MagneticField = std_msgs/Header header; geometry_msgs/Vector3 magnetic_field; float64[9] magnetic_field_covariance
 sensor_msgs/msg/Joy = std_msgs/Header header; float32[] axes; int32[] buttons
+sensor_msgs/msg/BatteryState = uint8 POWER_SUPPLY_STATUS_UNKNOWN=0; uint8 POWER_SUPPLY_STATUS_CHARGING=1; uint8 POWER_SUPPLY_STATUS_DISCHARGING=2; uint8 POWER_SUPPLY_STATUS_NOT_CHARGING=3; uint8 POWER_SUPPLY_STATUS_FULL=4; uint8 POWER_SUPPLY_HEALTH_UNKNOWN=0; uint8 POWER_SUPPLY_HEALTH_GOOD=1; uint8 POWER_SUPPLY_HEALTH_OVERHEAT=2; uint8 POWER_SUPPLY_HEALTH_DEAD=3; uint8 POWER_SUPPLY_HEALTH_OVERVOLTAGE=4; uint8 POWER_SUPPLY_HEALTH_UNSPEC_FAILURE=5; uint8 POWER_SUPPLY_HEALTH_COLD=6; uint8 POWER_SUPPLY_HEALTH_WATCHDOG_TIMER_EXPIRE=7; uint8 POWER_SUPPLY_HEALTH_SAFETY_TIMER_EXPIRE=8; uint8 POWER_SUPPLY_TECHNOLOGY_UNKNOWN=0; uint8 POWER_SUPPLY_TECHNOLOGY_NIMH=1; uint8 POWER_SUPPLY_TECHNOLOGY_LION=2; uint8 POWER_SUPPLY_TECHNOLOGY_LIPO=3; uint8 POWER_SUPPLY_TECHNOLOGY_LIFE=4; uint8 POWER_SUPPLY_TECHNOLOGY_NICD=5; uint8 POWER_SUPPLY_TECHNOLOGY_LIMN=6; uint8 POWER_SUPPLY_TECHNOLOGY_TERNARY=7; uint8 POWER_SUPPLY_TECHNOLOGY_VRLA=8; std_msgs/Header header; float32 voltage; float32 temperature; float32 current; float32 charge; float32 capacity; float32 design_capacity; float32 percentage; uint8 power_supply_status; uint8 power_supply_health; uint8 power_supply_technology; bool present; float32[] cell_voltage; float32[] cell_temperature; string location; string serial_number
+sensor_msgs/msg/ChannelFloat32 = string name; float32[] values
+sensor_msgs/msg/FluidPressure = std_msgs/Header header; float64 fluid_pressure; float64 variance
+sensor_msgs/msg/Illuminance = std_msgs/Header header; float64 illuminance; float64 variance
+sensor_msgs/msg/JoyFeedback = uint8 TYPE_LED=0; uint8 TYPE_RUMBLE=1; uint8 TYPE_BUZZER=2; uint8 type; uint8 id; float32 intensity
+sensor_msgs/msg/JoyFeedbackArray = JoyFeedback[] array
+sensor_msgs/msg/LaserEcho = float32[] echoes
+sensor_msgs/msg/MultiDOFJointState = std_msgs/Header header; string[] joint_names; geometry_msgs/Transform[] transforms; geometry_msgs/Twist[] twist; geometry_msgs/Wrench[] wrench
+sensor_msgs/msg/MultiEchoLaserScan = std_msgs/Header header; float32 angle_min; float32 angle_max; float32 angle_increment; float32 time_increment; float32 scan_time; float32 range_min; float32 range_max; LaserEcho[] ranges; LaserEcho[] intensities
+sensor_msgs/msg/NavSatFix = uint8 COVARIANCE_TYPE_UNKNOWN=0; uint8 COVARIANCE_TYPE_APPROXIMATED=1; uint8 COVARIANCE_TYPE_DIAGONAL_KNOWN=2; uint8 COVARIANCE_TYPE_KNOWN=3; std_msgs/Header header; NavSatStatus status; float64 latitude; float64 longitude; float64 altitude; float64[9] position_covariance; uint8 position_covariance_type
+sensor_msgs/msg/PointCloud = std_msgs/Header header; geometry_msgs/Point32[] points; ChannelFloat32[] channels
+sensor_msgs/msg/RelativeHumidity = std_msgs/Header header; float64 relative_humidity; float64 variance
+sensor_msgs/srv/SetCameraInfo = CameraInfo camera_info; ---; bool success; string status_message
+sensor_msgs/msg/TimeReference = std_msgs/Header header; builtin_interfaces/Time time_ref; string source
+sensor_msgs/msg/NavSatStatus = int8 STATUS_UNKNOWN=-2; int8 STATUS_NO_FIX=-1; int8 STATUS_FIX=0; int8 STATUS_SBAS_FIX=1; int8 STATUS_GBAS_FIX=2; uint16 SERVICE_UNKNOWN=0; uint16 SERVICE_GPS=1; uint16 SERVICE_GLONASS=2; uint16 SERVICE_COMPASS=4; uint16 SERVICE_GALILEO=8; int8 status -2; uint16 service
 
 nav_msgs/msg/Odometry = std_msgs/Header header; string child_frame_id; geometry_msgs/PoseWithCovariance pose; geometry_msgs/TwistWithCovariance twist
 nav_msgs/msg/Path = std_msgs/Header header; geometry_msgs/PoseStamped[] poses
 nav_msgs/msg/MapMetaData = builtin_interfaces/Time map_load_time; float32 resolution; uint32 width; uint32 height; geometry_msgs/Pose origin
 nav_msgs/msg/OccupancyGrid = std_msgs/Header header; MapMetaData info; int8[] data
+nav_msgs/srv/GetMap = ---; OccupancyGrid map
+nav_msgs/srv/GetPlan = geometry_msgs/PoseStamped start; geometry_msgs/PoseStamped goal; float32 tolerance; ---; Path plan
+nav_msgs/srv/SetMap = OccupancyGrid map; geometry_msgs/PoseWithCovarianceStamped initial_pose; ---; bool success
+nav_msgs/srv/LoadMap = string map_url; ---; uint8 RESULT_SUCCESS=0; uint8 RESULT_MAP_DOES_NOT_EXIST=1; uint8 RESULT_INVALID_MAP_DATA=2; uint8 RESULT_INVALID_MAP_METADATA=3; uint8 RESULT_UNDEFINED_FAILURE=255; OccupancyGrid map; uint8 result
+nav_msgs/msg/GridCells = std_msgs/Header header; float32 cell_width; float32 cell_height; geometry_msgs/Point[] cells
 
 visualization_msgs/msg/Marker = int32 ARROW=0; int32 CUBE=1; int32 SPHERE=2; int32 CYLINDER=3; int32 LINE_STRIP=4; int32 LINE_LIST=5; int32 CUBE_LIST=6; int32 SPHERE_LIST=7; int32 POINTS=8; int32 TEXT_VIEW_FACING=9; int32 MESH_RESOURCE=10; int32 TRIANGLE_LIST=11; int32 ARROW_STRIP=12; int32 ADD=0; int32 MODIFY=0; int32 DELETE=2; int32 DELETEALL=3; std_msgs/Header header; string ns; int32 id; int32 type; int32 action; geometry_msgs/Pose pose; geometry_msgs/Vector3 scale; std_msgs/ColorRGBA color; builtin_interfaces/Duration lifetime; bool frame_locked; geometry_msgs/Point[] points; std_msgs/ColorRGBA[] colors; string texture_resource; sensor_msgs/CompressedImage texture; UVCoordinate[] uv_coordinates; string text; string mesh_resource; MeshFile mesh_file; bool mesh_use_embedded_materials
 visualization_msgs/msg/UVCoordinate = float32 u; float32 v
 visualization_msgs/msg/MeshFile = string filename; uint8[] data
 visualization_msgs/msg/MarkerArray = Marker[] markers
+visualization_msgs/msg/ImageMarker = int32 CIRCLE=0; int32 LINE_STRIP=1; int32 LINE_LIST=2; int32 POLYGON=3; int32 POINTS=4; int32 ADD=0; int32 REMOVE=1; std_msgs/Header header; string ns; int32 id; int32 type; int32 action; geometry_msgs/Point position; float32 scale; std_msgs/ColorRGBA outline_color; uint8 filled; std_msgs/ColorRGBA fill_color; builtin_interfaces/Duration lifetime; geometry_msgs/Point[] points; std_msgs/ColorRGBA[] outline_colors
+visualization_msgs/msg/InteractiveMarker = std_msgs/Header header; geometry_msgs/Pose pose; string name; string description; float32 scale; MenuEntry[] menu_entries; InteractiveMarkerControl[] controls
+visualization_msgs/msg/InteractiveMarkerControl = uint8 INHERIT=0; uint8 FIXED=1; uint8 VIEW_FACING=2; uint8 NONE=0; uint8 MENU=1; uint8 BUTTON=2; uint8 MOVE_AXIS=3; uint8 MOVE_PLANE=4; uint8 ROTATE_AXIS=5; uint8 MOVE_ROTATE=6; uint8 MOVE_3D=7; uint8 ROTATE_3D=8; uint8 MOVE_ROTATE_3D=9; string name; geometry_msgs/Quaternion orientation; uint8 orientation_mode; uint8 interaction_mode; bool always_visible; Marker[] markers; bool independent_marker_orientation; string description
+visualization_msgs/msg/InteractiveMarkerFeedback = uint8 KEEP_ALIVE=0; uint8 POSE_UPDATE=1; uint8 MENU_SELECT=2; uint8 BUTTON_CLICK=3; uint8 MOUSE_DOWN=4; uint8 MOUSE_UP=5; std_msgs/Header header; string client_id; string marker_name; string control_name; uint8 event_type; geometry_msgs/Pose pose; uint32 menu_entry_id; geometry_msgs/Point mouse_point; bool mouse_point_valid
+visualization_msgs/msg/InteractiveMarkerInit = string server_id; uint64 seq_num; InteractiveMarker[] markers
+visualization_msgs/msg/InteractiveMarkerPose = std_msgs/Header header; geometry_msgs/Pose pose; string name
+visualization_msgs/msg/InteractiveMarkerUpdate = uint8 KEEP_ALIVE=0; uint8 UPDATE=1; string server_id; uint64 seq_num; uint8 type; InteractiveMarker[] markers; InteractiveMarkerPose[] poses; string[] erases
+visualization_msgs/msg/MenuEntry = uint8 FEEDBACK=0; uint8 ROSRUN=1; uint8 ROSLAUNCH=2; uint32 id; uint32 parent_id; string title; string command; uint8 command_type
+
+shape_msgs/msg/Mesh = MeshTriangle[] triangles; geometry_msgs/Point[] vertices
+shape_msgs/msg/MeshTriangle = uint32[3] vertex_indices
+shape_msgs/msg/Plane = float64[4] coef
+shape_msgs/msg/SolidPrimitive = uint8 BOX=1; uint8 SPHERE=2; uint8 CYLINDER=3; uint8 CONE=4; uint8 PRISM=5; uint8 BOX_X=0; uint8 BOX_Y=1; uint8 BOX_Z=2; uint8 SPHERE_RADIUS=0; uint8 CYLINDER_HEIGHT=0; uint8 CYLINDER_RADIUS=1; uint8 CONE_HEIGHT=0; uint8 CONE_RADIUS=1; uint8 PRISM_HEIGHT=0; uint8 type; float64[<=3] dimensions; geometry_msgs/Polygon polygon
+
+trajectory_msgs/msg/JointTrajectory = std_msgs/Header header; string[] joint_names; JointTrajectoryPoint[] points
+trajectory_msgs/msg/JointTrajectoryPoint = float64[] positions; float64[] velocities; float64[] accelerations; float64[] effort; builtin_interfaces/Duration time_from_start
+trajectory_msgs/msg/MultiDOFJointTrajectory = std_msgs/Header header; string[] joint_names; MultiDOFJointTrajectoryPoint[] points
+trajectory_msgs/msg/MultiDOFJointTrajectoryPoint = geometry_msgs/Transform[] transforms; geometry_msgs/Twist[] velocities; geometry_msgs/Twist[] accelerations; builtin_interfaces/Duration time_from_start
+
+diagnostic_msgs/msg/DiagnosticArray = std_msgs/Header header; DiagnosticStatus[] status
+diagnostic_msgs/msg/DiagnosticStatus = byte OK=0; byte WARN=1; byte ERROR=2; byte STALE=3; byte level; string name; string message; string hardware_id; KeyValue[] values
+diagnostic_msgs/msg/KeyValue = string key; string value
+
+stereo_msgs/msg/DisparityImage = std_msgs/Header header; sensor_msgs/Image image; float32 f; float32 t; sensor_msgs/RegionOfInterest valid_window; float32 min_disparity; float32 max_disparity; float32 delta_d
 
 rosgraph_msgs/msg/Clock = builtin_interfaces/Time clock
 
