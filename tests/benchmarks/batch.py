@@ -6,6 +6,7 @@ counts for nobody. Answers are compared before anything is timed.
 
 import statistics
 import time
+import tracemalloc
 from collections.abc import Callable
 from dataclasses import dataclass
 from functools import partial
@@ -17,6 +18,8 @@ from tests.benchmarks import noetic
 from tests.benchmarks.batch_peers import PEERS
 from tftool.frames.arrays import TransformArray
 from tftool.frames.buffer import Buffer
+from tftool.frames.sample import TransformStamped
+from tftool.geometry.rigid import Transform
 from tftool.stamps import seconds
 
 ROUNDS = 5
@@ -67,18 +70,22 @@ def chain(depth: int, samples: int = 1000) -> Chain:
 
 
 def interleaved(
-    works: dict[str, Callable[[], object]], clock: Callable[[], float] = time.process_time
+    works: dict[str, Callable[[], object]],
+    clock: Callable[[], float] = time.process_time,
+    *,
+    rounds: int = ROUNDS,
+    of: Callable[[list[float]], float] = statistics.median,
 ) -> dict[str, float]:
     """Seconds each takes, the median of rounds in which they take turns."""
     for work in works.values():
         work()
     taken: dict[str, list[float]] = {name: [] for name in works}
-    for _ in range(ROUNDS):
+    for _ in range(rounds):
         for name, work in works.items():
             began = clock()
             work()
             taken[name].append(clock() - began)
-    return {name: statistics.median(each) for name, each in taken.items()}
+    return {name: of(each) for name, each in taken.items()}
 
 
 def against_noetic() -> list[str]:
@@ -140,7 +147,11 @@ def against_peers() -> list[str]:
 
 
 def threads() -> list[str]:
-    """Two threads against one, by the clock on the wall: needs two idle cores."""
+    """Two threads against one, by the clock on the wall, the best round of each.
+
+    What else runs on the two cores only ever takes time away, from two threads more than
+    from one.
+    """
     world = chain(5)
     lines = []
     for order in ("sorted", "random"):
@@ -148,6 +159,8 @@ def threads() -> list[str]:
         taken = interleaved(
             {"one": partial(world.ask, times), "two": partial(world.ask, times, 2)},
             time.perf_counter,
+            rounds=15,
+            of=min,
         )
         one, two = taken["one"] / MANY * 1e9, taken["two"] / MANY * 1e9
         lines.append(row(f"  one thread of ours against two, depth 5, {order}", two, one, 1.5))
@@ -161,6 +174,7 @@ def growth() -> list[str]:
         (2, 1000, FEW),
         (5, 1000, 1000),
         (5, 1000, FEW),
+        (5, 1000, MANY),
         (20, 1000, FEW),
         (5, 100_000, FEW),
         (5, 100_000, MANY),
@@ -177,7 +191,7 @@ def growth() -> list[str]:
 
 
 def insertion() -> list[str]:
-    """A hundred thousand samples set together."""
+    """A hundred thousand samples set together, and one by one."""
     world = chain(1, FEW)
     stamps, places, turns = world.stamps[0], world.samples[0, :, :3], world.samples[0, :, 3:]
     order = np.random.default_rng(3).permutation(FEW)
@@ -186,12 +200,48 @@ def insertion() -> list[str]:
         fresh = Buffer(seconds(1e6))
         fresh.set_transforms("f0", "f1", stamps[rows], places[rows], turns[rows])
 
-    works = {"in order": partial(together, np.arange(FEW)), "shuffled": partial(together, order)}
-    taken = interleaved(works)
-    return [
-        f"  {FEW:,} samples set together, {what}: {taken[what] / FEW * 1e9:.0f} ns each"
-        for what in works
+    poses = [
+        TransformStamped(stamp, "f0", "f1", Transform(place, turn))
+        for stamp, place, turn in zip(stamps.tolist(), places.tolist(), turns.tolist(), strict=True)
     ]
+
+    def one_by_one() -> None:
+        fresh = Buffer(seconds(1e6))
+        for pose in poses:
+            fresh.set_transform(pose)
+
+    works = {
+        "set together, in order": partial(together, np.arange(FEW)),
+        "set together, shuffled": partial(together, order),
+        "set one by one, in order": one_by_one,
+    }
+    taken = interleaved(works)
+    return [f"  {FEW:,} samples {what}: {taken[what] / FEW * 1e9:.0f} ns each" for what in works]
+
+
+def memory() -> list[str]:
+    """What a batch needs at its worst moment, as numpy tells it, beyond what it must hold.
+
+    That is its answers and a copy of the samples, which may change while it runs.
+    """
+    lines = []
+    for samples in (1000, FEW):
+        world = chain(5, samples)
+        times = world.times(3 * MANY, in_order=False)
+        world.ask(times[:10])
+        tracemalloc.start()
+        found = world.ask(times, 2)
+        _, most = tracemalloc.get_traced_memory()
+        tracemalloc.stop()
+        answers = sum(
+            part.nbytes for part in (found.stamps, found.translations, found.rotations, found.valid)
+        )
+        more = (most - answers - world.stamps.nbytes - world.samples.nbytes) / 2**20
+        lines.append(
+            f"  {len(times):,} times at random in {samples:,} samples a link, two threads: "
+            f"{more:.0f} MiB beyond samples and answers (wanted: 64 at most)"
+        )
+    return lines
 
 
 def snapshot() -> list[str]:
@@ -241,7 +291,7 @@ def row(what: str, ours: float, theirs: float, wanted: float) -> str:
 
 def report() -> str:
     """Measure, and say it as a table."""
-    parts = (against_noetic, against_peers, threads, growth, insertion, snapshot)
+    parts = (against_noetic, against_peers, threads, growth, insertion, memory, snapshot)
     head = f"batch, nanoseconds a time (median of {ROUNDS} interleaved rounds): theirs → ours"
     return "\n".join([head, *(line for part in parts for line in part())])
 

@@ -1,13 +1,15 @@
 """Batches where something is unusual: sizes, spacing, infinity, other threads."""
 
+import os
 import threading
 import tracemalloc
+from concurrent.futures import ThreadPoolExecutor
 
 import numpy as np
 import pytest
 
 from tests.frames.test_bulk import assert_same, one_by_one
-from tftool.frames import kernel
+from tftool.frames import bulk, kernel
 from tftool.frames.buffer import Buffer
 from tftool.frames.sample import TransformStamped
 from tftool.geometry.rigid import Transform
@@ -73,14 +75,23 @@ def test_a_sample_at_infinity_is_met_but_not_on_the_way():
     assert not np.isfinite([x[1], x[3]]).any()
 
 
-def test_more_moments_take_no_more_memory_than_their_answers():
-    buffer = turning(Buffer(seconds(1000)), np.arange(1, 2000) * 10_000_000)
-    times = np.random.default_rng(9).integers(seconds(1), seconds(15), 3_000_000)
-    buffer.lookup_transforms("world", "turtle1", times[:10])
+@pytest.mark.parametrize(
+    ("samples", "missing", "threads"),
+    [(2000, "raise", 2), (2000, "nan", 6), (70_000, "nan", 2)],
+)
+def test_more_moments_take_no_more_memory_than_their_answers(samples, missing, threads):
+    step = 10_000_000
+    buffer = turning(Buffer(seconds(1000)), np.arange(1, samples + 1) * step)
+    times = np.random.default_rng(9).integers(step, samples * step, 3_000_000)
+    if missing == "nan":
+        times[::1000] = (samples + 1) * step
+    buffer.lookup_transforms("world", "turtle1", times[1:10])
 
     tracemalloc.start()
     try:
-        found = buffer.lookup_transforms("world", "turtle1", times, threads=2)
+        found = buffer.lookup_transforms(
+            "world", "turtle1", times, missing=missing, threads=threads
+        )
         _, most = tracemalloc.get_traced_memory()
     finally:
         tracemalloc.stop()
@@ -89,6 +100,50 @@ def test_more_moments_take_no_more_memory_than_their_answers():
         part.nbytes for part in (found.translations, found.rotations, found.stamps, found.valid)
     )
     assert most < answers + 64 * 2**20
+    assert np.count_nonzero(~found.valid) == (3000 if missing == "nan" else 0)
+
+
+def test_links_that_turn_little_and_much_and_not_at_all_are_chained_together():
+    # More than are worked on at a time, with constants at the ends of such a group.
+    buffer = Buffer(seconds(1000))
+    turns = (0.0, 1e-12, 1e-3, 0.4, 3.0, 1.2, None, None, 0.3, 2.9, 0.0, None, 0.02, 0.7)
+    for number, turn in enumerate(turns):
+        link = f"f{number}", f"f{number + 1}"
+        places = np.random.default_rng(number).normal(size=(20, 3))
+        half = np.arange(20) * (turn or 0.0) / 2 + number
+        rotations = np.stack((0 * half, 0.6 * np.sin(half), 0.8 * np.sin(half), np.cos(half)), 1)
+        if turn is None:
+            pose = Transform(places[0], rotations[0])
+            buffer.set_transform_static(TransformStamped(0, *link, pose))
+        else:
+            assert buffer.set_transforms(*link, np.arange(1, 21) * 1000, places, rotations)
+    times = np.random.default_rng(3).integers(1000, 20_000, 300, endpoint=True)
+
+    for target, source in (("f0", "f14"), ("f14", "f0"), ("f6", "f12"), ("f4", "f1")):
+        for asked in (times, np.sort(times)):
+            rows = one_by_one(
+                lambda time, pair=(target, source): buffer.lookup_transform(*pair, time),
+                asked.tolist(),
+            )
+            assert_same(buffer.lookup_transforms(target, source, asked), rows)
+
+
+@pytest.mark.parametrize(("allowed", "threads"), [({3}, []), ({0, 1, 5}, [3])])
+def test_as_many_threads_run_as_there_are_cores_we_may_use(monkeypatch, allowed, threads):
+    buffer = turning(Buffer(seconds(1000)), np.array([1, 1000]))
+    pools = []
+
+    class Pool(ThreadPoolExecutor):
+        def __init__(self, workers):
+            pools.append(workers)
+            super().__init__(workers)
+
+    monkeypatch.setattr(os, "sched_getaffinity", lambda _: allowed, raising=False)
+    monkeypatch.setattr(bulk, "ThreadPoolExecutor", Pool)
+    found = buffer.lookup_transforms("world", "turtle1", np.arange(200_000) % 1000 + 1)
+
+    assert found.valid.all()
+    assert pools == threads
 
 
 def test_a_history_may_grow_and_forget_while_a_batch_runs():
