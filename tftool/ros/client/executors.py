@@ -136,7 +136,9 @@ class Executor:
         while not (future.done() or future.cancelled()):
             if not self._context.ok() or self._over:
                 return
-            if not self._step(deadline, future) and self._late(deadline):
+            did_something = self._step(deadline, future)
+            # What is due at the deadline itself is still done, however much it is.
+            if self._late(deadline) and (not did_something or self._late(deadline, by=1)):
                 return
 
     def spin_once_until_future_complete(
@@ -152,8 +154,8 @@ class Executor:
             return None
         return self._program.clock.now() + seconds(timeout_sec)
 
-    def _late(self, deadline: Stamp | None) -> bool:
-        return deadline is not None and deadline <= self._program.clock.now()
+    def _late(self, deadline: Stamp | None, by: int = 0) -> bool:
+        return deadline is not None and deadline + by <= self._program.clock.now()
 
     def _step(self, deadline: Stamp | None, future: Future | None = None) -> bool:
         """Do one thing; False when the time was up or there was another reason to look up."""
