@@ -3,10 +3,13 @@ import io
 import itertools
 import re
 import shlex
+import subprocess
+import sys
 from pathlib import Path
 
 import pytest
 
+import tftool
 from tftool.cli import app
 from tftool.cli.app import main
 
@@ -49,6 +52,24 @@ def test_every_line_works(line, capsys):
 
 def test_there_are_five_lines():
     assert len(LINES) == 5
+
+
+def test_the_nodes_pass_their_own_test(tmp_path, monkeypatch):
+    files = {code.split()[1]: code for kind, code in BLOCKS if kind == "py"}
+    for name, code in files.items():
+        (tmp_path / name).write_text(code, encoding="utf-8")
+    monkeypatch.setenv("PYTHONPATH", str(Path(tftool.__file__).parents[1]))
+
+    told = subprocess.run(
+        [sys.executable, "-m", "pytest", "-p", "tftool.ros.pytest_plugin", "test_carrot.py"],
+        cwd=tmp_path,
+        capture_output=True,
+        text=True,
+        check=False,
+    )
+
+    assert list(files) == ["carrot.py", "where.py", "test_carrot.py"]
+    assert "1 passed" in told.stdout
 
 
 def test_every_command_has_its_row():
