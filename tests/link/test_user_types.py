@@ -8,8 +8,10 @@ from tests.link.conftest import until
 from tests.link.test_session import Two, play, texts
 from tftool.errors import LinkError
 from tftool.interfaces.classes import INTERFACES
+from tftool.link import services
 from tftool.messages import Clear, Twist2D
 from tftool.runtime.endpoints import PUBLISHER, SUBSCRIPTION, Endpoint, Quality
+from tftool.runtime.node import Node
 from tftool.runtime.topics import GoalResult
 
 STRING = INTERFACES.message("std_msgs/String")
@@ -90,6 +92,22 @@ def test_every_publisher_and_subscription_is_shown_under_its_node_and_goes_with_
             await until(lambda: not two.guest.graph.entities("MS", name="chatter"))
 
     play(send())
+
+
+def test_the_world_knows_the_nodes_of_others_while_they_are_there():
+    async def look():
+        async with Two() as two:
+            world = two.here
+            node = Node(world, "robot1/talker")
+            changes = []
+            two.there.watch(lambda: changes.append(two.there.far_nodes))
+            await until(lambda: two.there.far_nodes == ("robot1/talker",))
+            assert ("robot1/talker",) in changes
+
+            world.remove(node)
+            await until(lambda: two.there.far_nodes == ("tftool_demo",))
+
+    play(look())
 
 
 def test_nothing_is_turned_into_bytes_while_nobody_else_listens(monkeypatch):
@@ -209,6 +227,31 @@ def test_a_question_of_another_type_is_not_sent():
             for request in (TRIGGER.Request(), Clear()):
                 with pytest.raises(LinkError, match="'enable' is of type std_srvs/srv/SetBool"):
                     await two.there.call("enable", request)
+
+    play(ask())
+
+
+def test_a_users_node_waits_for_an_answer_longer_than_nodes_of_ours(monkeypatch):
+    monkeypatch.setattr(services, "PATIENCE", 0.1)
+
+    async def ask():
+        async with Two() as two:
+            ready = asyncio.Event()
+
+            async def slow(request):
+                await ready.wait()
+                return TRIGGER.Response(message="done")
+
+            two.here.serve("work", slow, TRIGGER)
+            two.here.serve("clear", slow, Clear)
+            await until(lambda: two.there.has_service("work") and two.there.has_service("clear"))
+            working = asyncio.ensure_future(two.there.call("work", TRIGGER.Request()))
+
+            with pytest.raises(LinkError, match=r"'clear': nobody answered within 0\.1 s"):
+                await two.there.call("clear", Clear())
+            ready.set()
+
+            assert (await working).message == "done"
 
     play(ask())
 

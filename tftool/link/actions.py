@@ -10,7 +10,7 @@ from tftool.link import keys, types
 from tftool.link.codec import codec
 from tftool.link.keys import Entity
 from tftool.link.membership import Membership
-from tftool.link.services import Asking, Endpoint, Tasks
+from tftool.link.services import LONGEST, PATIENCE, Asking, Endpoint, Tasks, patience_for
 from tftool.link.topics import Sender
 from tftool.link.transport import Arrived
 from tftool.link.types import ActionType
@@ -20,9 +20,6 @@ from tftool.stamps import NANOSECONDS, Stamp
 
 KEPT: Final = 100
 """Goals whose ends are remembered, for who asks late."""
-
-LONGEST: Final = 3600.0
-"""Seconds a client waits for a goal's end."""
 
 CANCEL_GOAL: Final = "action_msgs/srv/CancelGoal"
 STATUS: Final = "action_msgs/msg/GoalStatusArray"
@@ -231,7 +228,7 @@ class ActionClient:
                 goal_id=_id(goal_id),
                 goal=kind.goal.sent(goal.request),
             )
-            answer = await self._send.ask(_bytes(asked))
+            answer = await self._send.ask(_bytes(asked), patience_for(goal.request))
             accepted = _read(f"{self._type}_SendGoal_Response", answer).accepted
             decided.set_result(accepted)
             if accepted:
@@ -257,7 +254,8 @@ class ActionClient:
     async def _call_off(self, goal_id: bytes) -> None:
         info = _info(goal_id, 0)
         try:
-            await self._cancel.ask(_bytes(_message(f"{CANCEL_GOAL}_Request", goal_info=info)))
+            asked = _message(f"{CANCEL_GOAL}_Request", goal_info=info)
+            await self._cancel.ask(_bytes(asked), PATIENCE)
         except LinkError as error:
             self._link.world.log.warn("link", f"{self._name}: {error}")
 

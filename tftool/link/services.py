@@ -17,7 +17,10 @@ QUALITY: Final = Quality(depth=10)
 """ROS 2's quality of services."""
 
 PATIENCE: Final = 5.0
-"""Seconds to wait for an answer."""
+"""Seconds that nodes of ours wait for an answer."""
+
+LONGEST: Final = 3600.0
+"""Seconds that users' nodes wait, which may have work for hours done by a service."""
 
 
 class Tasks:
@@ -99,7 +102,7 @@ class Asking:
         self._hide: Callable[[], None] | None = None
         self._sequence = 0
 
-    async def ask(self, payload: bytes, timeout: float = PATIENCE) -> bytes:
+    async def ask(self, payload: bytes, timeout: float) -> bytes:
         """Send a request and wait for the answer.
 
         Raises:
@@ -166,5 +169,11 @@ class ServiceClient:
                 f"service '{self._name}' is of type {self._type}, which takes no "
                 f"{type(request).__name__}"
             )
-        answer = kind.response.decode(await self._asking.ask(kind.request.encode(request)))
+        payload = kind.request.encode(request)
+        answer = kind.response.decode(await self._asking.ask(payload, patience_for(request)))
         return answer if isinstance(request, Message) else types.answer_to(request, answer)
+
+
+def patience_for(request: Any) -> float:
+    """Seconds to wait for the answer to a request or a goal: messages are users' nodes'."""
+    return LONGEST if isinstance(request, Message) else PATIENCE

@@ -166,7 +166,8 @@ class Link(Membership):
             self._nodes[name] = number, self.wire.token(entity.token())
 
     def _match_endpoints(self) -> None:
-        """Enter in the world who else publishes and subscribes."""
+        """Enter in the world who else is there, publishes and subscribes."""
+        self.world.know_far_nodes(one.node for one in self.graph.entities(keys.NODE))
         there = set(self.graph.entities(keys.PUBLISHER, keys.SUBSCRIBER))
         for entity in self._endpoints.keys() - there:
             self._endpoints.pop(entity)[1]()

@@ -229,6 +229,7 @@ class Wire:
             LinkError: If nobody answers, or the answer is a refusal.
         """
         answer: asyncio.Future[bytes] = asyncio.get_running_loop().create_future()
+        silent = f"nobody answered within {timeout:g} s, or who did has left"
 
         def settle(outcome: bytes | str) -> None:
             if answer.done():
@@ -243,10 +244,12 @@ class Wire:
                 self._inbox.put(settle, reply.ok.payload.to_bytes())
             elif reply.err is not None:
                 reason = reply.err.payload.to_bytes()[:500].decode(errors="replace")
-                self._inbox.put(settle, f"it was refused: {reason}")
+                # So zenoh itself says that the time is over.
+                silence = reason == "Timeout"
+                self._inbox.put(settle, silent if silence else f"it was refused: {reason}")
 
         def over() -> None:
-            self._inbox.put(settle, f"nobody answered within {timeout:g} s, or who did has left")
+            self._inbox.put(settle, silent)
 
         zenoh = self._zenoh
         self._session.get(

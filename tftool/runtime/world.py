@@ -38,6 +38,7 @@ class World:
         log: What the nodes said.
         nodes: Those who joined, in order.
         endpoints: Who publishes and subscribes what, of those who say.
+        far_nodes: Names of the nodes of other processes, in alphabetical order.
     """
 
     def __init__(
@@ -57,6 +58,7 @@ class World:
         self._actions: dict[str, Offer[Acceptor]] = {}
         self._statics: dict[str, dict[str, TransformStamped]] = {}
         self._far_statics: dict[str, TransformStamped] = {}
+        self.far_nodes: tuple[str, ...] = ()
         self._supervisor: Supervision | None = None
         self._watchers: tuple[Callable[[], object], ...] = ()
         self.endpoints = Endpoints(self._changed, self.log.warn)
@@ -325,6 +327,13 @@ class World:
             self._changed()
         if self._supervisor is not None:
             self._supervisor.end(node)
+
+    def know_far_nodes(self, names: Iterable[str]) -> None:
+        """Note which nodes live in other processes."""
+        found = tuple(sorted(set(names)))
+        if found != self.far_nodes:
+            self.far_nodes = found
+            self._changed()
 
     def node(self, name: str) -> Resident:
         """The node of that name.

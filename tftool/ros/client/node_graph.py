@@ -51,7 +51,8 @@ class NodeGraph:
         return [(*one, "/") for one in self.get_node_names_and_namespaces()]
 
     def __nodes(self) -> list[str]:
-        return [one.name for one in self._tftool.world.nodes if one.is_shown]
+        world = self._tftool.world
+        return [*(one.name for one in world.nodes if one.is_shown), *world.far_nodes]
 
     # Topics
 
