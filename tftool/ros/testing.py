@@ -70,12 +70,19 @@ class RosRuntime:
         """Seconds since the start."""
         return (self.clock.now() - self.clock.epoch) / 1e9
 
-    def start(self, what: "Path | str | Callable[[], object]", *argv: str) -> Program:
+    def start(
+        self,
+        what: "Path | str | Callable[[], object]",
+        *argv: str,
+        on_exit: Callable[[Program], object] | None = None,
+    ) -> Program:
         """Start a node's file, or a function such as a module's `main`, as a program of its own.
 
         Args:
             what: The file, or the function.
             argv: What follows the file's name on the command line, `--ros-args` and all.
+            on_exit: Called once it has ended, however it did; without it, a program that fails
+                ends the world and fails the test.
 
         Raises:
             InputError: If the file cannot be read or is no Python.
@@ -98,6 +105,7 @@ class RosRuntime:
                 users.whole(body),
                 argv=[str(what) if isinstance(what, str | Path) else name, *argv],
                 options=options,
+                on_exit=on_exit,
             )
         )
 
