@@ -26,6 +26,7 @@ MODULES = (
     "tftool/frames/history.py",
     "tftool/frames/links.py",
     "tftool/frames/plans.py",
+    "tftool/frames/window.py",
     "tftool/geometry/quaternions.py",
 )
 

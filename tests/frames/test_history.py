@@ -148,6 +148,18 @@ def test_every_sample_of_a_long_history_is_found(jitter):
         assert history.at(middle)[0] == pytest.approx(n + share)
 
 
+def test_a_rate_that_falls_misleads_no_search():
+    history = History(10**9)
+    for stamp in range(1, 101):
+        history.insert(stamp, 0, poses(stamp))
+    assert history.at(50) == poses(50)
+    for stamp in range(1000, 11_000, 1000):
+        history.insert(stamp, 0, poses(stamp))
+
+    assert history.at(5500)[0] == pytest.approx(5500.0)
+    assert history.at(60) == poses(60)
+
+
 def test_stamps_with_gaps_of_every_size_are_found():
     history = History(10**18)
     stamps = [2**n for n in range(58)]
