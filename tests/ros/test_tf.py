@@ -415,3 +415,48 @@ def test_matrices_compose_and_come_apart(ros_runtime):
     assert tft.quaternion_matrix((0, 0, 0, 0)) == pytest.approx(tft.identity_matrix())
     with pytest.raises(NotImplementedError):
         tft.compose_matrix(scale=(1, 1, 1))
+
+
+def test_the_core_answers_at_once_or_refuses(node):
+    import tf2_py
+    from rclpy.duration import Duration
+    from rclpy.time import Time
+    from tf2_ros import TransformException
+
+    core = tf2_py.BufferCore(Duration(seconds=30.0))
+    stamp = Time(seconds=5)
+    core.set_transform(transform("map", "robot", stamp, (1.0, 2.0, 0.0)), "me")
+
+    found = core.lookup_transform_core("map", source_frame="robot", time=Time())
+    assert found.transform.translation.y == 2.0
+    assert core.can_transform_core("map", "robot", stamp) == (1, "")
+    whether, why_not = core.can_transform_full_core("map", stamp, "arm", stamp, "map")
+    assert not whether
+    assert '"arm"' in why_not
+    with pytest.raises(TransformException):
+        core.lookup_transform_full_core("map", stamp, "robot", Time(seconds=9), "map")
+    with pytest.raises(TypeError, match="source_frame"):
+        core.lookup_transform_core("map", time=Time())
+
+
+def test_a_buffer_of_ones_own_transforms_what_it_can_look_up(node):
+    import tf2_ros
+    from geometry_msgs.msg import PointStamped
+
+    class Fixed(tf2_ros.BufferInterface):
+        def lookup_transform(self, target_frame, source_frame, time, timeout=None):
+            return transform(target_frame, source_frame, xyz=(0.0, 0.0, 1.0))
+
+    point = PointStamped()
+    point.header.frame_id = "robot"
+    moved = Fixed().transform(point, "map")
+
+    assert (moved.header.frame_id, moved.point.z) == ("map", 1.0)
+    for ask in (
+        lambda bare: bare.lookup_transform("a", "b", None),
+        lambda bare: bare.lookup_transform_full("a", None, "b", None, "c"),
+        lambda bare: bare.can_transform("a", "b", None),
+        lambda bare: bare.can_transform_full("a", None, "b", None, "c"),
+    ):
+        with pytest.raises(tf2_ros.NotImplementedException):
+            ask(tf2_ros.BufferInterface())

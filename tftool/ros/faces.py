@@ -93,10 +93,12 @@ rclpy.validate_parameter_name: client.validation: validate_parameter_name
 rclpy.validate_topic_name: client.validation: validate_topic_name
 message_filters: client.message_filters: Subscriber Cache TimeSynchronizer SimpleFilter
 message_filters: client.message_filters: ApproximateTimeSynchronizer
-tf2_py: tf.buffer: BufferCore
+tf2_py: tf.core: BufferCore
 tf2_py: tf.errors: TransformException LookupException ConnectivityException TimeoutException
 tf2_py: tf.errors: ExtrapolationException InvalidArgumentException
-tf2_ros: tf.buffer: Buffer BufferInterface BufferCore
+tf2_ros: tf.buffer: Buffer
+tf2_ros: tf.core: BufferCore
+tf2_ros: tf.interface: BufferInterface
 tf2_ros: tf.talking: TransformListener TransformBroadcaster
 tf2_ros: tf.talking: StaticTransformBroadcaster StaticTransformListener
 tf2_ros: tf.errors: TransformException LookupException ConnectivityException TimeoutException
@@ -104,7 +106,7 @@ tf2_ros: tf.errors: ExtrapolationException InvalidArgumentException
 tf2_ros: tf.registry: TransformRegistration ConvertRegistration TypeException convert
 tf2_ros: tf.registry: NotImplementedException
 tf2_ros.buffer: tf.buffer: Buffer
-tf2_ros.buffer_interface: tf.buffer: BufferInterface
+tf2_ros.buffer_interface: tf.interface: BufferInterface
 tf2_ros.buffer_interface: tf.registry: TransformRegistration ConvertRegistration TypeException
 tf2_ros.buffer_interface: tf.registry: convert NotImplementedException
 tf2_ros.transform_listener: tf.talking: TransformListener
