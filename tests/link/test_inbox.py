@@ -62,6 +62,23 @@ def test_bytes_that_wait_are_bounded_too(monkeypatch):
     assert box.lost == 1
 
 
+def test_a_callback_that_raises_is_told_of_and_keeps_nobody_else_from_being_called():
+    told = []
+
+    def fill(box, take):
+        loop = asyncio.get_running_loop()
+        loop.set_exception_handler(lambda _, context: told.append(str(context["exception"])))
+        box.put(take, 1, 1)
+        box.put(lambda _: 1 / 0, "anything", 1)
+        box.put(take, 2, 1)
+        loop.call_later(0.05, box.put, take, 3, 1)
+
+    _, taken = taken_in(fill, 3)
+
+    assert taken == [1, 2, 3]
+    assert told == ["division by zero"]
+
+
 def test_nothing_is_called_after_the_end():
     box, called = Inbox(), []
 

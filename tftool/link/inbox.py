@@ -71,7 +71,10 @@ class Inbox:
             loop.call_soon_threadsafe(self._drain)
 
     def _drain(self) -> None:
-        """Call what waits, a slice at a time, so that a flood does not starve the world."""
+        """Call what waits, a slice at a time, so that a flood does not starve the world.
+
+        A callback that raises is told to the loop; those behind it are called all the same.
+        """
         for _ in range(_SLICE):
             with self._lock:
                 if not self._waiting:
@@ -79,6 +82,14 @@ class Inbox:
                     return
                 callback, argument, size = self._waiting.popleft()
                 self._bytes -= size
-            callback(argument)
+            try:
+                callback(argument)
+            except Exception as error:
+                self._report(callback, error)
         if self._loop is not None:
             self._loop.call_soon(self._drain)
+
+    def _report(self, callback: Callable[..., object], error: Exception) -> None:
+        if self._loop is not None:
+            told = f"{callback!r} failed with what came in over the link"
+            self._loop.call_exception_handler({"message": told, "exception": error})
