@@ -62,6 +62,19 @@ def test_bytes_that_wait_are_bounded_too(monkeypatch):
     assert box.lost == 1
 
 
+def test_messages_without_a_payload_are_bounded_like_all_others(monkeypatch):
+    monkeypatch.setattr(inbox, "MOST_WAITING", 2)
+
+    def fill(box, take):
+        for number in range(5):
+            box.put(take, number, 0)
+
+    box, taken = taken_in(fill, 2)
+
+    assert taken == [0, 1]
+    assert box.lost == 3
+
+
 def test_a_callback_that_raises_is_told_of_and_keeps_nobody_else_from_being_called():
     told = []
 

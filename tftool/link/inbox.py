@@ -46,22 +46,23 @@ class Inbox:
             self._closed = True
             self._waiting.clear()
 
-    def put(self, callback: Callable[..., object], argument: Any, size: int = 0) -> None:
+    def put(self, callback: Callable[..., object], argument: Any, size: int | None = None) -> None:
         """Have `callback(argument)` called on the loop (on any thread).
 
         Args:
             callback: What to call.
             argument: With what.
-            size: Bytes of payload it carries; what carries none is never dropped.
+            size: Bytes a message carries; None for what is no message and never dropped.
         """
         with self._lock:
             if self._closed:
                 return
-            if size and (len(self._waiting) >= MOST_WAITING or self._bytes + size > MOST_BYTES):
+            full = len(self._waiting) >= MOST_WAITING or self._bytes + (size or 0) > MOST_BYTES
+            if size is not None and full:
                 self.lost += 1
                 return
-            self._waiting.append((callback, argument, size))
-            self._bytes += size
+            self._waiting.append((callback, argument, size or 0))
+            self._bytes += size or 0
             if self._scheduled or self._loop is None:
                 return
             self._scheduled = True

@@ -241,7 +241,9 @@ class Wire:
 
         def replied(reply: Any) -> None:
             if reply.ok is not None and len(reply.ok.payload) <= LARGEST:
-                self._inbox.put(settle, reply.ok.payload.to_bytes())
+                found = reply.ok.payload.to_bytes()
+                # Dropped where too much waits: whoever asked is told so when all replies are in.
+                self._inbox.put(settle, found, len(found))
             elif reply.err is not None:
                 reason = reply.err.payload.to_bytes()[:500].decode(errors="replace")
                 # So zenoh itself says that the time is over.
