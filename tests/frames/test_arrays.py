@@ -66,6 +66,17 @@ def test_chaining_two_is_chaining_row_by_row(poses):
     assert_poses(chained, [a @ b for a, b in zip(poses, poses[::-1], strict=True)])
 
 
+def test_quaternions_come_out_with_length_one_and_the_sign_of_a_lookup():
+    # A turn of 200° about z: tf2 gives z positive and w negative.
+    turned = Transform((0.0, 0.0, 0.0), (0.0, 0.0, 0.984807753012208, -0.17364817766693041))
+
+    back = many([turned]).inverse().rotations[0]
+    longer = (many([Transform()]) @ Transform(turned.translation, (0.0, 0.0, 2.0, 0.0))).rotations
+
+    np.testing.assert_allclose(back, [0.0, 0.0, 0.984807753012208, 0.17364817766693041])
+    np.testing.assert_allclose(longer, [[0.0, 0.0, 1.0, 0.0]])
+
+
 @given(several)
 def test_matrices_are_each_one_s(poses):
     matrices = many(poses).matrices()

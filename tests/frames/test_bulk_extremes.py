@@ -103,6 +103,29 @@ def test_more_moments_take_no_more_memory_than_their_answers(samples, missing, t
     assert np.count_nonzero(~found.valid) == (3000 if missing == "nan" else 0)
 
 
+def test_so_it_is_with_time_travel():
+    buffer = turning(Buffer(seconds(1000)), np.arange(1, 2001) * 10_000_000)
+    times = np.random.default_rng(9).integers(seconds(1), seconds(15), 1_000_000)
+    thens = times[::-1].copy()
+    question = ("turtle1", times, "turtle1", thens, "world")
+
+    tracemalloc.start()
+    try:
+        found = buffer.lookup_transforms_full(*question, threads=2)
+        _, most = tracemalloc.get_traced_memory()
+    finally:
+        tracemalloc.stop()
+
+    answers = sum(
+        part.nbytes for part in (found.translations, found.rotations, found.stamps, found.valid)
+    )
+    assert most < answers + 64 * 2**20
+    for row in (0, 65_535, 65_536, 999_999):
+        now, then = int(times[row]), int(thens[row])
+        single = buffer.lookup_transform_full("turtle1", now, "turtle1", then, "world")
+        assert_same(found[row : row + 1], [single])
+
+
 def test_links_that_turn_little_and_much_and_not_at_all_are_chained_together():
     # More than are worked on at a time, with constants at the ends of such a group.
     buffer = Buffer(seconds(1000))

@@ -28,7 +28,10 @@ SECTION = 1 << 18
 _LEAST_BLOCK = 1 << 11
 
 # Below this, a second thread costs more than it brings.
-_WORTH_A_THREAD = 2 * CHUNK
+_WORTH_A_THREAD = CHUNK
+
+# Rows of a time travel whose two halves are held at the same time.
+_TOGETHER = CHUNK
 
 
 def lookup_transforms(
@@ -79,14 +82,33 @@ def lookup_transforms_full(
     ):
         lookups.number(frame, argument, "lookupTransform", target, source)
     theirs, ours = _paired(target_times, source_times)
-    fixed_from_source = lookup_transforms(forest, lookups, fixed, source, ours, "nan", threads)
-    target_from_fixed = lookup_transforms(forest, lookups, target, fixed, theirs, "nan", threads)
-    found = target_from_fixed @ fixed_from_source
-    if missing == "raise":
-        for row in np.flatnonzero(~found.valid).tolist():
-            # One of the two is refused, and says why: the first comes first.
-            lookups.pose(fixed, source, int(ours[row]))
-            lookups.pose(target, fixed, int(theirs[row]))
+    n = len(theirs)
+    found = TransformArray(
+        target,
+        source,
+        np.empty(n, dtype=np.int64),
+        np.empty((n, 3)),
+        np.empty((n, 4)),
+        np.empty(n, dtype=np.bool_),
+    )
+    for start in range(0, n, _TOGETHER):
+        rows = slice(start, start + _TOGETHER)
+        fixed_from_source = lookup_transforms(
+            forest, lookups, fixed, source, ours[rows], "nan", threads
+        )
+        target_from_fixed = lookup_transforms(
+            forest, lookups, target, fixed, theirs[rows], "nan", threads
+        )
+        some = target_from_fixed @ fixed_from_source
+        found.stamps[rows] = some.stamps
+        found.translations[rows] = some.translations
+        found.rotations[rows] = some.rotations
+        found.valid[rows] = some.valid
+        if missing == "raise":
+            for row in (start + np.flatnonzero(~some.valid)).tolist():
+                # One of the two is refused, and says why: the first comes first.
+                lookups.pose(fixed, source, int(ours[row]))
+                lookups.pose(target, fixed, int(theirs[row]))
     return found
 
 

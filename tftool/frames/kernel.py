@@ -330,8 +330,7 @@ def _bow(bends: Floats, bows: Floats, terms: int) -> None:
     if terms == 0:
         angles = np.sqrt(bends)
         np.tan(angles, bows)
-        # Where there is no angle, the limit.
-        bows[angles == 0.0] = 1.0
+        # Where there is no angle, there is no way to go: what it is multiplied with is 0.
         np.divide(bows, angles, bows, where=angles > 0.0)
         return
     bows.fill(SERIES[terms - 1])
