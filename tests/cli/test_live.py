@@ -11,6 +11,9 @@ import pytest
 from tests.link.processes import Process, run
 from tests.terminals import Terminal
 
+LOOKS = 400
+"""How many answers are looked at before what is waited for is given up."""
+
 TUTORIAL = Path(__file__).parent.parent / "tutorial"
 
 
@@ -38,11 +41,12 @@ def launched():
 def told(process, pattern, condition):
     """Wait until what a process says last in a pattern's brackets is as it should be."""
     seen = 0
-    while True:
+    for _ in range(LOOKS):
         seen = process.says(pattern.partition("(")[0], after=seen)
         found = re.search(pattern, process.lines[seen - 1])
         if found and condition(float(found[1])):
             return
+    raise AssertionError(f"it never was; it said:\n{process.text}")
 
 
 @pytest.mark.skipif(shutil.which("tmux") is None, reason="needs tmux, a terminal to press keys in")
