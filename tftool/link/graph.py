@@ -91,6 +91,7 @@ class Graph:
         self.own = own
         self.domain = domain
         self._entities: dict[str, Entity] = {}
+        self._by_name: dict[str, dict[str, Entity]] = {}
         self._processes: dict[str, Process] = {}
         self._foreign: set[int] = set()
 
@@ -112,6 +113,7 @@ class Graph:
             return None
         if isinstance(found, Entity):
             self._entities[token] = found
+            self._by_name.setdefault(found.name, {})[token] = found
         else:
             self._processes[token] = found
         return found
@@ -122,7 +124,14 @@ class Graph:
         Returns:
             What is gone by it; None when it was not known.
         """
-        return self._entities.pop(token, None) or self._processes.pop(token, None)
+        gone = self._entities.pop(token, None)
+        if gone is None:
+            return self._processes.pop(token, None)
+        namesakes = self._by_name[gone.name]
+        del namesakes[token]
+        if not namesakes:
+            del self._by_name[gone.name]
+        return gone
 
     @property
     def foreign_domains(self) -> frozenset[int]:
@@ -139,11 +148,8 @@ class Graph:
 
     def entities(self, *kinds: str, name: str | None = None) -> list[Entity]:
         """Everything of some kinds, of one name if one is given."""
-        return [
-            one
-            for one in self._entities.values()
-            if (not kinds or one.kind in kinds) and (name is None or one.name == name)
-        ]
+        found = self._entities if name is None else self._by_name.get(name, {})
+        return [one for one in found.values() if not kinds or one.kind in kinds]
 
     @property
     def is_empty(self) -> bool:
