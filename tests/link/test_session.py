@@ -106,6 +106,26 @@ def test_transforms_arrive_with_their_sender_in_buffer_and_topic():
     play(send())
 
 
+def test_a_session_with_more_tokens_than_a_queue_of_zenoh_holds_can_be_joined():
+    async def join():
+        with Link(Options("demo")) as first:
+            here = new_world()
+            first.attach(here, role=Role.HOST)
+            for number in range(150):
+                here.topic(f"turtle{number}/pose", Pose2D).subscribe(lambda pose: None)
+                here.topic(f"turtle{number}/pose", Pose2D).publish(Pose2D(1.0, 2.0, 0.0))
+            # Somebody in between knows them all, so whoever comes is told all at once.
+            with Link(Options("echo")) as second:
+                second.attach(new_world(), role=Role.GUEST)
+                await until(lambda: len(second.graph.entities("MP", "MS")) >= 300)
+                with Link(Options("tree")) as third:
+                    there = new_world()
+                    third.attach(there, role=Role.GUEST)
+                    await until(lambda: "turtle149/pose" in there.topics())
+
+    play(join())
+
+
 def test_what_came_in_is_not_sent_out_again():
     async def send():
         async with Two() as two:

@@ -2,6 +2,7 @@
 
 import asyncio
 import contextlib
+import threading
 from collections.abc import Callable
 from functools import partial
 from typing import Any, NamedTuple
@@ -273,8 +274,19 @@ class Wire:
 
     def tokens(self, key: str, timeout: float = 1.0) -> list[str]:
         """The tokens that are there now; waits for the answer of everybody connected."""
-        replies = self._session.liveliness().get(key, timeout=timeout)
-        return [str(reply.ok.key_expr) for reply in replies if reply.ok is not None]
+        found: list[str] = []
+        over = threading.Event()
+
+        def replied(reply: Any) -> None:
+            if reply.ok is not None:
+                found.append(str(reply.ok.key_expr))
+
+        # Not zenoh's own queue: it holds 256 replies, and what this session knows already is
+        # put there before anybody could take from it.
+        handler = self._zenoh.handlers.Callback(replied, over.set, indirect=False)
+        self._session.liveliness().get(key, handler, timeout=timeout)
+        over.wait(2 * timeout)
+        return found
 
     def watch_tokens(
         self, key: str, on_token: Callable[[tuple[str, bool]], object]
