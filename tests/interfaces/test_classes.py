@@ -201,3 +201,27 @@ def test_a_wrong_definition_is_refused_with_its_name(key, text, told):
         own.find("pkg", *key)
 
     assert told in str(refused.value)
+
+
+@pytest.mark.parametrize(
+    ("line", "value"),
+    [
+        ('uint8 x 7 # so called "seven"', 7),
+        ("uint8 x 7 # the node's own", 7),
+        ('string x "a # b"  # a comment', "a # b"),
+        ("string x 'a # b'", "a # b"),
+        ("string x it's # a comment", "it's"),
+    ],
+)
+def test_a_comment_may_hold_quotes_and_quotes_may_hold_its_sign(line, value):
+    known = Interfaces()
+    known.add("pkg", {("msg", "Said"): f"# about it\n{line}\n"})
+
+    assert known.find("pkg", "msg", "Said")().x == value
+
+
+def test_a_constants_comment_may_hold_quotes():
+    known = Interfaces()
+    known.add("pkg", {("msg", "Said"): 'uint8 SEVEN=7 # so called "seven"\n'})
+
+    assert known.find("pkg", "msg", "Said").SEVEN == 7

@@ -189,8 +189,8 @@ def _parse(full: str, text: str) -> Structure:
     fields: list[Field] = []
     constants: list[tuple[str, str, str]] = []
     for raw in text.splitlines():
-        line = raw.split("#")[0].strip() if '"' not in raw else raw.strip()
-        if not line or line.startswith("#"):
+        line = _without_comment(raw).strip()
+        if not line:
             continue
         match = _FIELD.match(line)
         if match is None:
@@ -200,6 +200,20 @@ def _parse(full: str, text: str) -> Structure:
         else:
             fields.append(_field(package, match))
     return Structure(full, tuple(fields), tuple(constants))
+
+
+def _without_comment(line: str) -> str:
+    """A line up to its comment; a '#' between quotes begins none."""
+    quote = ""
+    for at, char in enumerate(line):
+        if quote:
+            quote = "" if char == quote else quote
+        elif char in "\"'":
+            quote = char
+        elif char == "#":
+            return line[:at]
+    # An apostrophe that nothing closes is no quote.
+    return line.partition("#")[0] if quote else line
 
 
 def _field(package: str, match: "re.Match[str]") -> Field:
