@@ -116,3 +116,41 @@ def test_a_wrong_parameter_file_is_refused(tmp_path, text, told):
 def test_a_value_that_is_no_yaml_is_a_text():
     assert names.yaml_value("[1, 2") == "[1, 2"
     assert names.yaml_value("") == ""
+
+
+@pytest.mark.parametrize(
+    ("text", "value"),
+    [
+        ("2", 2),
+        ("-0x1F", -31),
+        ("010", 8),
+        ("2.0", 2.0),
+        ("1e3", 1000.0),
+        (".5", 0.5),
+        (".inf", float("inf")),
+        ("yes", True),
+        ("[1, 2.5]", [1, 2.5]),
+        ("12:30", "12:30"),
+        ("2024-01-05", "2024-01-05"),
+        ("2024-13-45", "2024-13-45"),
+        ("1_000", "1_000"),
+        ("!!int x", "!!int x"),
+        ("turtle1", "turtle1"),
+    ],
+)
+def test_a_value_is_what_ros_2_takes_it_for(text, value):
+    found = names.yaml_value(text)
+
+    assert found == value
+    assert type(found) is type(value)
+
+
+def test_a_parameter_file_is_read_like_a_single_value(tmp_path):
+    file = tmp_path / "params.yaml"
+    file.write_text("a:\n  ros__parameters: {day: 2024-01-05, at: 12:30, far: 1e3}\n")
+
+    assert names.read_parameters(file) == [
+        ("a", "day", "2024-01-05"),
+        ("a", "at", "12:30"),
+        ("a", "far", 1000.0),
+    ]

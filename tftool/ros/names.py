@@ -7,6 +7,7 @@ import re
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
 from difflib import get_close_matches
+from functools import cache
 from pathlib import Path
 from typing import Any, NamedTuple
 
@@ -275,9 +276,33 @@ def yaml_value(text: str) -> Any:
     import yaml
 
     try:
-        return yaml.safe_load(text) if text else ""
-    except yaml.YAMLError:
+        return yaml.load(text, _loader()) if text else ""
+    except (yaml.YAMLError, ValueError):
         return text
+
+
+@cache
+def _loader() -> Any:
+    """A loader that takes for numbers what ROS 2 does: `12:30` and `2024-01-05` are texts."""
+    import yaml
+
+    class Loader(yaml.SafeLoader):
+        pass
+
+    kinds = {
+        "int": r"[-+]?(?:0[xX][0-9a-fA-F]+|0[0-7]*|[1-9][0-9]*)$",
+        "float": r"[-+]?(?:(?:[0-9]+\.?[0-9]*|\.[0-9]+)(?:[eE][-+]?[0-9]+)?"
+        r"|\.(?:inf|Inf|INF))$|\.(?:nan|NaN|NAN)$",
+    }
+    others = {f"tag:yaml.org,2002:{kind}" for kind in (*kinds, "timestamp")}
+    Loader.yaml_implicit_resolvers = {
+        first: [pair for pair in pairs if pair[0] not in others]
+        for first, pairs in yaml.SafeLoader.yaml_implicit_resolvers.items()
+    }
+    for kind, pattern in kinds.items():
+        tag = f"tag:yaml.org,2002:{kind}"
+        Loader.add_implicit_resolver(tag, re.compile(pattern), list("-+.0123456789"))
+    return Loader
 
 
 def read_parameters(
@@ -300,11 +325,11 @@ def read_parameters(
         reason = error.strerror if isinstance(error, OSError) else "it is not UTF-8 text"
         raise InputError(f"cannot read the parameter file '{path}': {reason}") from None
     try:
-        tree = yaml.safe_load(substitute(text))
-    except yaml.YAMLError as error:
+        tree = yaml.load(substitute(text), _loader())
+    except (yaml.YAMLError, ValueError) as error:
         mark = getattr(error, "problem_mark", None)
         where = f":{mark.line + 1}:{mark.column + 1}" if mark is not None else ""
-        problem = getattr(error, "problem", None) or "not YAML"
+        problem = getattr(error, "problem", None) or str(error) or "not YAML"
         raise InputError(f"{path}{where}: {problem}") from None
     found: list[tuple[str, str, Any]] = []
     _walk(tree, "", found)
