@@ -834,6 +834,25 @@ assert not thread.is_alive()
     assert program.status == 0
 
 
+def test_what_a_thread_raises_is_said_and_ends_it_alone(ros_runtime, tmp_path):
+    file = tmp_path / "threaded.py"
+    file.write_text(
+        "import threading\n"
+        "def work():\n"
+        "    raise ValueError('too far')\n"
+        "thread = threading.Thread(target=work, name='worker')\n"
+        "thread.start()\n"
+        "thread.join()\n"
+    )
+    program = ros_runtime.start(file)
+    ros_runtime.sleep(1)
+
+    (said,) = ros_runtime.log(program.name)
+    assert said.startswith("thread 'worker' failed: ValueError: too far\n")
+    assert "threaded.py:3, in work: raise ValueError('too far')" in said
+    assert program.status == 0
+
+
 def test_arguments_without_those_of_ros_can_be_had(ros_runtime):
     from rclpy.utilities import (
         get_rmw_implementation_identifier,

@@ -99,7 +99,7 @@ class Program(Node):
         self.nodes: list[Any] = []
         self.log_levels: dict[str, int] = {}
         self._on_exit = on_exit
-        self._others: list[asyncio.Task[None]] = []
+        self._others: set[asyncio.Task[None]] = set()
         self._loop: asyncio.AbstractEventLoop | None = None
         self._loop_thread = 0
         self._asked_at: Stamp = 0
@@ -138,10 +138,11 @@ class Program(Node):
             self.failure = error
         finally:
             _living.discard(self)
-            for other in self._others:
+            others = list(self._others)
+            for other in others:
                 other.cancel()
-            if self._others:
-                await asyncio.gather(*self._others, return_exceptions=True)
+            if others:
+                await asyncio.gather(*others, return_exceptions=True)
             self._leave()
         if self._on_exit is not None:
             self._on_exit(self)
@@ -167,8 +168,14 @@ class Program(Node):
         """Drive one more thread of this program (on the loop's thread)."""
         self._own(fiber)
         task = asyncio.get_running_loop().create_task(fiber.drive(), name=fiber.name)
-        self._others.append(task)
+        self._others.add(task)
+        task.add_done_callback(self._fiber_ended)
         return task
+
+    def _fiber_ended(self, task: "asyncio.Task[None]") -> None:
+        self._others.discard(task)
+        if not task.cancelled() and (error := task.exception()) is not None:
+            self.error(str(error))
 
     def _own(self, fiber: Fiber) -> None:
         fiber.owner = self

@@ -74,8 +74,19 @@ class UserThread(threading.Thread):
             super().start()
             return
         self._owner = owner
-        self._fiber = fiber = Fiber(self.name, self.run, strict=owner.strict)
+        self._fiber = fiber = Fiber(self.name, self._run_told, strict=owner.strict)
         owner.ask(lambda: [owner.start_fiber(fiber)])
+
+    def _run_told(self) -> None:
+        """Run it; what it raises ends it alone, and is said, as Python does for its threads."""
+        try:
+            self.run()
+        except Exception as error:
+            # That module builds on this one.
+            from tftool.ros.users import sentence_of
+
+            sentence = f"thread '{self.name}' failed: {sentence_of(error)}"
+            self._owner.ask(lambda: self._owner.error(sentence))
 
     def join(self, timeout: float | None = None) -> None:
         """Wait for its end."""
