@@ -239,6 +239,31 @@ def test_a_callback_may_ask_for_the_message_info(node):
     assert heard[0]["source_timestamp"] == 1000 * 10**9
 
 
+def test_messages_can_be_had_and_sent_as_their_bytes(node):
+    import rclpy
+    from rclpy.serialization import deserialize_message, serialize_message
+    from std_msgs.msg import Int32, String
+
+    heard = []
+    node.create_subscription(Int32, "numbers", heard.append, 10, raw=True)
+    sender = node.create_publisher(Int32, "numbers", 10)
+    # Plain CDR, little endian: a header of four bytes, then the number's four.
+    data = b"\x00\x01\x00\x00\x2a\x00\x00\x00"
+    sender.publish(Int32(data=42))
+    sender.publish(data)
+    rclpy.spin_once(node)
+    rclpy.spin_once(node)
+
+    assert heard == [data, data]
+    assert deserialize_message(data, Int32) == Int32(data=42)
+    text = String(data="día")
+    assert deserialize_message(serialize_message(text), String) == text
+    with pytest.raises(TypeError, match="expected a message, got str"):
+        serialize_message("text")
+    with pytest.raises(Exception, match="std_msgs/msg/Int32"):
+        sender.publish(b"\x00\x01")
+
+
 def test_a_twist_keeps_the_parts_a_turtle_does_not_read(node):
     from geometry_msgs.msg import Twist
 

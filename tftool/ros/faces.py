@@ -82,6 +82,7 @@ rclpy.lifecycle.node: client.lifecycle: LifecycleNode LifecycleNodeMixin Lifecyc
 rclpy.lifecycle.node: client.lifecycle: TransitionCallbackReturn
 rclpy.lifecycle.publisher: client.lifecycle: LifecyclePublisher
 rclpy.lifecycle.managed_entity: client.lifecycle: ManagedEntity SimpleManagedEntity
+rclpy.serialization: client.serialization: serialize_message deserialize_message
 rclpy.signals: client.signals: SignalHandlerOptions
 rclpy.utilities: client.utilities: remove_ros_args ok get_default_context timeout_sec_to_nsec
 rclpy.utilities: client.utilities: get_rmw_implementation_identifier shutdown try_shutdown

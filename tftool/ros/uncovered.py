@@ -23,12 +23,13 @@ def missing_name(module: str, name: str, known: Sequence[str]) -> str:
         name: What was asked of it.
         known: The names it has.
     """
-    near = get_close_matches(name, known, n=1)
+    # Only what may be a slip: another name of ROS 2's is none.
+    near = get_close_matches(name, known, n=1, cutoff=0.8)
     package = module.partition(".")[0]
     elsewhere = sorted(
         one
         for one, names in faces.table().items()
-        if name in names and one.partition(".")[0] == package
+        if one.partition(".")[0] == package and name in names and names[name].name == name
     )
     if near:
         hint = f"; did you mean '{near[0]}'?"

@@ -180,7 +180,7 @@ class Node(NodeGraph, NodeParameters):
         profile, full = profile_of(qos_profile), self._tftool.full(topic)
         group = callback_group or self._default_callback_group
         return self.__keep(
-            lambda: Subscription(self._tftool, msg_type, topic, full, callback, profile, group)
+            lambda: Subscription(self._tftool, msg_type, topic, full, callback, profile, group, raw)
         )
 
     def create_timer(

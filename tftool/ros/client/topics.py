@@ -11,6 +11,7 @@ from tftool.ros.client.entities import Entity, Work
 from tftool.ros.client.exceptions import InvalidHandle
 from tftool.ros.client.member import Member
 from tftool.ros.client.qos import HistoryPolicy, QoSProfile, quality_of
+from tftool.ros.client.serialization import deserialize_message, serialize_message
 from tftool.runtime.endpoints import PUBLISHER, SUBSCRIPTION, Endpoint, conflict
 from tftool.runtime.world import TransformMessage
 
@@ -47,7 +48,7 @@ class Publisher(Entity):
         return f"/{self.full}"
 
     def publish(self, msg: Any) -> None:
-        """Send a message.
+        """Send a message, or the bytes of one.
 
         Raises:
             TypeError: If it is of another type.
@@ -55,6 +56,8 @@ class Publisher(Entity):
         """
         if self._withdrawn:
             raise InvalidHandle(f"the publisher of '{self.topic_name}' is destroyed")
+        if isinstance(msg, bytes):
+            msg = deserialize_message(msg, self.msg_type)
         if not isinstance(msg, self.msg_type):
             raise TypeError(f"Expected {self.msg_type}, got {type(msg)}")
         member = self.member
@@ -107,9 +110,11 @@ class Subscription(Entity):
         callback: Callable[[Any], Any],
         profile: QoSProfile,
         group: Any,
+        raw: bool = False,
     ) -> None:
         super().__init__(member, group)
         self.msg_type = kind
+        self.raw = raw
         self.callback: Callable[..., Any] = callback
         self.qos_profile = profile
         self.topic = topic
@@ -163,6 +168,8 @@ class Subscription(Entity):
 
         def work() -> Any:
             message = self._converter.unpack(value)
+            if self.raw:
+                message = serialize_message(message)
             if self._takes_info:
                 return self.callback(
                     message,
