@@ -1,7 +1,7 @@
 import math
 
 import pytest
-from hypothesis import example, given, settings
+from hypothesis import assume, example, given, settings
 from hypothesis import strategies as st
 
 from tftool.messages import Color
@@ -70,6 +70,8 @@ def test_a_stroke_is_seen_at_both_ends_however_thin(x0, y0, x1, y1, width):
 def test_exactly_the_pixels_on_the_stroke_are_painted(ends, width):
     x0, y0, x1, y1 = ends
     length = math.dist((x0, y0), (x1, y1))
+    # A stroke of some billionths of a pixel points wherever rounding has it point.
+    assume(length == 0.0 or length > 1e-6)
     along = ((x1 - x0) / length, (y1 - y0) / length) if length else (1.0, 0.0)
     trail = Trail()
     trail.draw(stroke(x0, y0, x1, y1, width))
