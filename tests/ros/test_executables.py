@@ -187,6 +187,25 @@ def test_launched_commands_run_beside_the_nodes_on_the_wall_clock(tmp_path, caps
     assert status == (1 if "cannot run 'no-such-command-here'" in told else 0)
 
 
+def test_a_commands_lines_may_be_of_any_length(monkeypatch):
+    import asyncio
+
+    from tftool.ros.launching import processes
+
+    monkeypatch.setattr(processes, "LONGEST_LINE", 300_000)
+
+    async def read():
+        stream = asyncio.StreamReader()
+        stream.feed_data(b"a\n" + b"b" * 200_000 + b"\n\n" + b"c" * 400_000 + b"\nd\xff")
+        stream.feed_eof()
+        return [line async for line in processes.lines_of(stream)]
+
+    first, long, empty, *pieces, last = asyncio.run(read())
+
+    assert (first, long, empty, last) == ("a", "b" * 200_000, "", "d\ufffd")
+    assert "".join(pieces) == "c" * 400_000
+
+
 def test_a_command_that_will_not_end_is_made_to(tmp_path, capsys, monkeypatch):
     from tftool.cli.app import main
     from tftool.ros.launching import ending

@@ -227,6 +227,28 @@ def test_handlers_hear_of_starts_and_can_be_taken_away(tmp_path):
     assert done.said("launch") == ["true-1", "last", "shutting down: enough"]
 
 
+def test_who_waits_for_a_processs_end_may_be_named_after_it(tmp_path):
+    done = described(
+        tmp_path,
+        "(first := ExecuteProcess(cmd=['true']))",
+        "RegisterEventHandler(OnProcessExit(target_action=first, on_exit=LogInfo(msg='next')))",
+    )
+
+    assert done.said("launch") == ["next"]
+
+
+def test_a_handlers_own_code_that_raises_ends_the_launch_with_its_line(tmp_path):
+    done = described(
+        tmp_path,
+        "ExecuteProcess(cmd=['true'], on_exit=lambda event, context: 1 / 0)",
+        "Node(package='turtlesim', executable='turtlesim_node')",
+    )
+
+    assert done.failed == ["launch"]
+    assert "ZeroDivisionError: division by zero" in done.said("launch")[-1]
+    assert "some.launch.py" in done.said("launch")[-1]
+
+
 def test_a_process_that_fails_is_named_with_its_status(tmp_path):
     done = described(tmp_path, "ExecuteProcess(cmd=['sh', '-c', 'exit 3'])")
 

@@ -16,7 +16,7 @@ from tftool.ros.launching.ending import interrupt
 from tftool.ros.launching.events import Event, ProcessExited, ProcessStarted, Shutdown
 from tftool.ros.launching.files import load_file
 from tftool.ros.launching.nodes import Executable
-from tftool.ros.launching.processes import Command
+from tftool.ros.launching.processes import Command, lines_of
 from tftool.ros.program import Program
 from tftool.ros.workspace import Workspace
 from tftool.runtime.clock import SimClock
@@ -226,7 +226,9 @@ class Launch(Node):
             self._say("INFO", label, f"process started: {shlex.join(command.words)}")
             self.emit(ProcessStarted(action=action, process_name=label))
             if isinstance(self.clock, SimClock):
-                self._ended(action, label, *self._run_at_once(label, command))
+                status = self._run_at_once(label, command)
+                # Not at once: who waits for its end may be named further down in the file.
+                self._start_task(self._end_soon(action, label, status), self._watches)
             else:
                 self._start_task(self._watch(action, label, command), self._watches)
 
@@ -237,8 +239,8 @@ class Launch(Node):
             self._respawns[label] = (max(respawn, SOONEST), start)
         start()
 
-    def _run_at_once(self, label: str, command: Command) -> tuple[int, str]:
-        """Run a command while simulated time stands still; its status, and why it failed."""
+    def _run_at_once(self, label: str, command: Command) -> int:
+        """Run a command while simulated time stands still; its exit status."""
         try:
             done = subprocess.run(
                 command.words,
@@ -246,13 +248,17 @@ class Launch(Node):
                 cwd=command.cwd,
                 capture_output=True,
                 text=True,
+                errors="replace",
                 check=False,
             )
         except OSError as error:
             raise UsageError(_cannot_run(command, error)) from None
         for line in (done.stdout + done.stderr).splitlines():
             self._say("", label, line)
-        return done.returncode, ""
+        return done.returncode
+
+    async def _end_soon(self, action: Any, label: str, status: int) -> None:
+        self._ended(action, label, status, "")
 
     async def _watch(self, action: Any, label: str, command: Command) -> None:
         try:
@@ -271,8 +277,8 @@ class Launch(Node):
         if self._closing:
             interrupt(process)
         if process.stdout is not None:
-            async for line in process.stdout:
-                self._say("", label, line.decode(errors="replace").rstrip("\n"))
+            async for line in lines_of(process.stdout):
+                self._say("", label, line)
         status = await process.wait()
         self._ended(action, label, status, "")
 
@@ -316,8 +322,9 @@ class Launch(Node):
         """Do something later than the launch began: what is wrong ends the launch."""
         try:
             work()
-        except TftoolError as error:
-            self._say("ERROR", "launch", str(error))
+        except Exception as error:
+            ours = isinstance(error, TftoolError)
+            self._say("ERROR", "launch", str(error) if ours else users.sentence_of(error))
             self.failed.append("launch")
             self._end()
 

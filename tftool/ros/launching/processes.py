@@ -1,9 +1,10 @@
 """launch's actions that start something with an end of its own; commands of the system."""
 
-from collections.abc import Iterable, Mapping, Sequence
+import asyncio
+from collections.abc import AsyncIterator, Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any
+from typing import Any, Final
 
 from tftool.errors import UsageError
 from tftool.ros.launching.action import Action
@@ -13,6 +14,9 @@ from tftool.ros.launching.substitutions import is_true, perform
 
 LONGEST = 1e9
 """How many seconds something may wait: about thirty years."""
+
+LONGEST_LINE: Final = 1 << 20
+"""Bytes of a command's output after which a line is shown though it has not ended."""
 
 
 class Startable(Action):
@@ -137,3 +141,20 @@ class ExecuteProcess(Startable):
 
 def _texts(context: LaunchContext, given: Mapping[Any, Any]) -> dict[str, str]:
     return {perform(context, key): perform(context, value) for key, value in given.items()}
+
+
+async def lines_of(stream: asyncio.StreamReader) -> AsyncIterator[str]:
+    """What a command writes, line by line.
+
+    asyncio's own reader raises where a line is longer than 64 KiB.
+    """
+    rest = b""
+    while chunk := await stream.read(1 << 16):
+        *lines, rest = (rest + chunk).split(b"\n")
+        if len(rest) > LONGEST_LINE:
+            lines.append(rest)
+            rest = b""
+        for line in lines:
+            yield line.decode(errors="replace")
+    if rest:
+        yield rest.decode(errors="replace")
