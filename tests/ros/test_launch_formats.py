@@ -49,6 +49,24 @@ def test_conditions_and_arguments_mean_the_same_in_each_language(ending):
     assert done.said("told-2")[0] == "process started: echo shape round,flat"
 
 
+@pytest.mark.parametrize(
+    ("cmd", "written"),
+    [
+        ("printf [%s] 'one two' three", "[one two][three]"),
+        ("printf [%s]  a$(var b)c $(var b)  'd'e ''", "[ax yc][x y][de][]"),
+        ("$(var p) [%s] a", "[a]"),
+    ],
+)
+def test_a_command_line_is_parted_as_a_shell_does(tmp_path, cmd, written):
+    file = tmp_path / "a.launch.xml"
+    file.write_text(
+        '<launch><let name="b" value="x y"/><let name="p" value="printf"/>'
+        f'<executable name="it" cmd="{cmd}"/></launch>'
+    )
+
+    assert launch(file, seconds=1).said("it-1")[1] == written
+
+
 @pytest.mark.parametrize("ending", FORMATS)
 def test_show_args_is_laid_out_as_ros2_launch_does(ending):
     with ros_free():
@@ -185,6 +203,7 @@ def test_a_file_is_included_from_beside_the_one_that_includes_it(tmp_path):
         ("<load_composable_node target='x'/>", "'load_composable_node' is not covered"),
         ("<arg name='a'><choise value='1'/></arg>", "'choise' inside; did you mean 'choice'?"),
         ("<log message='$(find-pkg-shar x)'/>", "mean '$(find-pkg-share …)'?"),
+        ("<executable cmd=\"echo 'a\"/>", ":2: a quote in 'echo 'a' is not closed"),
     ],
 )  # fmt: skip
 def test_a_mistake_in_xml_is_told_with_its_line_and_the_nearest_word(tmp_path, text, told):

@@ -1,5 +1,6 @@
 """What the elements of XML and YAML launch files mean: the actions of Python's."""
 
+import shlex
 from collections.abc import Callable, Iterable, Mapping
 from functools import partial
 from types import MappingProxyType
@@ -121,17 +122,25 @@ def _node(element: Element) -> Any:
 
 
 def _words(text: Any, element: Element) -> list[Any]:
+    """The words of a command line, parted as a shell does; a substitution stays whole."""
     if text is None:
         return []
-    # A substitution may hold blanks: words end only between them.
     words: list[Any] = [[]]
     for part in parsed(text, element.where):
-        if isinstance(part, TextSubstitution):
-            first, *others = part.text.split(" ")
-            words[-1] += [TextSubstitution(text=first)] if first else []
-            words += [[TextSubstitution(text=one)] if one else [] for one in others]
-        else:
+        if not isinstance(part, TextSubstitution):
             words[-1].append(part)
+            continue
+        try:
+            found = shlex.split(part.text)
+        except ValueError:
+            raise element.refusal(f"a quote in '{text}' is not closed", "", ()) from None
+        if part.text[0].isspace():
+            words.append([])
+        for number, word in enumerate(found):
+            words += [[]] if number else []
+            words[-1].append(TextSubstitution(text=word))
+        if part.text[-1].isspace():
+            words.append([])
     return [word for word in words if word]
 
 
