@@ -1,14 +1,18 @@
 """Messages and services of any type between two worlds, as users' nodes exchange them."""
 
 import asyncio
+from collections import deque
 
 import pytest
 
-from tests.link.conftest import until
+from tests.link.conftest import new_world, until
 from tests.link.test_session import Two, play, texts
 from tftool.errors import LinkError
 from tftool.interfaces.classes import INTERFACES
 from tftool.link import services
+from tftool.link.graph import Role
+from tftool.link.membership import Options
+from tftool.link.session import Link
 from tftool.messages import Clear, Twist2D
 from tftool.runtime.endpoints import PUBLISHER, SUBSCRIPTION, Endpoint, Quality
 from tftool.runtime.node import Node
@@ -152,6 +156,28 @@ def test_a_latched_subscription_gets_what_was_sent_before_and_others_hear_all_on
             assert [one.data for one, _ in early] == ["two", "three", "four"]
             assert [one.data for one, _ in late] == ["two", "three", "four"]
             assert [one.data for one, _ in plain] == ["one", "two", "three", "four"]
+
+    play(send())
+
+
+def test_what_was_kept_before_there_was_a_link_reaches_those_who_come_late():
+    async def send():
+        here, there = new_world(), new_world()
+        endpoint = Endpoint(
+            PUBLISHER, "mapper", "map", STRING.interface__, Quality(1, is_latched=True),
+            kept=deque([STRING(data="the attic")]),
+        )  # fmt: skip
+        here.topic("map", STRING)
+        here.endpoints.add(endpoint)
+        with Link(Options("run")) as first:
+            first.attach(here, role=Role.HOST)
+            with Link(Options("run")) as second:
+                second.attach(there, role=Role.GUEST)
+                heard = []
+                subscription(there, heard, "map", is_latched=True)
+                await until(lambda: heard)
+
+                assert [one.data for one, _ in heard] == ["the attic"]
 
     play(send())
 

@@ -81,6 +81,9 @@ class TopicBridge:
             for one in publishers:
                 if one not in self._senders:
                     self._senders[one] = self._sender(one)
+                    # What it kept before there was a link is for those who come late, too.
+                    for value in one.kept or ():
+                        self._put(self._senders[one], value)
 
         subscriptions = _here(endpoints.of(topic.name, SUBSCRIPTION))
         latched = sum(one.deliver is not None for one in subscriptions)
@@ -173,8 +176,10 @@ class TopicBridge:
         if sender is None:
             sender = self._senders[stated] = self._sender(stated)
         # Nothing is turned into bytes for nobody.
-        if not sender.is_wanted:
-            return
+        if sender.is_wanted:
+            self._put(sender, value)
+
+    def _put(self, sender: Sender, value: Any) -> None:
         try:
             sender.put(self._kind.encode(value))
         except MalformedMessage as refusal:
