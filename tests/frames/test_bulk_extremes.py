@@ -62,6 +62,13 @@ def test_stamps_a_nanosecond_apart_and_centuries_apart_agree():
     assert_agrees(buffer, np.array([1, 2, 3, 4, 2**39, 2**61, 2**62 - 1, 2**62, 2**62 + 1, 2]))
 
 
+def test_nought_is_the_latest_even_where_the_data_reaches_back_before_it():
+    buffer = turning(Buffer(seconds(1000)), np.array([-1000, -10, 1000]))
+
+    for asked in ([-500, 0, 500], [500, 0, -500], [0], [-500, 500]):
+        assert_agrees(buffer, np.array(asked))
+
+
 def test_a_sample_at_infinity_is_met_but_not_on_the_way():
     buffer = Buffer()
     for second, x in ((1, 0.0), (2, np.inf), (3, 5.0), (4, 6.0)):
