@@ -170,14 +170,13 @@ class Workspace:
         for start in range(0, len(edges), GROUP):
             group = edges[start : start + GROUP]
             moving = [edge for edge in group if isinstance(edge, Moving)]
-            found = iter(self._prepare(side, moving, times, in_order))
-            rows = iter(zip(self._index, self._shares, self._bows, self._bends, strict=True))
+            prepared = iter(self._prepare(side, moving, times, in_order))
             for number, edge in enumerate(group, start):
                 place, turn = (self._place, self._turn) if number else (side.place, side.turn)
                 factor: Floats | float = 2.0
                 if isinstance(edge, Moving):
-                    index, share, bow, factor = next(rows)
-                    self._interpolate(next(found), index, share, bow, place, turn)
+                    intervals, index, share, bow, factor = next(prepared)
+                    self._interpolate(intervals, index, share, bow, place, turn)
                 else:
                     copyto(place.xyz, edge.place)
                     copyto(turn.rows, edge.turn.rows)
@@ -190,10 +189,12 @@ class Workspace:
 
     def _prepare(
         self, side: _Side, edges: Sequence[Moving], times: Stamps, in_order: bool
-    ) -> list[Intervals]:
-        """Find each moment's interval in some links, and the shares of the way and the turn.
+    ) -> list[tuple[Intervals, Indices, Floats, Floats, Floats]]:
+        """Find each moment's interval in some links, and multiply the side's square.
 
-        Leaves the factors for `rotate` in `_bends`, and multiplies the side's square.
+        Returns:
+            For each link its intervals, and rows: the interval of each moment, the share of
+            the way, that of the turn, and the factor for `rotate`.
         """
         count = len(edges)
         if not count:
@@ -225,7 +226,7 @@ class Workspace:
         for row in bends:
             multiply(side.square, row, side.square)
         np.divide(2.0, bends, bends)
-        return found
+        return list(zip(found, self._index, shares, bows, bends, strict=False))
 
     def _find(self, edge: Moving, times: Stamps, in_order: bool, index: Indices) -> Intervals:
         """The intervals to use, with each moment's number in `index`."""
