@@ -145,7 +145,7 @@ import sys
 from tftool.cli import session
 from tftool.cli.app import main
 if sys.argv[1] == "alone":
-    session._open_link = lambda choice: None
+    session._open_link = lambda choice: (None, "")
 sys.exit(main(["static", "--frame-id", "A", "--child-frame-id", "B", "--once"]))
 """
 

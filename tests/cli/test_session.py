@@ -101,6 +101,16 @@ def test_nodes_can_be_left_out_and_the_memory_set():
     assert "follower" not in {node.name for node in session.world.nodes}
 
 
+@pytest.mark.parametrize(("by_hand", "moved"), [(False, True), (True, False)])
+def test_the_script_drives_unless_somebody_else_does(by_hand, moved):
+    session = open_session("turtles", clock=SimClock(), by_hand=by_hand)
+
+    session.live_until(session.moment(seconds(30)))
+
+    found = session.world.buffer.lookup_transform("world", "turtle1")
+    assert (found.transform.translation.x != pytest.approx(5.544445)) is moved
+
+
 def test_an_unknown_source_is_told():
     with pytest.raises(InputError, match="did you mean 'orbit'"):
         open_session("orbti")

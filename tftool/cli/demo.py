@@ -1,6 +1,5 @@
 """`tftool demo`: a scenario on the screen, or, without a terminal, played and summed up."""
 
-from dataclasses import replace
 from typing import TYPE_CHECKING, Annotated
 
 import typer
@@ -11,7 +10,6 @@ from tftool.errors import UsageError
 
 if TYPE_CHECKING:
     from tftool.nodes.teleop import Teleop
-    from tftool.scenario.schema import Scenario
 
 
 def demo(
@@ -64,7 +62,7 @@ def demo(
     """
     from tftool.cli.lifetime import shared
     from tftool.cli.onscreen import driver_of, has_terminal, run_app, simulator_of
-    from tftool.cli.session import HOME, host_link, join_session
+    from tftool.cli.session import HOME, left_to_a_person, look_around
     from tftool.cli.sharing import choice
     from tftool.runtime.clock import WallClock
     from tftool.scenario.builtin import find
@@ -93,9 +91,9 @@ def demo(
     from tftool.screens.setting import Setting
 
     # Whoever asks for nothing in particular sees what runs here already.
-    joined = None
-    if scenario is None and not arguments and rate == 1.0:
-        joined = join_session(needs_turtles=True)
+    named = scenario or (HOME if arguments or rate != 1.0 else None)
+    found = look_around(named, needs_turtles=True)
+    joined = found.session
     if joined is not None:
         world, live = joined.world, joined.live
 
@@ -105,28 +103,22 @@ def demo(
         driver: Teleop | None = None if choice().read_only else driver_of(world, "turtle1")
         title = f"tftool demo, in {joined.name}"
     else:
-        link = host_link(scenario or HOME)
-        play = build(_left_to_a_person(chosen), WallClock(rate))
+        play = build(left_to_a_person(chosen), WallClock(rate))
         world = play.world
+        if found.alone:
+            # What was said before the screen came up is hidden behind it.
+            world.log.warn("session", found.alone)
 
         async def life() -> None:
             # Counted from here: the screen takes a while to come up.
             until = None if duration is None else world.clock.now() + duration
-            with shared(link, world):
+            with shared(found.link, world):
                 await play.live(until, endless=until is None)
 
         driver = None if simulator_of(world) is None else driver_of(world, "turtle1")
         title = f"tftool demo {chosen.name}"
     run_app(world, life(), driver, Setting(title=title, ascii_only=ascii_only, light=light))
     return 0
-
-
-def _left_to_a_person(scenario: "Scenario") -> "Scenario":
-    """The scenario without what somebody at the keys does better, and without a judge."""
-    from tftool.scenario.actions import Drive, Press
-
-    script = tuple(step for step in scenario.script if not isinstance(step.action, Drive | Press))
-    return replace(scenario, script=script, expect=())
 
 
 def _arguments(settings: "list[str] | tuple[str, ...]", source_frame: str | None) -> dict[str, str]:

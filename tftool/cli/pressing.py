@@ -42,7 +42,7 @@ def press_all(turtle: str, keys: str) -> str:
     joined = join_session(needs_turtles=True)
     if joined is not None:
         return joined.run(_press_there(joined.world, turtle, words))
-    session = open_session(clock=SimClock())
+    session = open_session(clock=SimClock(), by_hand=True)
     world = session.world
     driver, simulator = driver_of(world, turtle), simulator_of(world)
 

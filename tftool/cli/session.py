@@ -7,7 +7,7 @@ While one world is hosted another keeps to itself, so that the two never mix.
 """
 
 from collections.abc import Callable
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
 from tftool.cli.lifetime import Session, lived, shared
@@ -35,6 +35,67 @@ CACHE_TIME = seconds(10)
 """How far back the buffer of a joined world remembers; tf2's own figure."""
 
 
+@dataclass(frozen=True, slots=True)
+class Found:
+    """What a command finds when it looks whom it could share a world with.
+
+    Attributes:
+        session: The session it has joined; None where it has to host.
+        link: By which a host lets others in; None where it keeps to itself.
+        alone: Why it does, as a sentence.
+    """
+
+    session: Session | None = None
+    link: "Link | None" = None
+    alone: str = ""
+
+
+def look_around(
+    source: str | None, *, needs_turtles: bool = False, cache_time: Duration | None = None
+) -> Found:
+    """Join what runs here, else become the one to host; nobody else decides meanwhile.
+
+    Args:
+        source: The scenario that was named, which is hosted; None for the session that runs.
+        needs_turtles: Whether only a session with a turtle simulator will do.
+        cache_time: How far back the buffer of a joined world remembers.
+
+    Raises:
+        LinkError: If a session was asked for and there is none, or no link.
+        UsageError: If it was told to join: what is named is hosted.
+    """
+    chosen = choice()
+    _refuse_to_join(source, chosen)
+    link, alone = _open_link(chosen)
+    if link is None:
+        return Found(alone=alone)
+    there = link.graph.has_sources
+    if source is None and chosen.mode is not Mode.HOST:
+        # Who names the other end means what is there, or comes there; nobody wants turtles
+        # of his own among a robot's frames.
+        if chosen.connect or (there and (not needs_turtles or _has_host(link))):
+            world = World(WallClock(), cache_time=cache_time or CACHE_TIME)
+            name = _name_of(link)
+            notice(f"Joined {name}.")
+            return Found(Session(world, False, name, lived(world, link, "guest"), link=link))
+        if chosen.mode is Mode.JOIN or chosen.read_only:
+            link.close()
+            what = "session with turtles" if there else "session"
+            raise LinkError(
+                f"No {what} is running in domain {chosen.domain}: start one with 'tftool demo', "
+                "or leave out the option to host one here."
+            )
+    elif _has_host(link):
+        link.close()
+        alone = (
+            f"A session is running here, {_name_of(link)}; this world keeps to itself "
+            "(--domain N would give it a session of its own)."
+        )
+        notice(alone)
+        return Found(alone=alone)
+    return Found(link=link)
+
+
 def open_session(
     source: str | None = None,
     *,
@@ -44,6 +105,7 @@ def open_session(
     without: Callable[["NodeEntry"], bool] | None = None,
     needs_turtles: bool = False,
     at_a_moment: bool = False,
+    by_hand: bool = False,
 ) -> Session:
     """Give the world a command works in, and say so on stderr when it had to be made.
 
@@ -56,6 +118,7 @@ def open_session(
         needs_turtles: Whether only a session with a turtle simulator will do.
         at_a_moment: Whether the question is about a moment of the scenario, which no
             session answers.
+        by_hand: Whether somebody drives in it, in place of the scenario's own script.
 
     Raises:
         InputError: If there is no such scenario, or it cannot be read.
@@ -64,13 +127,21 @@ def open_session(
     """
     link = None
     if clock is None:
-        joined, link = _look_around(source, needs_turtles, cache_time)
-        if joined is not None:
-            return joined
+        found = look_around(source, needs_turtles=needs_turtles, cache_time=cache_time)
+        if found.session is not None:
+            return found.session
+        link = found.link
     else:
         _refuse_to_share(source)
     try:
-        return _hosted(source, clock, head_start, cache_time, without, link, at_a_moment)
+        scenario = _chosen(source, at_a_moment=at_a_moment)
+        if by_hand:
+            scenario = left_to_a_person(scenario)
+        if without is not None:
+            kept = tuple(node for node in scenario.nodes if not without(node))
+            scenario = replace(scenario, nodes=kept)
+        cache_time = cache_time or scenario.cache_time
+        return _hosted(replace(scenario, cache_time=cache_time), clock, head_start, link)
     except BaseException:
         if link is not None:
             link.close()
@@ -90,16 +161,16 @@ def join_session(
     chosen = choice()
     if chosen.mode is Mode.HOST or (not chosen.is_asked_for and not _somebody_is_here(chosen)):
         return None
-    joined, link = _look_around(None, needs_turtles, cache_time)
-    if link is not None:
-        link.close()
-    return joined
+    found = look_around(None, needs_turtles=needs_turtles, cache_time=cache_time)
+    if found.link is not None:
+        found.link.close()
+    return found.session
 
 
 def open_empty_session(clock: Clock | None = None) -> Session:
     """Give a world with nothing in it to whoever brings all there is to it; others see it."""
     world = World(clock or WallClock())
-    link = _open_link(choice()) if _is_real(world.clock) else None
+    link = _open_link(choice())[0] if _is_real(world.clock) else None
     alive = lived(world, link, "source")
     return Session(world, True, "an empty world", alive, link=link)
 
@@ -120,63 +191,29 @@ def _refuse_to_join(source: str | None, chosen: Choice) -> None:
         raise UsageError(f"'{source}' is always hosted: leave out --join, or the name.")
 
 
-def _look_around(
-    source: str | None, needs_turtles: bool, cache_time: Duration | None
-) -> tuple[Session | None, "Link | None"]:
-    """Join what runs here; else give the link by which a host lets others in."""
-    chosen = choice()
-    _refuse_to_join(source, chosen)
-    link = _open_link(chosen)
-    if link is None:
-        return None, None
-    there = link.graph.has_sources
-    if source is None and chosen.mode is not Mode.HOST:
-        # Who names the other end means what is there, or comes there; nobody wants turtles
-        # of his own among a robot's frames.
-        if chosen.connect or (there and (not needs_turtles or _has_host(link))):
-            world = World(WallClock(), cache_time=cache_time or CACHE_TIME)
-            name = _name_of(link)
-            notice(f"Joined {name}.")
-            return Session(world, False, name, lived(world, link, "guest"), link=link), None
-        if chosen.mode is Mode.JOIN or chosen.read_only:
-            link.close()
-            what = "session with turtles" if there else "session"
-            raise LinkError(
-                f"No {what} is running in domain {chosen.domain}: start one with 'tftool demo', "
-                "or leave out the option to host one here."
-            )
-    elif _has_host(link):
-        link.close()
-        notice(
-            f"A session is running here, {_name_of(link)}; this world keeps to itself "
-            "(--domain N would give it a session of its own)."
-        )
-        return None, None
-    return None, link
-
-
-def _hosted(
-    source: str | None,
-    clock: Clock | None,
-    head_start: Duration,
-    cache_time: Duration | None,
-    without: Callable[["NodeEntry"], bool] | None,
-    link: "Link | None",
-    at_a_moment: bool,
-) -> Session:
+def _chosen(source: str | None, *, at_a_moment: bool) -> "Scenario":
+    """The scenario to host; said on stderr where none was named."""
     from tftool.scenario.builtin import find
     from tftool.scenario.load import load
-    from tftool.scenario.play import build
 
-    scenario = _lived_in(load(find(source or HOME)), cache_time, without)
+    scenario = load(find(source or HOME))
     if source is None:
         why = "A chosen moment is always simulated" if at_a_moment else "No session is running here"
         notice(f"{why}: hosting scenario '{HOME}'.")
+    return scenario
+
+
+def _hosted(
+    scenario: "Scenario", clock: Clock | None, head_start: Duration, link: "Link | None"
+) -> Session:
+    """Host a world to look at: nobody judges what happens in it."""
+    from tftool.scenario.play import build
+
     if clock is None:
         clock = WallClock(head_start=head_start)
     else:
         head_start = 0
-    play = build(scenario, clock)
+    play = build(replace(scenario, expect=()), clock)
 
     async def alive(until: Stamp | None) -> None:
         with shared(link, play.world):
@@ -187,31 +224,22 @@ def _hosted(
     return Session(play.world, True, name, alive, head_start, scenario.duration, link)
 
 
-def host_link(source: str) -> "Link | None":
-    """The link by which the host of `source` lets others in; None when it keeps to itself.
-
-    Raises:
-        LinkError: If a link was asked for and cannot be opened.
-        UsageError: If it was told to join: what is named is hosted.
-    """
-    return _look_around(source, False, None)[1]
-
-
-def _open_link(chosen: Choice) -> "Link | None":
+def _open_link(chosen: Choice) -> tuple["Link | None", str]:
     """Open the link; a place that has none can still host, and says why it is alone.
 
     Raises:
         LinkError: If something was asked for that only a link can give.
     """
     if not _is_real(WallClock()):
-        return None
+        return None, ""
     try:
-        return open_link()
+        return open_link(), ""
     except LinkError as error:
         if chosen.is_asked_for:
             raise
-        notice(f"Nobody can join this world: {visible(str(error))}.")
-        return None
+        alone = f"Nobody can join this world: {visible(str(error))}."
+        notice(alone)
+        return None, alone
 
 
 def _somebody_is_here(chosen: Choice) -> bool:
@@ -248,11 +276,9 @@ def _name_of(link: "Link") -> str:
     return f"what is at {visible(', '.join(choice().connect))}, which is nobody yet"
 
 
-def _lived_in(
-    scenario: "Scenario", cache_time: Duration | None, without: Callable[["NodeEntry"], bool] | None
-) -> "Scenario":
-    """The scenario as a world to look at: nobody judges what happens in it."""
-    nodes = scenario.nodes
-    if without is not None:
-        nodes = tuple(node for node in nodes if not without(node))
-    return replace(scenario, nodes=nodes, expect=(), cache_time=cache_time or scenario.cache_time)
+def left_to_a_person(scenario: "Scenario") -> "Scenario":
+    """The scenario without what somebody at the keys does better, and without a judge."""
+    from tftool.scenario.actions import Drive, Press
+
+    script = tuple(step for step in scenario.script if not isinstance(step.action, Drive | Press))
+    return replace(scenario, script=script, expect=())

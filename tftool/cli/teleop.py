@@ -50,7 +50,7 @@ def teleop(
 
     from tftool.screens.setting import Setting
 
-    session = open_session(needs_turtles=True)
+    session = open_session(needs_turtles=True, by_hand=True)
     driver = driver_of(session.world, turtle)
     # Said before the screen is taken, so that it can be read after it is given back too.
     sys.stdout.write("\n".join(BANNER) + "\n")
