@@ -50,18 +50,19 @@ def test_conditions_and_arguments_mean_the_same_in_each_language(ending):
 
 
 @pytest.mark.parametrize(
-    ("cmd", "written"),
+    ("cmd", "shell", "written"),
     [
-        ("printf [%s] 'one two' three", "[one two][three]"),
-        ("printf [%s]  a$(var b)c $(var b)  'd'e ''", "[ax yc][x y][de][]"),
-        ("$(var p) [%s] a", "[a]"),
+        ("printf [%s] 'one two' three", "false", "[one two][three]"),
+        ("printf [%s]  a$(var b)c $(var b)  'd'e ''", "false", "[ax yc][x y][de][]"),
+        ("$(var p) [%s] a", "false", "[a]"),
+        ("printf [%s] 'one two' $(var b)", "true", "[one two][x][y]"),
     ],
 )
-def test_a_command_line_is_parted_as_a_shell_does(tmp_path, cmd, written):
+def test_a_command_line_is_parted_as_a_shell_does(tmp_path, cmd, shell, written):
     file = tmp_path / "a.launch.xml"
     file.write_text(
         '<launch><let name="b" value="x y"/><let name="p" value="printf"/>'
-        f'<executable name="it" cmd="{cmd}"/></launch>'
+        f'<executable name="it" cmd="{cmd}" shell="{shell}"/></launch>'
     )
 
     assert launch(file, seconds=1).said("it-1")[1] == written

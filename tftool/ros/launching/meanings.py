@@ -184,10 +184,12 @@ def _group(element: Element) -> Any:
 
 
 def _executable(element: Element) -> Any:
+    shell, text = _flag(element, "shell", "false"), element.need("cmd")
     return processes.ExecuteProcess(
-        cmd=_words(element.need("cmd"), element),
+        # A shell reads its quotes itself.
+        cmd=[parsed(text, element.where)] if shell else _words(text, element),
         name=_optional(element, "name"),
-        shell=_flag(element, "shell", "false"),
+        shell=shell,
         **_startable(element),
     )
 
