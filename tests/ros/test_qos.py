@@ -92,6 +92,26 @@ def test_one_that_fits_is_heard_beside_one_that_does_not(node):
     assert heard == ["sure"]
 
 
+def test_the_best_that_is_available_fits_whatever_the_other_end_says(node, ros_runtime):
+    from rclpy.qos import DurabilityPolicy, QoSProfile, ReliabilityPolicy
+    from std_msgs.msg import String
+
+    best = QoSProfile(
+        depth=5,
+        reliability=ReliabilityPolicy.BEST_AVAILABLE,
+        durability=DurabilityPolicy.BEST_AVAILABLE,
+    )
+    easy, strict = [], []
+    node.create_subscription(String, "any", lambda m: easy.append(m.data), best)
+    node.create_publisher(String, "any", profile(lossy=True)).publish(String(data="lossy"))
+    node.create_publisher(String, "all", best).publish(String(data="kept"))
+    node.create_subscription(String, "all", lambda m: strict.append(m.data), profile(latched=True))
+    spin(node)
+
+    assert (easy, strict) == (["lossy"], ["kept"])
+    assert not any("incompatible QoS" in text for text in ros_runtime.log())
+
+
 def test_who_comes_late_gets_as_many_as_were_kept_and_nothing_of_who_has_left(node):
     from std_msgs.msg import String
 

@@ -139,12 +139,21 @@ class QoSProfile:
         return f"QoSProfile({', '.join(f'{key}={value}' for key, value in vars(self).items())})"
 
 
-def quality_of(profile: QoSProfile) -> Quality:
-    """What of a profile decides who hears whom, and what is kept."""
+def quality_of(profile: QoSProfile, *, offered: bool) -> Quality:
+    """What of a profile decides who hears whom, and what is kept.
+
+    Args:
+        profile: The profile.
+        offered: Whether it is a publisher's. The best that is available is then the best
+            there is; of a subscription it is whatever it can get.
+    """
+    reliability, durability = profile.reliability, profile.durability
+    asks_little = reliability is ReliabilityPolicy.BEST_AVAILABLE and not offered
+    keeps = durability is DurabilityPolicy.BEST_AVAILABLE and offered
     return Quality(
         profile.depth,
-        is_reliable=profile.reliability is not ReliabilityPolicy.BEST_EFFORT,
-        is_latched=profile.durability is DurabilityPolicy.TRANSIENT_LOCAL,
+        is_reliable=reliability is not ReliabilityPolicy.BEST_EFFORT and not asks_little,
+        is_latched=durability is DurabilityPolicy.TRANSIENT_LOCAL or keeps,
         keeps_all=profile.history is HistoryPolicy.KEEP_ALL,
     )
 

@@ -29,7 +29,7 @@ class Publisher(Entity):
         self.full = full
         self._converter = values.converter(kind, full)
         self._topic = member.world.topic(full, self._converter.kind)
-        quality = quality_of(profile)
+        quality = quality_of(profile, offered=True)
         self._withdrawn = False
         latched = quality.is_latched and full not in values.TF_TOPICS
         self._endpoint = Endpoint(
@@ -123,7 +123,7 @@ class Subscription(Entity):
         keeps_all = profile.history is HistoryPolicy.KEEP_ALL
         self._queue: deque[Any] = deque(maxlen=None if keeps_all else max(1, profile.depth))
         self._takes_info = _takes_two(callback)
-        self._quality = quality_of(profile)
+        self._quality = quality_of(profile, offered=False)
         # What other processes send, and sent before, comes to a latched one by itself.
         self._is_fed = self._quality.is_latched and full not in values.TF_TOPICS
         self._topic = member.world.topic(full, self._converter.kind)
