@@ -6,14 +6,6 @@ from tftool.messages import KeyPress
 from tftool.nodes.turtlesim import Turtlesim
 
 
-@pytest.fixture
-def node(ros_runtime):
-    import rclpy
-
-    rclpy.init()
-    return rclpy.create_node("probe")
-
-
 def test_every_node_is_named_with_its_place(node, ros_runtime):
     import rclpy
 
@@ -118,3 +110,22 @@ def test_one_message_can_be_waited_for_inside_a_callback(node):
         rclpy.spin_once(node)
 
     assert found == [(True, Int32(data=7))]
+
+
+def test_the_graph_can_be_asked(node):
+    from std_msgs.msg import Int32
+
+    node.create_publisher(Int32, "numbers", 1)
+    node.create_subscription(Int32, "numbers", print, 1)
+
+    assert ("/numbers", ["std_msgs/msg/Int32"]) in node.get_topic_names_and_types()
+    assert ("/tf", ["tf2_msgs/msg/TFMessage"]) in node.get_topic_names_and_types()
+    assert node.count_publishers("numbers") == node.count_subscribers("numbers") == 1
+    assert node.count_subscribers("nothing") == 0
+    assert "/probe/set_parameters" in dict(node.get_service_names_and_types())
+    assert [one.topic_name for one in node.publishers] == ["/numbers"]
+    assert [one.topic_name for one in node.subscriptions] == ["/numbers"]
+    assert list(node.clients) == []
+    assert len(list(node.services)) == 6
+    assert node.wait_for_node("/probe", 1.0)
+    assert not node.wait_for_node("/nobody", 0.5)

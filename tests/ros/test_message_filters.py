@@ -2,14 +2,6 @@ import pytest
 
 
 @pytest.fixture
-def node(ros_runtime):
-    import rclpy
-
-    rclpy.init()
-    return rclpy.create_node("sync")
-
-
-@pytest.fixture
 def filters(node):
     from geometry_msgs.msg import PointStamped
     from message_filters import Subscriber

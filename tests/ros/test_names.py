@@ -154,3 +154,38 @@ def test_a_parameter_file_is_read_like_a_single_value(tmp_path):
         ("a", "at", "12:30"),
         ("a", "far", 1000.0),
     ]
+
+
+def test_names_can_be_asked_for_as_in_rclpy(ros_runtime):
+    from rclpy.exceptions import (
+        InvalidNamespaceException,
+        InvalidNodeNameException,
+        InvalidParameterException,
+        InvalidServiceNameException,
+        InvalidTopicNameException,
+    )
+    from rclpy.expand_topic_name import expand_topic_name
+    from rclpy.validate_full_topic_name import validate_full_topic_name
+    from rclpy.validate_namespace import validate_namespace
+    from rclpy.validate_node_name import validate_node_name
+    from rclpy.validate_parameter_name import validate_parameter_name
+    from rclpy.validate_topic_name import validate_topic_name
+
+    assert validate_node_name("robot")
+    assert validate_namespace("/hall")
+    assert validate_topic_name("~/scan")
+    assert validate_full_topic_name("/hall/scan")
+    assert validate_parameter_name("arm.length")
+    assert expand_topic_name("~/scan", "robot", "/hall") == "/hall/robot/scan"
+    for refusal, ask in (
+        (InvalidNodeNameException, lambda: validate_node_name("my robot")),
+        (InvalidNamespaceException, lambda: validate_namespace("hall")),
+        (InvalidTopicNameException, lambda: validate_topic_name("a//b")),
+        (InvalidServiceNameException, lambda: validate_topic_name("a b", is_service=True)),
+        (InvalidTopicNameException, lambda: validate_full_topic_name("scan")),
+        (InvalidServiceNameException, lambda: validate_full_topic_name("/", is_service=True)),
+        (InvalidParameterException, lambda: validate_parameter_name("")),
+        (InvalidNodeNameException, lambda: expand_topic_name("scan", "", "/")),
+    ):
+        with pytest.raises(refusal):
+            ask()

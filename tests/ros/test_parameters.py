@@ -1,14 +1,6 @@
 import pytest
 
 
-@pytest.fixture
-def node(ros_runtime):
-    import rclpy
-
-    rclpy.init()
-    return rclpy.create_node("probe")
-
-
 def test_parameters_are_declared_with_types_and_read_back(node):
     from rclpy.parameter import Parameter, parameter_value_to_python
 

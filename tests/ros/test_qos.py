@@ -3,14 +3,6 @@
 import pytest
 
 
-@pytest.fixture
-def node(ros_runtime):
-    import rclpy
-
-    rclpy.init()
-    return rclpy.create_node("probe")
-
-
 def profile(**settings):
     from rclpy.qos import DurabilityPolicy, QoSProfile, ReliabilityPolicy
 
@@ -152,3 +144,38 @@ def test_a_question_of_another_type_than_the_service_is_refused(node):
 
     with pytest.raises(Exception, match="is of type std_srvs/srv/Trigger, the question of type"):
         asked.result()
+
+
+def test_a_profile_says_enough_or_is_refused(ros_runtime):
+    from rclpy.qos import (
+        HistoryPolicy,
+        InvalidQoSProfileException,
+        QoSPresetProfiles,
+        QoSProfile,
+        ReliabilityPolicy,
+        qos_profile_sensor_data,
+    )
+
+    assert QoSPresetProfiles.get_from_short_key("sensor_data") is qos_profile_sensor_data or (
+        QoSPresetProfiles.get_from_short_key("sensor_data").value == qos_profile_sensor_data
+    )
+    assert ReliabilityPolicy.get_from_short_key("best_effort") == ReliabilityPolicy.BEST_EFFORT
+    assert ReliabilityPolicy.RELIABLE.short_key == "reliable"
+    assert "keep_last" in HistoryPolicy.short_keys()
+    assert QoSProfile(depth=3) == QoSProfile(depth=3)
+    assert "depth=3" in repr(QoSProfile(depth=3))
+    with pytest.raises(InvalidQoSProfileException, match="required"):
+        QoSProfile()
+    with pytest.raises(InvalidQoSProfileException, match="without a depth"):
+        QoSProfile(history=HistoryPolicy.KEEP_LAST)
+    with pytest.raises(TypeError, match="no setting 'size'"):
+        QoSProfile(size=3)
+    with pytest.raises(ValueError, match="depth"):
+        QoSProfile(depth=-1)
+
+
+def test_a_depth_must_be_a_number(node):
+    from std_msgs.msg import String
+
+    with pytest.raises(TypeError, match="Expected QoSProfile or int"):
+        node.create_publisher(String, "a", "10")

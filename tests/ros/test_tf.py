@@ -7,14 +7,6 @@ from tftool.geometry.rigid import Transform
 from tftool.stamps import seconds
 
 
-@pytest.fixture
-def node(ros_runtime):
-    import rclpy
-
-    rclpy.init()
-    return rclpy.create_node("probe")
-
-
 def transform(parent, child, stamp=None, xyz=(0.0, 0.0, 0.0), xyzw=(0.0, 0.0, 0.0, 1.0)):
     from geometry_msgs.msg import TransformStamped
 

@@ -1,0 +1,9 @@
+"""Serving nodes in tests."""
+
+
+def spin(node, seconds):
+    """Serve a node for so many seconds."""
+    import rclpy
+    from rclpy.task import Future
+
+    rclpy.spin_until_future_complete(node, Future(), timeout_sec=seconds)

@@ -1,0 +1,195 @@
+"""Executors, tasks, futures and coroutines."""
+
+import pytest
+
+from tests.ros.spinning import spin
+
+
+def test_a_coroutine_callback_may_await_an_answer(node):
+    import rclpy
+    from std_srvs.srv import Trigger
+
+    rclpy.get_global_executor().add_node(server := rclpy.create_node("server"))
+    server.create_service(
+        Trigger, "go", lambda request, response: Trigger.Response(success=True, message="went")
+    )
+    client = node.create_client(Trigger, "go")
+    heard = []
+
+    async def ask():
+        answer = await client.call_async(Trigger.Request())
+        heard.append(answer.message)
+
+    timer = node.create_timer(0.5, ask)
+    spin(node, 0.7)
+    timer.cancel()
+
+    assert heard == ["went"]
+
+
+def test_a_task_runs_on_the_executor_and_keeps_its_result(node):
+    import rclpy
+
+    executor = rclpy.get_global_executor()
+    executor.add_node(node)
+
+    async def work(number):
+        return number * 2
+
+    task = executor.create_task(work, 21)
+    plain = executor.create_task(lambda: "done")
+    executor.spin_until_future_complete(task, timeout_sec=1.0)
+    executor.spin_once_until_future_complete(plain, timeout_sec=1.0)
+
+    assert task.result() == 42
+    assert plain.result() == "done"
+    broken = executor.create_task(lambda: 1 / 0)
+    with pytest.raises(ZeroDivisionError):
+        executor.spin_until_future_complete(broken)
+
+
+def test_a_future_tells_and_can_be_given_up():
+    from tftool.ros.client.futures import Future
+
+    told = []
+    future = Future()
+    future.add_done_callback(told.append)
+    assert future.remove_done_callback(told.append)
+    future.add_done_callback(lambda one: told.append(one.result()))
+    future.set_result(3)
+    future.add_done_callback(lambda one: told.append("late"))
+    refused = Future()
+    refused.set_exception(ValueError("no"))
+    given_up = Future()
+    given_up.cancel()
+
+    assert told == [3, "late"]
+    assert isinstance(refused.exception(), ValueError)
+    with pytest.raises(ValueError, match="no"):
+        refused.result()
+    assert given_up.cancelled()
+
+
+def test_a_guard_condition_calls_back_once(node):
+    called = []
+    guard = node.create_guard_condition(lambda: called.append(1))
+    guard.trigger()
+    guard.trigger()
+    spin(node, 0.1)
+
+    assert called == [1]
+
+
+def test_a_multi_threaded_executor_lets_other_callbacks_through_while_one_blocks(ros_runtime):
+    import rclpy
+    from rclpy.callback_groups import MutuallyExclusiveCallbackGroup, ReentrantCallbackGroup
+    from rclpy.executors import MultiThreadedExecutor
+
+    def main():
+        rclpy.init()
+        node = rclpy.create_node("busy")
+        trace = ros_runtime.trace = []
+
+        def slow():
+            trace.append(("slow", ros_runtime.elapsed()))
+            node.get_clock().sleep_for(rclpy.duration.Duration(seconds=1.2))
+
+        def quick():
+            trace.append(("quick", ros_runtime.elapsed()))
+
+        node.create_timer(0.5, slow, callback_group=MutuallyExclusiveCallbackGroup())
+        node.create_timer(0.4, quick, callback_group=ReentrantCallbackGroup())
+        executor = MultiThreadedExecutor(num_threads=2)
+        executor.add_node(node)
+        executor.spin()
+
+    ros_runtime.start(main)
+    ros_runtime.sleep(2.0)
+
+    assert ros_runtime.trace == [
+        ("quick", 0.4),
+        ("slow", 0.5),
+        ("quick", 0.8),
+        ("quick", 1.2),
+        ("quick", 1.6),
+        ("slow", 1.7),
+        ("quick", 2.0),
+    ]
+
+
+def test_a_failing_callback_of_a_multi_threaded_executor_fails_its_program():
+    from tftool.errors import NodeFailed
+    from tftool.ros.testing import RosRuntime
+
+    def main():
+        import rclpy
+
+        rclpy.init()
+        node = rclpy.create_node("broken")
+        node.create_timer(0.5, lambda: 1 / 0)
+        executor = rclpy.executors.MultiThreadedExecutor()
+        executor.add_node(node)
+        executor.spin()
+
+    def test():
+        with RosRuntime() as runtime:
+            runtime.start(main)
+            with pytest.raises(Exception, match="ended"):
+                runtime.sleep(1)
+
+    with pytest.raises(NodeFailed, match="ZeroDivisionError"):
+        test()
+
+
+def test_an_executor_can_be_shut_down(node):
+    from rclpy.executors import ShutdownException, SingleThreadedExecutor
+
+    with SingleThreadedExecutor() as executor:
+        assert executor.add_node(node)
+        assert not executor.add_node(node)
+        assert executor.get_nodes() == [node]
+    assert executor.get_nodes() == []
+    with pytest.raises(ShutdownException):
+        executor.spin_once(timeout_sec=0.0)
+
+
+def test_a_loop_that_only_polls_sees_time_pass(node, ros_runtime):
+    import rclpy
+
+    fired = []
+    node.create_timer(0.05, lambda: fired.append(1))
+    while not fired:
+        rclpy.spin_once(node, timeout_sec=0)
+    end = node.get_clock().now() + rclpy.duration.Duration(seconds=0.01)
+    while node.get_clock().now() < end:
+        pass
+
+    assert ros_runtime.elapsed() < 0.2
+
+
+def test_a_task_can_be_given_up(ros_runtime):
+    from tftool.ros.client.futures import Future, Task
+
+    waited = Future()
+
+    async def wait():
+        await waited
+
+    task = Task(wait)
+    assert task() is waited
+    task.cancel()
+    assert task.cancelled()
+    assert task() is None
+
+
+def test_a_node_may_be_given_an_executor_or_taken_from_it(node):
+    from rclpy.executors import SingleThreadedExecutor
+
+    first, second = SingleThreadedExecutor(), SingleThreadedExecutor()
+    node.executor = first
+    assert (first.get_nodes(), node.executor) == ([node], first)
+    node.executor = first
+    node.executor = second
+    assert (first.get_nodes(), second.get_nodes()) == ([], [node])
+    node.executor = None
+    assert (second.get_nodes(), node.executor) == ([], None)

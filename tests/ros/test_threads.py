@@ -1,0 +1,122 @@
+"""Threads of the user's own."""
+
+import pytest
+
+
+def test_a_nodes_own_thread_takes_turns_too(ros_runtime, tmp_path):
+    file = tmp_path / "threaded.py"
+    file.write_text(
+        """
+import threading
+import time
+
+import rclpy
+from std_msgs.msg import Float64
+
+rclpy.init()
+node = rclpy.create_node('threaded')
+thread = threading.Thread(target=rclpy.spin, args=(node,), daemon=True)
+thread.start()
+out = node.create_publisher(Float64, 'times', 10)
+begin = time.time()
+for _ in range(3):
+    time.sleep(0.5)
+    out.publish(Float64(data=time.time() - begin))
+node.create_timer(0.25, rclpy.shutdown)
+thread.join()
+out.publish(Float64(data=time.monotonic()))
+assert not thread.is_alive()
+"""
+    )
+    from std_msgs.msg import Float64
+
+    heard = []
+    ros_runtime.world.topic("times", Float64).subscribe(lambda m: heard.append(m.data))
+    program = ros_runtime.start(file)
+    ros_runtime.sleep(5)
+
+    assert heard[:3] == [0.5, 1.0, 1.5]
+    assert heard[3] == pytest.approx(1.75, abs=0.002)
+    assert program.status == 0
+
+
+def test_what_a_thread_raises_is_said_and_ends_it_alone(ros_runtime, tmp_path):
+    file = tmp_path / "threaded.py"
+    file.write_text(
+        "import threading\n"
+        "def work():\n"
+        "    raise ValueError('too far')\n"
+        "thread = threading.Thread(target=work, name='worker')\n"
+        "thread.start()\n"
+        "thread.join()\n"
+    )
+    program = ros_runtime.start(file)
+    ros_runtime.sleep(1)
+
+    (said,) = ros_runtime.log(program.name)
+    assert said.startswith("thread 'worker' failed: ValueError: too far\n")
+    assert "threaded.py:3, in work: raise ValueError('too far')" in said
+    assert program.status == 0
+
+
+def test_an_event_lets_a_callback_wait_for_an_answer_in_another_thread(ros_runtime, tmp_path):
+    file = tmp_path / "waiter.py"
+    file.write_text(
+        """
+from threading import Event
+
+import rclpy
+from rclpy.callback_groups import ReentrantCallbackGroup
+from rclpy.executors import MultiThreadedExecutor
+from std_srvs.srv import Trigger
+
+rclpy.init()
+node = rclpy.create_node('waiter')
+group = ReentrantCallbackGroup()
+
+
+def answer(request, response):
+    response.message = 'here'
+    return response
+
+
+node.create_service(Trigger, 'go', answer, callback_group=group)
+client = node.create_client(Trigger, 'go', callback_group=group)
+
+
+def ask():
+    timer.cancel()
+    event = Event()
+    future = client.call_async(Trigger.Request())
+    future.add_done_callback(lambda _: event.set())
+    assert not event.is_set()
+    event.wait(5.0)
+    node.get_logger().info(future.result().message)
+    event.clear()
+    node.get_logger().info(str(event.wait(timeout=1.0)))
+
+
+timer = node.create_timer(0.5, ask, callback_group=group)
+executor = MultiThreadedExecutor()
+executor.add_node(node)
+executor.spin()
+"""
+    )
+    ros_runtime.start(file)
+    ros_runtime.sleep(3)
+
+    assert ros_runtime.log("waiter") == ["here", "False"]
+
+
+def test_a_pool_may_ask_and_log_but_not_wait_on_simulated_time(node, ros_runtime):
+    from concurrent.futures import ThreadPoolExecutor
+
+    from tftool.errors import TftoolError
+
+    with ThreadPoolExecutor() as pool:
+        assert pool.submit(node.get_topic_names_and_types).result()
+        pool.submit(node.get_logger().info, "from the pool").result()
+        with pytest.raises(TftoolError, match="thread of a pool cannot wait"):
+            pool.submit(node.wait_for_node, "probe", 1.0).result()
+
+    assert ros_runtime.log("probe") == ["from the pool"]

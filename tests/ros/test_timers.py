@@ -1,0 +1,75 @@
+"""Timers and rates."""
+
+import pytest
+
+from tests.ros.spinning import spin
+
+
+def test_a_timer_can_be_stopped_started_and_asked(node, ros_runtime):
+    fired = []
+    timer = node.create_timer(1.0, lambda: fired.append(ros_runtime.elapsed()))
+    spin(node, 2.5)
+    assert timer.time_until_next_call() == 500_000_000
+    assert timer.time_since_last_call() == 500_000_000
+    timer.cancel()
+    assert timer.is_canceled()
+    spin(node, 2.0)
+    timer.reset()
+    spin(node, 1.5)
+    timer.timer_period_ns = 250_000_000
+    spin(node, 1.0)
+
+    assert fired == [1.0, 2.0, 5.5, 6.5, 6.75, 7.0]
+    assert node.destroy_timer(timer)
+
+
+def test_a_late_timer_skips_what_it_missed_and_stays_on_its_grid(node, ros_runtime):
+    fired = []
+
+    def slow():
+        fired.append(ros_runtime.elapsed())
+        if len(fired) == 1:
+            ros_runtime.sleep(2.3)
+
+    node.create_timer(1.0, slow)
+    spin(node, 6.0)
+
+    assert fired == [1.0, 3.3, 4.0, 5.0, 6.0]
+
+
+def test_a_timer_tells_when_it_was_due(node):
+    infos = []
+    node.create_timer(0.5, lambda info: infos.append(info))
+    spin(node, 0.5)
+
+    assert infos[0].expected_call_time == infos[0].actual_call_time
+
+
+def test_what_never_waits_cannot_hold_simulated_time_still(node, ros_runtime):
+    from std_msgs.msg import Int32
+
+    fast = []
+    timer = node.create_timer(0, lambda: fast.append(1))
+    spin(node, 0.5)
+    timer.cancel()
+    assert len(fast) == pytest.approx(500, abs=2)
+
+    sender = node.create_publisher(Int32, "numbers", 10)
+    while ros_runtime.elapsed() < 0.502:
+        sender.publish(Int32())
+
+    node.create_subscription(Int32, "numbers", sender.publish, 10)
+    sender.publish(Int32())
+    spin(node, 0.002)
+    assert ros_runtime.elapsed() == pytest.approx(0.504, abs=0.002)
+
+
+def test_a_rate_paces_a_loop(node, ros_runtime):
+    rate = node.create_rate(4)
+    for _ in range(8):
+        rate.sleep()
+
+    assert ros_runtime.elapsed() == 2.0
+    rate.destroy()
+    with pytest.raises(Exception, match="shutdown"):
+        rate.sleep()
