@@ -62,6 +62,16 @@ def test_stamps_a_nanosecond_apart_and_centuries_apart_agree():
     assert_agrees(buffer, np.array([1, 2, 3, 4, 2**39, 2**61, 2**62 - 1, 2**62, 2**62 + 1, 2]))
 
 
+@pytest.mark.parametrize("seconds_of", [(1, 1, 2), (1, 2, 2), (1, 1, 2, 2), (1, 1), (1, 1, 1, 3)])
+def test_of_equal_stamps_that_sample_answers_which_answers_a_single_lookup(seconds_of):
+    buffer = Buffer()
+    for x, second in enumerate(seconds_of):
+        pose = Transform((float(x), 0.0, 0.0))
+        buffer.set_transform(TransformStamped(seconds(second), "world", "turtle1", pose))
+
+    assert_agrees(buffer, np.array([2, 3, 4, 6, 2, 1]) * 500_000_000)
+
+
 def test_nought_is_the_latest_even_where_the_data_reaches_back_before_it():
     buffer = turning(Buffer(seconds(1000)), np.array([-1000, -10, 1000]))
 
@@ -149,7 +159,7 @@ def test_links_that_turn_little_and_much_and_not_at_all_are_chained_together():
             assert buffer.set_transforms(*link, np.arange(1, 21) * 1000, places, rotations)
     times = np.random.default_rng(3).integers(1000, 20_000, 300, endpoint=True)
 
-    for target, source in (("f0", "f14"), ("f14", "f0"), ("f6", "f12"), ("f4", "f1")):
+    for target, source in (("f0", "f14"), ("f14", "f0"), ("f6", "f12"), ("f3", "f1")):
         for asked in (times, np.sort(times)):
             rows = one_by_one(
                 lambda time, pair=(target, source): buffer.lookup_transform(*pair, time),
