@@ -79,6 +79,15 @@ def test_a_static_frame_from_the_command_line_is_there_for_all(launched):
         assert static.interrupt() == 130
 
 
+def test_a_launch_file_that_cannot_be_read_leaves_the_session_at_once(launched, tmp_path):
+    file = tmp_path / "bad.launch.py"
+    file.write_text("from launch import Nope\n")
+    done = run("launch", file)
+
+    assert done.returncode == 3
+    assert "'Nope' of launch is not covered" in done.stderr
+
+
 def test_an_action_client_of_another_process_turns_the_turtle(launched):
     done = run("run", "pkg_tf", "rotate", "0.7854", cwd=TUTORIAL)
 

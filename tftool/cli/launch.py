@@ -78,7 +78,11 @@ def launch(
             line = f"[{level}] [{who}]: {text}" if level else f"[{who}] {text}"
             notice(visible_lines(line))
 
-        started = hosting.Launch(world, path, workspace=workspace, arguments=arguments, say=say)
+        try:
+            started = hosting.Launch(world, path, workspace=workspace, arguments=arguments, say=say)
+        except BaseException:
+            session.abandon()
+            raise
 
         def tell(record: "LogRecord") -> None:
             # What the link has to say the session tells.

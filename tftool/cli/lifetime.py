@@ -45,6 +45,11 @@ class Session:
         """How many of the other processes have left by now that transforms came from."""
         return 0 if self.link is None else self.link.departures
 
+    def abandon(self) -> None:
+        """Let go of the other processes, where nothing comes of a session that was opened."""
+        if self.link is not None:
+            self.link.close()
+
     def run(self, work: Coroutine[Any, Any, T]) -> T:
         """Do some work while the world lives, on the world's clock.
 
