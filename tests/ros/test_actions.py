@@ -153,3 +153,33 @@ def test_an_answer_that_is_no_result_is_said_and_replaced(tmp_path):
         assert list(client.send_goal(order(1)).result.sequence) == []
 
         assert "must return Fibonacci.Result, not int" in runtime.log("fibonacci_server")[0]
+
+
+def test_a_server_is_asked_to_cancel_once_each_time_a_client_asks(ros_runtime):
+    import rclpy
+    from action_tutorials_interfaces.action import Fibonacci
+    from rclpy.action import ActionClient, ActionServer, CancelResponse
+    from rclpy.task import Future
+
+    rclpy.init()
+    node = rclpy.create_node("both")
+    asked, end = [], Future()
+
+    async def work(handle):
+        await end
+        handle.succeed()
+        return Fibonacci.Result()
+
+    def on_cancel(handle):
+        asked.append(handle)
+        return CancelResponse.REJECT
+
+    ActionServer(node, Fibonacci, "fib", work, cancel_callback=on_cancel)
+    client = ActionClient(node, Fibonacci, "fib")
+    handle = finish(client, client.send_goal_async(order(1)))
+    for count in (1, 2):
+        finish(client, handle.cancel_goal_async())
+        rclpy.spin_until_future_complete(node, Future(), timeout_sec=0.5)
+        assert len(asked) == count
+    end.set_result(None)
+    assert finish(client, handle.get_result_async()).status == 4

@@ -180,10 +180,11 @@ class ActionClient(Asker):
         def ask() -> None:
             going = goal is not None and not goal.done
             if goal is not None:
+                again = goal.cancel_requested
                 goal.cancel()
-                changed = getattr(goal, "on_cancel", None)
-                if changed is not None and going:
-                    changed()
+                # A goal tells its server once, but a server that refused may be asked anew.
+                if again and going and goal.on_cancel is not None:
+                    goal.on_cancel()
             info: Any = INTERFACES.message("action_msgs/GoalInfo")(goal_id=handle.goal_id)
             self.put(lambda: future.set_result(_Cancelled([info] if going else [])))
 
