@@ -183,3 +183,37 @@ def test_a_server_is_asked_to_cancel_once_each_time_a_client_asks(ros_runtime):
         assert len(asked) == count
     end.set_result(None)
     assert finish(client, handle.get_result_async()).status == 4
+
+
+def test_a_servers_callbacks_may_be_coroutines_and_a_failing_one_ends_its_goal_alone(ros_runtime):
+    import rclpy
+    from action_tutorials_interfaces.action import Fibonacci
+    from rclpy.action import ActionClient, ActionServer, GoalResponse
+
+    rclpy.init()
+    node = rclpy.create_node("both")
+
+    async def on_goal(request):
+        return GoalResponse.ACCEPT if request.order < 9 else GoalResponse.REJECT
+
+    async def on_accepted(handle):
+        handle.execute()
+
+    def work(handle):
+        if handle.request.order == 2:
+            raise ValueError("two is one too many")
+        handle.succeed()
+        return Fibonacci.Result()
+
+    ActionServer(
+        node, Fibonacci, "fib", work, goal_callback=on_goal, handle_accepted_callback=on_accepted
+    )
+    client = ActionClient(node, Fibonacci, "fib")
+
+    assert not finish(client, client.send_goal_async(order(9))).accepted
+    assert client.send_goal(order(2)).status == 6
+    assert client.send_goal(order(1)).status == 4
+    error, warning = ros_runtime.log("both")
+    assert "Error raised in execute callback: ValueError: two is one too many" in error
+    assert "test_actions.py" in error
+    assert warning == "Goal state not set, assuming aborted."

@@ -12,6 +12,7 @@ from tftool.ros import values
 from tftool.ros.client.action_goals import STATUS, GoalStatus, new_id
 from tftool.ros.client.entities import Inbox
 from tftool.ros.client.member import member_of
+from tftool.ros.users import sentence_of
 from tftool.runtime.topics import GoalHandle as WorldGoal
 from tftool.runtime.topics import Status
 
@@ -179,8 +180,8 @@ class ActionServer(Inbox):
 
     # On the fiber
 
-    def _consider(self, handle: ServerGoalHandle, goal: WorldGoal) -> None:
-        accepted = self._on_goal(handle.request) == GoalResponse.ACCEPT
+    async def _consider(self, handle: ServerGoalHandle, goal: WorldGoal) -> None:
+        accepted = await _outcome(self._on_goal(handle.request)) == GoalResponse.ACCEPT
 
         def answer() -> None:
             if goal.decided is not None:
@@ -190,10 +191,10 @@ class ActionServer(Inbox):
 
         self.member.program.ask(answer)
         if accepted:
-            self._on_accepted(handle)
+            await _outcome(self._on_accepted(handle))
 
-    def _consider_cancel(self, handle: ServerGoalHandle) -> None:
-        if handle.is_active and self._on_cancel(handle) == CancelResponse.ACCEPT:
+    async def _consider_cancel(self, handle: ServerGoalHandle) -> None:
+        if handle.is_active and await _outcome(self._on_cancel(handle)) == CancelResponse.ACCEPT:
             handle.request_cancel()
 
     def execute(self, handle: ServerGoalHandle, callback: Any = None) -> None:
@@ -201,12 +202,18 @@ class ActionServer(Inbox):
         chosen = callback or self._execute
 
         async def work() -> None:
-            result = chosen(handle)
-            if inspect.isawaitable(result):
-                result = await result
+            logger = self.member.face.get_logger()
+            try:
+                result = await _outcome(chosen(handle))
+            except Exception as error:
+                # As in ROS 2 it ends the goal, and nothing else.
+                logger.error(f"Error raised in execute callback: {sentence_of(error)}")
+                result = self.type_.Result()
+            if handle.is_active:
+                logger.warning("Goal state not set, assuming aborted.")
             if not isinstance(result, self.type_.Result):
                 text = f"an execute_callback must return {self.type_.__name__}.Result"
-                self.member.face.get_logger().warning(f"{text}, not {type(result).__name__}")
+                logger.warning(f"{text}, not {type(result).__name__}")
                 result = self.type_.Result()
             handle.finish(result)
 
@@ -214,3 +221,8 @@ class ActionServer(Inbox):
         if executor is None:
             raise TftoolError("an action is executed by the executor that spins its node")
         executor.create_task(work())
+
+
+async def _outcome(value: Any) -> Any:
+    """What a callback gave; of a coroutine, what that gives."""
+    return await value if inspect.isawaitable(value) else value
