@@ -20,7 +20,7 @@ SWITCH = "TFTOOL_COMPILE"
 
 # What a lookup and an insert run through, below the buffer itself. The buffer and the names
 # stay plain: compiled code refuses a wrong type in its own words, before ours are reached.
-# So does a frame: plain code reads the fields of a plain object in a fifth of the time.
+# So does a frame, whose fields the plain buffer reads: an insert is a tenth quicker for it.
 MODULES = (
     "tftool/frames/chains.py",
     "tftool/frames/forest.py",
