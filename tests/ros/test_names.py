@@ -69,6 +69,12 @@ def test_ros_arguments_are_taken_out_of_a_nodes_own():
     assert options.levels == {"": "DEBUG", "you": "WARN"}
 
 
+@pytest.mark.parametrize("slip", ["--ros-arg", "-ros-args", "--ros_args", "--rosargs"])
+def test_a_slip_in_what_begins_ros_2s_arguments_is_told(slip):
+    with pytest.raises(UsageError, match="did you mean '--ros-args'"):
+        names.parse([slip, "-p", "speed:=2.0"])
+
+
 def test_a_rename_may_hold_for_one_node_alone():
     options, _ = names.parse(["--ros-args", "-r", "one:a:=b"])
 

@@ -188,3 +188,18 @@ def test_a_context_of_ones_own_begins_and_ends(ros_runtime):
     assert not context.ok()
     with rclpy.init(args=["x", "--ros-args", "-p", "n:=3"]):
         assert rclpy.create_node("a").declare_parameter("n", 1).value == 3
+
+
+def test_a_node_that_forgets_its_beginning_is_told_so(node):
+    from rclpy.node import Node
+
+    class Early(Node):
+        def __init__(self):
+            self.create_timer(1.0, print)
+            super().__init__("early")
+
+    with pytest.raises(AttributeError, match=r"super\(\).__init__\('its_name'\) comes before"):
+        Early()
+    with pytest.raises(AttributeError, match=r"'Node' object has no attribute 'spead'$"):
+        _ = node.spead
+    assert not hasattr(node, "spead")

@@ -194,6 +194,8 @@ def parse(argv: Sequence[str]) -> tuple[RosOptions, list[str]]:
         if word == "--ros-args":
             inside = True
         elif not inside:
+            if get_close_matches(word, ["--ros-args"], n=1, cutoff=0.85):
+                raise UsageError(f"'{word}' is unknown; did you mean '--ros-args'?")
             own.append(word)
         elif word == "--":
             inside = False

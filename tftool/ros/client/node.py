@@ -2,7 +2,7 @@
 
 from collections.abc import Callable, Iterator, Sequence
 from functools import partial
-from typing import Any, TypeVar
+from typing import TYPE_CHECKING, Any, TypeVar
 
 from tftool.interfaces.classes import Message
 from tftool.ros import names, program
@@ -75,6 +75,14 @@ class Node(NodeGraph, NodeParameters):
                 # Two nodes of one name: the first answers.
                 if not self._tftool.world.has_service(self._tftool.full(f"~/{below}")):
                     self.create_service(kind, f"~/{below}", answer)
+
+    if not TYPE_CHECKING:  # to a type checker, every name would be one
+
+        def __getattr__(self, name: str) -> Any:
+            sentence = f"'{type(self).__name__}' object has no attribute '{name}'"
+            if "_tftool" not in self.__dict__:
+                sentence += ": super().__init__('its_name') comes before everything else of a node"
+            raise AttributeError(sentence)
 
     # Who it is
 
