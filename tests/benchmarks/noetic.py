@@ -3,6 +3,7 @@
 Needs Debian's libtf2-dev and a C++ compiler; says so where they are missing.
 """
 
+import atexit
 import functools
 import shutil
 import subprocess
@@ -24,7 +25,9 @@ def program() -> Path | str:
         return "no C++ compiler"
     if not Path("/usr/include/tf2/buffer_core.h").exists():
         return "libtf2-dev is not installed"
-    built = Path(tempfile.mkdtemp(prefix="tftool-noetic-")) / "noetic"
+    folder = tempfile.mkdtemp(prefix="tftool-noetic-")
+    atexit.register(shutil.rmtree, folder, ignore_errors=True)
+    built = Path(folder) / "noetic"
     done = subprocess.run(
         [compiler, "-std=c++17", "-O3", "-o", built, SOURCE, "-ltf2", "-lrostime"],
         capture_output=True,
