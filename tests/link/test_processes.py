@@ -91,6 +91,18 @@ def test_session_lists_processes_nodes_topics_rates_and_services():
         assert re.search(rf"tftool echo, process {first.pid}, hosts, since \d\d:\d\d:\d\d", text)
 
 
+def test_session_lists_what_no_topic_can_be_called_and_listens_to_the_rest():
+    with Link(Options("stranger")) as stranger:
+        token = f"@ros2_lv/0/{stranger.wire.zid}/1/2/MP/%/%/node/%a%%b/c::msg::dds_::D_/hash/::"
+        hide = stranger.wire.token(token)
+        stranger.settle()
+        listed = run_here("session", "--for", "0.1")
+        hide()
+
+    assert listed.returncode == 0
+    assert "a//b" in listed.stdout
+
+
 def test_session_says_when_nobody_is_there():
     alone = run_here("session")
 

@@ -53,6 +53,7 @@ def _listened(link: "Link", duration: float) -> dict[str, Any]:
     import asyncio
 
     from tftool.link import keys
+    from tftool.link.session import is_plain
     from tftool.link.transport import Arrived
     from tftool.runtime.clock import WallClock, run
 
@@ -70,8 +71,10 @@ def _listened(link: "Link", duration: float) -> dict[str, Any]:
         for name, ros_type in {
             (one.name, one.ros_type) for one in link.graph.entities(keys.PUBLISHER)
         }:
-            key = keys.any_hash_key(link.options.domain, name, ros_type)
-            link.wire.subscriber(key, count(name))
+            # What a stranger calls otherwise is listed, and cannot be listened to.
+            if is_plain(name) and is_plain(ros_type):
+                key = keys.any_hash_key(link.options.domain, name, ros_type)
+                link.wire.subscriber(key, count(name))
         link.settle()
         await clock.sleep(seconds(duration))
 
