@@ -1,3 +1,6 @@
+import gc
+import weakref
+
 import pytest
 
 from tftool.errors import NodeFailed, TftoolError, UsageError
@@ -200,6 +203,29 @@ def test_a_node_that_leaves_takes_its_subscriptions_and_services_along():
     assert world.topic("pose", Pose2D).subscribers == 0
     assert not world.has_service("spawn")
     assert not world.actions()
+
+
+def test_a_node_that_has_left_is_forgotten():
+    world = World(SimClock())
+    left = []
+
+    def come_and_go():
+        node = Ticker(world, "late")
+        left.append(weakref.ref(node))
+        world.remove(node)
+
+    def look():
+        gc.collect()
+        left.append(left[0]())
+
+    Script(world, "host", seconds(1), come_and_go)
+    Script(world, "looker", seconds(2), look)
+
+    # Without an end: it comes when all are done, those who left as they came as well.
+    lived(world)
+
+    assert left[1] is None
+    assert world.clock.elapsed() == seconds(2)
 
 
 def test_two_nodes_of_one_name_cannot_live_together():

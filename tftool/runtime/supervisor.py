@@ -54,14 +54,17 @@ class _Supervisor(Supervision):
 
     def start(self, resident: Resident) -> None:
         self._nodes.append(resident)
-        self._tasks[resident] = asyncio.get_running_loop().create_task(
-            self._run(resident), name=resident.name
-        )
+        task = asyncio.get_running_loop().create_task(self._run(resident), name=resident.name)
+        self._tasks[resident] = task
+        # Not by a `finally` in it: one that leaves as it comes never gets so far as to begin.
+        task.add_done_callback(lambda _: self._ended(resident))
 
     def end(self, resident: Resident) -> None:
         task = self._tasks.get(resident)
         if task is not None:
             task.cancel()
+        if resident in self._nodes:
+            self._nodes.remove(resident)
         resident.close()
 
     def stop(self) -> None:
@@ -88,8 +91,9 @@ class _Supervisor(Supervision):
             await resident.run()
         except Exception as error:
             self.fail(resident, error)
-        finally:
-            # What it subscribed to goes on: many nodes only listen.
-            self._tasks.pop(resident, None)
-            if not self._tasks and not self._has_end:
-                self.stop()
+
+    def _ended(self, resident: Resident) -> None:
+        # What it subscribed to goes on: many nodes only listen.
+        self._tasks.pop(resident, None)
+        if not self._tasks and not self._has_end:
+            self.stop()
