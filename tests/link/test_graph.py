@@ -57,6 +57,15 @@ def test_a_flood_of_tokens_is_kept_within_bounds(monkeypatch):
     assert len(there.entities()) == 10
 
 
+def test_so_many_other_domains_are_remembered_and_no_more(monkeypatch):
+    monkeypatch.setattr(graph, "MOST_DOMAINS", 3)
+    there = Graph("me", 0)
+    for number in range(1, 10):
+        there.add(Entity(number, "ab", 0, 0, "NN", "far").token())
+
+    assert there.foreign_domains == {1, 2, 3}
+
+
 def test_processes_stand_in_the_order_in_which_they_joined():
     there = Graph("me", 0)
     late = Process(0, "aa", 20, 1, Role.GUEST, "echo")

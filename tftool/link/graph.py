@@ -13,6 +13,9 @@ from tftool.stamps import Stamp
 MOST: Final = 20_000
 """Tokens that are kept; what strangers show on top of that is passed over."""
 
+MOST_DOMAINS: Final = 100
+"""Other domains that are remembered, to say so once of each."""
+
 _PROCESS = re.compile(
     rf"{re.escape(keys.OURS)}/(?P<domain>\d{{1,9}})/(?P<session>[0-9a-f]{{1,32}})/"
     r"(?P<since>\d{1,19})/(?P<pid>\d{1,9})/(?P<role>host|source|guest)/(?P<command>\w{1,64})",
@@ -109,7 +112,8 @@ class Graph:
         if found is None or found.session == self.own:
             return None
         if found.domain != self.domain:
-            self._foreign.add(found.domain)
+            if len(self._foreign) < MOST_DOMAINS:
+                self._foreign.add(found.domain)
             return None
         if isinstance(found, Entity):
             self._entities[token] = found
