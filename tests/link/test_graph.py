@@ -3,6 +3,7 @@
 from tftool.link import graph, keys
 from tftool.link.graph import Graph, Process, Role, parse_process
 from tftool.link.keys import Entity
+from tftool.link.membership import Membership, Options
 
 
 def talker(session="ab", number=1, name="tf"):
@@ -64,6 +65,17 @@ def test_so_many_other_domains_are_remembered_and_no_more(monkeypatch):
         there.add(Entity(number, "ab", 0, 0, "NN", "far").token())
 
     assert there.foreign_domains == {1, 2, 3}
+
+
+def test_a_message_that_names_no_sender_is_the_only_ones_that_publishes_there():
+    there = Graph("me", 0)
+    for number, topic in enumerate(("tf", "tf_static")):
+        there.add(talker(number=number, name=topic).token())
+    membership = Membership(Options(), None, there)
+    nobody = bytes(16)
+
+    assert membership.authority(nobody, "tf") == "node0"
+    assert membership.authority(nobody, "tf_static") == "node1"
 
 
 def test_processes_stand_in_the_order_in_which_they_joined():

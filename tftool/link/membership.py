@@ -59,7 +59,7 @@ class Membership:
         self._nodes: dict[str, tuple[int, Callable[[], None]]] = {}
         self._entity_ids = 0
         self._said: set[str] = set()
-        self._senders: dict[bytes, Entity | None] = {}
+        self._senders: dict[tuple[bytes, str], Entity | None] = {}
         self._endpoints: dict[Entity, tuple[Endpoint, Callable[[], None]]] = {}
 
     @property
@@ -115,11 +115,13 @@ class Membership:
         return None if entity is None else self._endpoints.get(entity, (None,))[0]
 
     def _sender(self, gid: bytes, topic: str) -> Entity | None:
-        if gid not in self._senders:
+        # By topic, too: whoever says nothing of itself is guessed from who publishes there.
+        key = gid, topic
+        if key not in self._senders:
             if len(self._senders) > 1000:
                 self._senders.clear()
-            self._senders[gid] = self.graph.publisher(gid, topic)
-        return self._senders[gid]
+            self._senders[key] = self.graph.publisher(gid, topic)
+        return self._senders[key]
 
     def refuse(self, topic: str, refusal: MalformedMessage) -> None:
         """Count a message that is not what it should be, and say the first of each topic."""
