@@ -1,7 +1,12 @@
 """Worlds built from scenarios: the same every time, and everything a script can do."""
 
+import subprocess
+import sys
+from pathlib import Path
+
 import pytest
 
+import tftool
 from tftool.errors import NodeFailed, ScenarioError, UsageError
 from tftool.messages import Pose2D
 from tftool.runtime.clock import SimClock, run
@@ -329,3 +334,19 @@ def test_steps_of_one_instant_are_done_in_the_order_of_the_file():
     )
 
     assert [text for _, text in logged(played)] == ["a", "b", "c"]
+
+
+def test_playing_a_scenario_loads_nothing_that_runs_programs_written_for_ros():
+    code = (
+        "import sys, tftool.scenario.play\n"
+        "print([name for name in sys.modules if name.startswith('tftool.ros')])"
+    )
+    done = subprocess.run(
+        [sys.executable, "-c", code],
+        capture_output=True,
+        text=True,
+        check=True,
+        cwd=Path(tftool.__file__).parent.parent,
+    )
+
+    assert done.stdout == "[]\n"

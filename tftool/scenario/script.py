@@ -27,7 +27,6 @@ from tftool.messages import (
     TeleportRelative,
     Twist2D,
 )
-from tftool.ros.program import ProgramNode
 from tftool.runtime.node import Node
 from tftool.runtime.world import World
 from tftool.scenario import actions
@@ -192,8 +191,9 @@ async def _stop(action: actions.StopNode, script: Script) -> None:
     # It may be gone already: stopped before, or left out by whoever hosts this world.
     gone = [node for node in script.world.nodes if node.name == action.node]
     for node in gone:
-        # A program of the user's ends with its node.
-        script.world.remove(node.program if isinstance(node, ProgramNode) else node)
+        # A program of the user's ends with its node. Asked this way, because what runs such
+        # programs is loaded by nobody who has none.
+        script.world.remove(getattr(node, "program", node))
     if not gone:
         script.warn(f"No node is named '{action.node}' (any more); nothing is stopped")
 
