@@ -15,6 +15,7 @@ from tftool.ros.client.lifecycle_states import (
     TransitionCallbackReturn,
 )
 from tftool.ros.client.node import Node
+from tftool.ros.client.services import serve_own
 from tftool.ros.client.topics import Publisher
 
 __all__ = ["LifecycleState", "TransitionCallbackReturn"]
@@ -264,14 +265,20 @@ def _serve(node: Any, callback_group: Any) -> None:
         response.available_transitions = [_describe(described(), one) for one in GRAPH]
         return response
 
-    for name, kind, answer in (
+    services = (
         ("change_state", "ChangeState", change_state),
         ("get_state", "GetState", get_state),
         ("get_available_states", "GetAvailableStates", get_states),
         ("get_available_transitions", "GetAvailableTransitions", get_transitions),
         ("get_transition_graph", "GetAvailableTransitions", get_graph),
-    ):
-        service = INTERFACES.find("lifecycle_msgs", "srv", kind)
-        node.create_service(service, f"~/{name}", answer, callback_group=callback_group)
+    )
+    serve_own(
+        node,
+        (
+            (name, INTERFACES.find("lifecycle_msgs", "srv", kind), answer)
+            for name, kind, answer in services
+        ),
+        callback_group,
+    )
     event = INTERFACES.message("lifecycle_msgs/TransitionEvent")
     node._transition_events = node.create_publisher(event, "~/transition_event", 1)

@@ -17,7 +17,7 @@ from tftool.ros.client.node_graph import NodeGraph
 from tftool.ros.client.node_parameters import NodeParameters
 from tftool.ros.client.parameter_service import ParameterService
 from tftool.ros.client.qos import QoSProfile, profile_of
-from tftool.ros.client.services import Client, Service
+from tftool.ros.client.services import Client, Service, serve_own
 from tftool.ros.client.time import Clock, Rate, ROSClock
 from tftool.ros.client.timers import Timer, period_of
 from tftool.ros.client.topics import Publisher, Subscription
@@ -71,10 +71,7 @@ class Node(NodeGraph, NodeParameters):
             partial(parameter_events.tell, self._tftool),
         )
         if start_parameter_services:
-            for below, kind, answer in ParameterService(self).services():
-                # Two nodes of one name: the first answers.
-                if not self._tftool.world.has_service(self._tftool.full(f"~/{below}")):
-                    self.create_service(kind, f"~/{below}", answer)
+            serve_own(self, ParameterService(self).services())
 
     if not TYPE_CHECKING:  # to a type checker, every name would be one
 

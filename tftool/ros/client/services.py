@@ -5,7 +5,7 @@ What arrived waits until an executor takes it, as with all entities.
 
 import asyncio
 import inspect
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 from typing import Any
 
 from tftool.errors import TftoolError
@@ -14,7 +14,7 @@ from tftool.ros import values
 from tftool.ros.client.entities import Asker, Inbox
 from tftool.ros.client.executors import wait_for
 from tftool.ros.client.futures import Future
-from tftool.ros.client.member import Member
+from tftool.ros.client.member import Member, member_of
 
 
 class Client(Asker):
@@ -155,3 +155,20 @@ class Service(Inbox):
         for answer in self._open:
             if not answer.done():
                 answer.set_exception(TftoolError(f"the node that served '{self.full}' has left"))
+
+
+def serve_own(
+    node: Any,
+    services: Iterable[tuple[str, Any, Callable[[Any, Any], Any]]],
+    callback_group: Any = None,
+) -> None:
+    """Answer services that nodes have below their names; of two of one name the first answers."""
+    member, wanted = member_of(node), list(services)
+
+    def offer() -> None:
+        for below, kind, answer in wanted:
+            if not member.world.has_service(member.full(f"~/{below}", is_service=True)):
+                node.create_service(kind, f"~/{below}", answer, callback_group=callback_group)
+
+    # In one go: another program's thread may come between two requests.
+    member.program.ask(offer)

@@ -1,0 +1,58 @@
+"""Launches on the wall clock, where programs' threads run side by side."""
+
+import asyncio
+
+from tests.ros.tutorial import Launched
+from tftool.ros.importing import ros_free
+from tftool.ros.launching import packages
+from tftool.ros.launching.engine import Launch
+from tftool.ros.workspace import Workspace
+from tftool.runtime.clock import WallClock, run
+from tftool.runtime.supervisor import live
+from tftool.runtime.world import World
+
+
+def launch_live(file, start) -> Launched:
+    """Launch a file whose programs end by themselves."""
+    done = Launched()
+    with ros_free():
+        workspace = Workspace(start)
+        packages.use(workspace)
+        world = World(WallClock())
+        world.log.listen(done.records.append)
+        started = Launch(
+            world, file, workspace=workspace, say=lambda *line: done.lines.append(line)
+        )
+
+        async def main():
+            living = asyncio.ensure_future(live(world))
+            await started.ended.wait()
+            living.cancel()
+            await asyncio.gather(living, return_exceptions=True)
+
+        run(world.clock, main())
+    done.failed = started.failed
+    return done
+
+
+def package(folder, **scripts):
+    """A package `pkg` with these scripts."""
+    place = folder / "pkg" / "scripts"
+    place.mkdir(parents=True)
+    (folder / "pkg" / "package.xml").write_text("<package><name>pkg</name></package>")
+    for name, code in scripts.items():
+        (place / f"{name}.py").write_text(code)
+
+
+def test_nodes_of_one_name_live_side_by_side(tmp_path):
+    package(
+        tmp_path,
+        same="import rclpy\nfrom rclpy.lifecycle import LifecycleNode\nrclpy.init()\n"
+        "node = LifecycleNode('same')\nnode.get_logger().info('here')\n",
+    )
+    file = tmp_path / "many.launch.yaml"
+    file.write_text("launch:\n" + 8 * "- node: {pkg: pkg, exec: same.py}\n")
+    done = launch_live(file, tmp_path)
+
+    assert done.failed == []
+    assert done.texts("same") == 8 * ["here"]
