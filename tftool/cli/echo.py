@@ -88,7 +88,7 @@ def echo(
     """
     from tftool.cli.echoing import Echo, Printer, Question
     from tftool.cli.notices import notice
-    from tftool.cli.session import open_session
+    from tftool.cli.session import A_MOMENT, NO_SESSION, open_session
     from tftool.runtime.clock import SimClock
     from tftool.views.echo import in_words
 
@@ -109,7 +109,7 @@ def echo(
         place,
         clock=clock,
         cache_time=None if cache_time is None else seconds(cache_time),
-        at_a_moment=at is not None,
+        because=NO_SESSION if at is None else A_MOMENT,
     )
     heading = in_words(target, source)
     moment = patience = 0

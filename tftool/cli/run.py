@@ -7,6 +7,8 @@ import typer
 from tftool.cli.options import positive, simulated_seconds
 from tftool.stamps import seconds
 
+SIMULATED = "Simulated time is a world's own, and shares no session"
+
 if TYPE_CHECKING:
     from tftool.runtime.log import LogRecord
 
@@ -53,7 +55,7 @@ def run(
     from pathlib import Path
 
     from tftool.cli import console_log
-    from tftool.cli.session import open_empty_session, open_session
+    from tftool.cli.session import NO_SESSION, open_empty_session, open_session
     from tftool.errors import UsageError
     from tftool.ros import hosting
     from tftool.runtime.clock import SimClock
@@ -72,7 +74,13 @@ def run(
             session = open_empty_session(clock)
         else:
             alone = None if place else lambda node: node.kind != "turtlesim"
-            session = open_session(place, clock=clock, head_start=0, without=alone)
+            session = open_session(
+                place,
+                clock=clock,
+                head_start=0,
+                without=alone,
+                because=SIMULATED if simulated else NO_SESSION,
+            )
         world = session.world
 
         def tell(record: "LogRecord") -> None:

@@ -27,9 +27,12 @@ if TYPE_CHECKING:
 HOME = "turtles"
 """The scenario a command hosts when nothing runs and none was named."""
 
+NO_SESSION = "No session is running here"
+A_MOMENT = "A chosen moment is always simulated"
+"""Why a world that nobody named is hosted."""
+
 HEAD_START = seconds(3)
 """How long a hosted world has lived when its command first looks: both turtles are there."""
-
 
 CACHE_TIME = seconds(10)
 """How far back the buffer of a joined world remembers; tf2's own figure."""
@@ -104,7 +107,7 @@ def open_session(
     cache_time: Duration | None = None,
     without: Callable[["NodeEntry"], bool] | None = None,
     needs_turtles: bool = False,
-    at_a_moment: bool = False,
+    because: str = NO_SESSION,
     by_hand: bool = False,
 ) -> Session:
     """Give the world a command works in, and say so on stderr when it had to be made.
@@ -116,8 +119,7 @@ def open_session(
         cache_time: How far back the world's buffer remembers, in place of the scenario's own.
         without: Says which of a hosted scenario's nodes to leave out.
         needs_turtles: Whether only a session with a turtle simulator will do.
-        at_a_moment: Whether the question is about a moment of the scenario, which no
-            session answers.
+        because: Why a world that nobody named is hosted, for people.
         by_hand: Whether somebody drives in it, in place of the scenario's own script.
 
     Raises:
@@ -134,7 +136,7 @@ def open_session(
     else:
         _refuse_to_share(source)
     try:
-        scenario = _chosen(source, at_a_moment=at_a_moment)
+        scenario = _chosen(source, because)
         if by_hand:
             scenario = left_to_a_person(scenario)
         if without is not None:
@@ -191,15 +193,14 @@ def _refuse_to_join(source: str | None, chosen: Choice) -> None:
         raise UsageError(f"'{source}' is always hosted: leave out --join, or the name.")
 
 
-def _chosen(source: str | None, *, at_a_moment: bool) -> "Scenario":
+def _chosen(source: str | None, because: str) -> "Scenario":
     """The scenario to host; said on stderr where none was named."""
     from tftool.scenario.builtin import find
     from tftool.scenario.load import load
 
     scenario = load(find(source or HOME))
     if source is None:
-        why = "A chosen moment is always simulated" if at_a_moment else "No session is running here"
-        notice(f"{why}: hosting scenario '{HOME}'.")
+        notice(f"{because}: hosting scenario '{HOME}'.")
     return scenario
 
 

@@ -85,7 +85,7 @@ def tree(
     tftool tree robot -o robot.svg
     tftool tree --watch
     """
-    from tftool.cli.session import join_session, open_session
+    from tftool.cli.session import A_MOMENT, NO_SESSION, join_session, open_session
     from tftool.runtime.clock import SimClock
 
     form = form or _form_of(output)
@@ -106,7 +106,8 @@ def tree(
         _write(joined.world.buffer.snapshot(joined.world.clock.now()), form, output)
         return
     clock = SimClock()
-    session = open_session(place, clock=clock, cache_time=cache, at_a_moment=at is not None)
+    because = NO_SESSION if at is None else A_MOMENT
+    session = open_session(place, clock=clock, cache_time=cache, because=because)
     session.live_until(session.moment(seconds(LISTEN if at is None else at)))
     _write(session.world.buffer.snapshot(clock.now()), form, output)
 
