@@ -12,6 +12,8 @@ import pytest
 import tftool
 from tftool.cli import app
 from tftool.cli.app import main
+from tftool.interfaces.schema import Schema
+from tftool.ros import faces
 
 ROOT = Path(__file__).parents[1]
 TEXT = (ROOT / "README.md").read_text(encoding="utf-8")
@@ -85,3 +87,13 @@ def test_the_two_commands_bring_their_own_environment():
     assert all(block.startswith("python3 -m venv .venv && ") for block in blocks)
     assert blocks[0].endswith(".venv/bin/tftool demo\n")
     assert blocks[1].endswith(".venv/bin/python -m tests\n")
+
+
+def test_what_is_covered_names_every_package_and_no_other():
+    section = TEXT.partition("### What is covered\n")[2].partition("\n###")[0]
+    table = "\n".join(line for line in section.splitlines() if line.startswith("| `"))
+    last = next(line for line in section.splitlines() if line.startswith("| interfaces"))
+    packages = {name.partition(".")[0] for name in faces.table()}
+
+    assert packages <= set(re.findall(r"`(\w+)`", table)) <= packages | {"wait_for_message"}
+    assert set(re.findall(r"`(\w+)`", last)) - {"src"} == set(Schema().packages())

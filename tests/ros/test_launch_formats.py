@@ -239,5 +239,5 @@ def test_what_is_not_covered_is_named_with_where_to_look(tmp_path, line, told):
         launch(file, seconds=1)
 
     assert told in str(refused.value)
-    assert "table 'The tutorial, line by line' in tftool's README" in str(refused.value)
+    assert "section 'What is covered' of tftool's README" in str(refused.value)
     assert f"a.launch.py:1, in <module>: {line}" in str(refused.value)

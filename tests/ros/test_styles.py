@@ -189,3 +189,52 @@ def test_a_file_runs_as_it_is_written(ros_runtime, tmp_path, text, status, said)
     assert ended == [program]
     assert program.status == status
     assert lines == said
+
+
+UNCALLED = """
+import rclpy
+from rclpy.node import Node
+from rclpy.time import Duration, Time
+
+
+def main():
+    rclpy.init()
+    node = Node('shy')
+    then = Time(seconds=7) - Duration(seconds=5.0)
+    node.get_logger().info(f'called, {then.nanoseconds}')
+"""
+
+
+def test_a_file_made_for_a_console_script_has_its_main_called(ros_runtime, tmp_path):
+    file = tmp_path / "listing.py"
+    file.write_text(UNCALLED)
+
+    program = ros_runtime.start(file)
+    ros_runtime.sleep(1.0)
+
+    assert ros_runtime.log("shy") == ["called, 2000000000"]
+    assert program.status == 0
+
+
+@pytest.mark.parametrize("more", ["main()\n", "rclpy.init()\n"])
+def test_a_main_is_not_called_where_the_file_has_come_to_rclpy(ros_runtime, tmp_path, more):
+    file = tmp_path / "script.py"
+    file.write_text(UNCALLED + more)
+
+    ros_runtime.start(file)
+    ros_runtime.sleep(1.0)
+
+    assert len(ros_runtime.log("shy")) == more.count("main")
+
+
+def test_a_file_that_makes_no_node_says_so(ros_runtime, tmp_path):
+    file = tmp_path / "nothing.py"
+    file.write_text("from math import pi as main\n")
+
+    program = ros_runtime.start(file)
+    ros_runtime.sleep(1.0)
+
+    assert ros_runtime.log(program.name) == [
+        "'nothing.py' has ended without rclpy.init(): it has made no node"
+    ]
+    assert program.status == 0

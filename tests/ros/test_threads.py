@@ -49,6 +49,8 @@ def test_what_a_thread_raises_is_said_and_ends_it_alone(ros_runtime, tmp_path):
         "thread = threading.Thread(target=work, name='worker')\n"
         "thread.start()\n"
         "thread.join()\n"
+        "import rclpy\n"
+        "rclpy.init()\n"
     )
     program = ros_runtime.start(file)
     ros_runtime.sleep(1)

@@ -20,9 +20,10 @@ rclpy.node: client.node: Node
 rclpy.node: client.parameters: Parameter
 rclpy.node: client.node_graph: NodeNameNonExistentError
 rclpy.context: client.context: Context
-rclpy.time: client.time: Time
+rclpy.time: client.time: Time Duration ClockType
 rclpy.duration: client.time: Duration Infinite
 rclpy.clock: client.time: Clock ROSClock ClockType ClockChange JumpHandle JumpThreshold TimeJump
+rclpy.clock: client.time: Time Duration
 rclpy.clock_type: client.time: ClockType
 rclpy.constants: client.time: S_TO_NS
 rclpy.timer: client.time: Rate

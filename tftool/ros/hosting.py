@@ -64,6 +64,8 @@ def start_program(
         return label
     if not rest or rest[0].startswith("-"):
         found = workspace.packages.get(target)
+        if found is None and Path(target).is_dir():
+            raise UsageError(f"'{target}' is a folder: give a node's file, or PACKAGE EXECUTABLE")
         known = ", ".join(sorted(found.scripts)) if found is not None else ""
         hint = f" ({known})" if known else ""
         raise UsageError(f"which executable of package '{target}'?{hint} For a file, give its path")

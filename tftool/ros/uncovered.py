@@ -10,8 +10,13 @@ FEW = 12
 """So many names are told in a sentence; more would hide what it says."""
 
 WHERE_TO_LOOK = (
-    "the table 'The tutorial, line by line' in tftool's README says what runs without ROS; "
+    "the section 'What is covered' of tftool's README lists what runs without ROS; "
     "with a sourced ROS 2 the real module is used"
+)
+
+DEFINED = (
+    "an interface is known by its definition: put the .msg, .srv or .action file into its "
+    "package in the workspace's src"
 )
 
 
@@ -37,7 +42,8 @@ def missing_name(module: str, name: str, known: Sequence[str]) -> str:
         hint = f"; {elsewhere[0]} has it."
     else:
         hint = f"{_listed(module, known)}."
-    return f"'{name}' of {module} is not covered{hint} {_sentence(WHERE_TO_LOOK)}"
+    remedy = DEFINED if package in INTERFACES.packages() else WHERE_TO_LOOK
+    return f"'{name}' of {module} is not covered{hint} {_sentence(remedy)}"
 
 
 def missing_module(name: str) -> str:

@@ -1,5 +1,6 @@
 """Users' code: loading it, and saying what went wrong in it."""
 
+import inspect
 import linecache
 from collections.abc import Callable
 from pathlib import Path
@@ -16,6 +17,9 @@ from tftool.ros.uncovered import missing_package
 def file_body(path: Path) -> Callable[[], None]:
     """What runs a node's file as `python3 FILE` would.
 
+    A file that defines `main` and never comes to rclpy is made for a console script, as
+    the tutorial's listings are: its `main` is called.
+
     Raises:
         InputError: If the file cannot be read or is no Python; the line is shown.
     """
@@ -27,6 +31,14 @@ def file_body(path: Path) -> Callable[[], None]:
         module.__file__ = str(path)
         module.__dict__["__builtins__"] = builtins_for_users()
         exec(code, module.__dict__)
+        owner = program.current()
+        if owner.context is not None:
+            return
+        main = module.__dict__.get("main")
+        if inspect.isfunction(main) and main.__module__ == "__main__":
+            _end_with(main())
+        else:
+            owner.warn(f"'{path.name}' has ended without rclpy.init(): it has made no node")
 
     return body
 
@@ -76,11 +88,15 @@ def entry_point_body(module: str, function: str, *, root: Path) -> Callable[[], 
                     f"{getattr(target, '__file__', module)}"
                 )
             target = getattr(target, part)
-        status = target()
-        if status is not None:
-            raise SystemExit(status)
+        _end_with(target())
 
     return body
+
+
+def _end_with(status: object) -> None:
+    """End as a console script does with what its function returned."""
+    if status is not None:
+        raise SystemExit(status)
 
 
 def whole(body: Callable[[], None]) -> Callable[[], None]:
