@@ -47,6 +47,19 @@ def test_a_moment_is_shown_where_there_is_data(buffer):
     assert (thing.parent, thing.root) == ("other", "other")
 
 
+def test_turns_have_the_sign_they_have_in_a_lookup():
+    # Twice 130° is 100° the other way: tf2 has w positive, which the product has not.
+    buffer = Buffer()
+    turned = Transform((0.0, 0.0, 0.0), (0.0, 0.0, 0.9063077870366499, 0.42261826174069944))
+    for parent, child in (("map", "odom"), ("odom", "base")):
+        buffer.set_transform(TransformStamped(seconds(1), parent, child, turned))
+
+    for at in (0, seconds(1)):
+        shown = buffer.snapshot(0, at).frame("base").root_from_frame.rotation
+        assert shown == pytest.approx((0.0, 0.0, -0.7660444431189780, 0.6427876096865394))
+        assert shown == buffer.lookup_transform("map", "base", at).transform.rotation
+
+
 def test_every_fact_of_a_link_is_told(buffer):
     odom, laser = (buffer.snapshot(now=seconds(10)).frame(name) for name in ("odom", "laser"))
 
