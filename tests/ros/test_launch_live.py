@@ -19,10 +19,15 @@ def launch_live(file, start) -> Launched:
         workspace = Workspace(start)
         packages.use(workspace)
         world = World(WallClock())
-        world.log.listen(done.records.append)
         started = Launch(
             world, file, workspace=workspace, say=lambda *line: done.lines.append(line)
         )
+
+        def keep(record):
+            done.records.append(record)
+            done.lines.append(("", started.label_of(record), record.text))
+
+        world.log.listen(keep)
 
         async def main():
             living = asyncio.ensure_future(live(world))
@@ -56,3 +61,7 @@ def test_nodes_of_one_name_live_side_by_side(tmp_path):
 
     assert done.failed == []
     assert done.texts("same") == 8 * ["here"]
+    # Each line is said of the process it comes from, whatever the node's name.
+    assert all(done.said(f"same.py-{number}").count("here") == 1 for number in range(1, 9))
+    named = [text for who in range(1, 9) for text in done.said(f"same.py-{who}") if "shown" in text]
+    assert len(named) == 7

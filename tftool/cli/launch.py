@@ -87,7 +87,7 @@ def launch(
         def tell(record: "LogRecord") -> None:
             # What the link has to say the session tells.
             if record.node != "link":
-                console_log.tell(record, label=started.label_of(record.node))
+                console_log.tell(record, label=started.label_of(record))
 
         world.log.listen(tell)
         try:

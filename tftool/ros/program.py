@@ -16,6 +16,7 @@ from tftool.ros import fibers
 from tftool.ros.fibers import Fiber, Place
 from tftool.ros.names import RosOptions
 from tftool.runtime.clock import Phase, SimClock
+from tftool.runtime.log import Level
 from tftool.runtime.node import Node
 from tftool.runtime.world import World
 from tftool.stamps import Duration, Stamp, seconds
@@ -175,7 +176,7 @@ class Program(Node):
     def _fiber_ended(self, task: "asyncio.Task[None]") -> None:
         self._others.discard(task)
         if not task.cancelled() and (error := task.exception()) is not None:
-            self.error(str(error))
+            self.say("ERROR", self.name, str(error))
 
     def _own(self, fiber: Fiber) -> None:
         fiber.owner = self
@@ -184,7 +185,12 @@ class Program(Node):
         where = str(place) if place is not None else "code that is not yours"
         wait = "simulated time waits for it" if self.strict else "its other callbacks wait for it"
         names = ", ".join(f"'{node.name}'" for node in self.nodes) or f"'{self.name}'"
-        self.warn(f"{names} has been busy for {fibers.PATIENCE:g} s and {wait}: {where}")
+        text = f"{names} has been busy for {fibers.PATIENCE:g} s and {wait}: {where}"
+        self.say("WARN", self.name, text)
+
+    def say(self, level: Level, speaker: str, text: str) -> None:
+        """Log a line of this program's (on the loop's thread)."""
+        self.world.log.add(level, speaker, text, program=self.label)
 
     # The fibers' side.
 

@@ -25,12 +25,15 @@ class LogRecord:
         level: How much it matters.
         node: Who said it.
         text: What was said. It may hold strangers' names: escape it where it is shown.
+        program: The program whose node it is, where several are told apart: two of them may
+            have nodes of one name.
     """
 
     stamp: Stamp
     level: Level
     node: str
     text: str
+    program: str = ""
 
     def __str__(self) -> str:
         """The line as ROS 2's console shows it; a logger's name has dots for a node's slashes."""
@@ -72,9 +75,9 @@ class Log:
         """Say what went wrong."""
         self.add("ERROR", node, text)
 
-    def add(self, level: Level, node: str, text: str) -> None:
+    def add(self, level: Level, node: str, text: str, *, program: str = "") -> None:
         """Keep a line and hand it on."""
-        record = LogRecord(self._now(), level, node, text)
+        record = LogRecord(self._now(), level, node, text, program)
         self.records.append(record)
         for listener in self._listeners:
             listener(record)

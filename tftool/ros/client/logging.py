@@ -86,7 +86,7 @@ class RcutilsLogger:
                 return False
         level = _LEVELS[int(severity)]
         speaker = name or self.name
-        owner.ask(lambda: owner.world.log.add(level, speaker, str(message)))
+        owner.ask(lambda: owner.say(level, speaker, str(message)))
         return True
 
     def debug(self, message: object, **kwargs: Any) -> bool:

@@ -64,7 +64,8 @@ class Member:
             number += 1
             name = f"{wanted}_{number}"
         if name != wanted:
-            self.world.log.warn(
+            self.program.say(
+                "WARN",
                 name,
                 f"a node named '{wanted}' is here already; this one is shown as '{name}'. "
                 f"Give it a name of its own: --ros-args -r __node:=…",

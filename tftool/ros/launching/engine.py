@@ -17,9 +17,10 @@ from tftool.ros.launching.events import Event, ProcessExited, ProcessStarted, Sh
 from tftool.ros.launching.files import load_file
 from tftool.ros.launching.nodes import Executable
 from tftool.ros.launching.processes import Command, lines_of
-from tftool.ros.program import Program
+from tftool.ros.program import Program, ProgramNode
 from tftool.ros.workspace import Workspace
 from tftool.runtime.clock import SimClock
+from tftool.runtime.log import LogRecord
 from tftool.runtime.node import Node
 from tftool.runtime.world import World
 from tftool.stamps import seconds
@@ -350,19 +351,14 @@ class Launch(Node):
         self._count += 1
         return f"{name}-{self._count}"
 
-    def label_of(self, name: str) -> str:
+    def label_of(self, record: LogRecord) -> str:
         """Which process a line of the log comes from."""
+        if record.program:
+            return record.program
         for node in self.world.nodes:
-            if (
-                name == node.name
-                or name.startswith(f"{node.name}.")
-                or (name.replace(".", "/") == node.name)
-            ):
-                program = getattr(node, "program", None)
-                if program is not None:
-                    return str(program.name)
-                return self.labels.get(node.name, node.name)
-        return self.labels.get(name, "launch")
+            if isinstance(node, ProgramNode) and node.name == record.node:
+                return node.program.label
+        return self.labels.get(record.node, "launch")
 
 
 def _cannot_run(command: Command, error: OSError) -> str:

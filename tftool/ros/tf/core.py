@@ -27,8 +27,8 @@ class BufferCore:
         return self._frames
 
     def _log(self, level: str, text: str) -> None:
-        log = self._program.world.log
-        (log.error if level == "ERROR" else log.warn)(self._program.name, text)
+        owner = self._program
+        owner.say("ERROR" if level == "ERROR" else "WARN", owner.name, text)
 
     def _ask(self, request: Callable[[], Any]) -> Any:
         return self._program.ask(request)
