@@ -55,17 +55,18 @@ class Opening:
             endpoint, others = self._place.endpoint, self._place.others
         try:
             self.wire = Wire(options.reach, endpoint, others)
-        except LinkError:
+        except BaseException:
             self._leave()
             raise
         self.graph = Graph(self.wire.zid, options.domain)
+        reach = options.reach
         try:
             self._reach_out(len(others))
-        except LinkError:
+            self._take_in_tokens(is_expected=bool(others or reach.connect or reach.config))
+        except BaseException:
+            # Whatever it is: nobody else can join while this one holds the door.
             self.close()
             raise
-        reach = options.reach
-        self._take_in_tokens(is_expected=bool(others or reach.connect or reach.config))
 
     def settle(self) -> None:
         """Let other processes of this machine in from now on."""
