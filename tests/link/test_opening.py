@@ -1,7 +1,10 @@
 """The way into a session, where something goes wrong on it."""
 
+import itertools
+
 import pytest
 
+from tftool.link import opening
 from tftool.link.membership import Options
 from tftool.link.opening import Opening
 from tftool.link.transport import Wire
@@ -19,3 +22,21 @@ def test_whatever_goes_wrong_on_the_way_in_nothing_is_left_there(session_dir, mo
     assert [path.name for path in (session_dir / "0").iterdir()] == ["lock"]
     # The lock is free again: nobody waits for it.
     Opening(Options()).close()
+
+
+def test_a_wait_is_over_at_its_time_however_long_each_look_takes(monkeypatch):
+    looks = itertools.count()
+
+    class Slow:
+        """Each time it is read, 0.4 s have gone by."""
+
+        def elapsed(self):
+            return next(looks) * 400_000_000
+
+    monkeypatch.setattr(opening, "WallClock", Slow)
+    seen = []
+
+    assert not opening._await(lambda: seen.append(0) or False, 1.0)
+    assert len(seen) == 4
+    assert opening._await(lambda: True, 0.0)
+    assert not opening._await(lambda: False, 0.0)

@@ -11,6 +11,8 @@ from tftool.link.graph import Graph
 from tftool.link.membership import Options
 from tftool.link.rendezvous import Rendezvous
 from tftool.link.transport import Wire
+from tftool.runtime.clock import WallClock
+from tftool.stamps import seconds
 
 REACHING: Final = 3.0
 """Seconds to wait for somebody at the other end of `connect`."""
@@ -120,9 +122,8 @@ class Opening:
 
 def _await(condition: Callable[[], bool], patience: float) -> bool:
     """Look until something holds, for so many seconds at most; say whether it does."""
-    pause = threading.Event()
-    for _ in range(round(patience / _STEP)):
-        if condition():
-            return True
+    clock, pause = WallClock(), threading.Event()
+    # Measured, not counted: a look takes as long as those take who are asked.
+    while not (held := condition()) and clock.elapsed() < seconds(patience):
         pause.wait(_STEP)
-    return condition()
+    return held
