@@ -1,5 +1,6 @@
 """Worlds built from scenarios: the same every time, and everything a script can do."""
 
+import asyncio
 import subprocess
 import sys
 from pathlib import Path
@@ -246,6 +247,23 @@ def test_a_refused_step_fails_the_scenario_unless_it_is_to_fail(step, found):
     assert ("script", "on it goes") in logged(played)
     assert expected.verdict().ok
     assert len(expected.verdict().outcomes) == 1
+
+
+@pytest.mark.parametrize(("at", "ok"), [("1 s", False), ("4.5 s", True)])
+def test_a_service_that_never_answers_fails_its_step_unless_the_end_came_too_soon(at, ok):
+    async def never(request):
+        await asyncio.get_running_loop().create_future()
+
+    clock = SimClock()
+    text = f"duration: 5 s\nscript:\n  - {{at: {at}, spawn: bob}}\n"
+    played = build(parse(text, "s.yaml"), clock)
+    played.world.serve("spawn", never)
+    run(clock, played.live())
+
+    assert played.verdict().ok is ok
+    if not ok:
+        (outcome,) = played.verdict().outcomes
+        assert outcome.found == "refused: 'spawn' has not answered for 4 s, up to the end"
 
 
 def test_a_step_that_is_to_fail_and_does_not_fails_the_scenario():

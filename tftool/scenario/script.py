@@ -38,6 +38,10 @@ REFRESH: Duration = seconds(0.5)
 """How often a drive repeats its command; a turtle stops a second after the last one."""
 
 
+PATIENCE: Duration = seconds(1)
+"""How long before the end a service must have been asked for its silence to count."""
+
+
 class StepFailed(TftoolError):
     """A step was refused, and why."""
 
@@ -86,6 +90,23 @@ class Script(Node):
                 ok=step.fails == bool(refusal),
             )
         )
+
+    async def call(self, service: str, request: Any) -> Any:
+        """Ask a service and wait for its answer.
+
+        Raises:
+            StepFailed: If the run ends and there is none.
+        """
+        asked = self.clock.now()
+        try:
+            return await super().call(service, request)
+        except asyncio.CancelledError:
+            silent = self.clock.now() - asked
+            if silent < PATIENCE:
+                raise
+            raise StepFailed(
+                f"'{service}' has not answered for {as_seconds(silent):g} s, up to the end"
+            ) from None
 
     async def wait_until(self, stamp: Stamp) -> None:
         """Wait for a moment, in this node's place within it."""
