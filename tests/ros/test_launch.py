@@ -217,11 +217,11 @@ def test_handlers_hear_of_starts_and_can_be_taken_away(tmp_path):
         "(h := RegisterEventHandler(OnProcessStart(on_start=lambda event, context: "
         "LogInfo(msg=event.process_name))))",
         "ExecuteProcess(cmd=['true'])",
-        "UnregisterEventHandler(h.event_handler)",
-        "ExecuteProcess(cmd=['true'], name='second')",
+        "TimerAction(period=0.5, actions=[UnregisterEventHandler(h.event_handler)])",
+        "TimerAction(period=1.0, actions=[ExecuteProcess(cmd=['true'], name='second')])",
         "RegisterEventHandler(OnExecutionComplete(target_action=(last := LogInfo(msg='last')), "
         "on_completion=[Shutdown(reason='enough')]))",
-        "last",
+        "TimerAction(period=1.5, actions=[last])",
     )
 
     assert done.said("launch") == ["true-1", "last", "shutting down: enough"]
@@ -235,6 +235,42 @@ def test_who_waits_for_a_processs_end_may_be_named_after_it(tmp_path):
     )
 
     assert done.said("launch") == ["next"]
+
+
+@pytest.mark.parametrize(
+    "started",
+    [
+        "ExecuteProcess(cmd=['true'])",
+        "Node(package='turtlesim', executable='turtlesim_node')",
+        "Node(package='pkg_tf', executable='turtle_tf_broadcaster')",
+    ],
+)
+def test_who_waits_for_a_processs_start_may_be_named_after_it(tmp_path, started):
+    done = described(
+        tmp_path,
+        f"(first := {started})",
+        "LogInfo(msg='listed')",
+        "RegisterEventHandler(OnProcessStart(target_action=first, on_start=LogInfo(msg='next')))",
+    )
+
+    assert done.said("launch") == ["listed", "next"]
+
+
+def test_handlers_that_set_each_other_off_without_end_are_found_out(tmp_path):
+    with pytest.raises(NodeFailed, match="set each other off without end"):
+        described(
+            tmp_path, "RegisterEventHandler(OnExecutionComplete(on_completion=LogInfo(msg='x')))"
+        )
+
+
+def test_a_shutdown_comes_after_what_is_listed_below_it(tmp_path):
+    done = described(
+        tmp_path,
+        "Shutdown(reason='enough')",
+        "RegisterEventHandler(OnShutdown(on_shutdown=LogInfo(msg='over')))",
+    )
+
+    assert done.said("launch") == ["over", "shutting down: enough"]
 
 
 def test_a_handlers_own_code_that_raises_ends_the_launch_with_its_line(tmp_path):

@@ -4,7 +4,9 @@ import asyncio
 import shlex
 import signal
 import subprocess
-from collections.abc import Callable, Iterable, Mapping, Sequence
+from collections import deque
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from contextlib import contextmanager
 from pathlib import Path
 from typing import Any, ClassVar
 
@@ -31,6 +33,9 @@ Say = Callable[[str, str, str], object]
 
 SOONEST = 0.1
 """Seconds before a program is started again at least: one that ends at once must let time pass."""
+
+MOST_EVENTS = 1000
+"""How many events may follow from one another at once."""
 
 
 class Launch(Node):
@@ -77,6 +82,8 @@ class Launch(Node):
         self._respawns: dict[str, tuple[float, Callable[[], None]]] = {}
         self._count = 0
         self._closing = False
+        self._busy = False
+        self._events: deque[Event] = deque()
         self._over: asyncio.Future[None] | None = None
         super().__init__(world, "launch")
 
@@ -115,10 +122,29 @@ class Launch(Node):
             UsageError: If one cannot be carried out as the launch file says; its line is told.
             InputError: If the launch file's own code raises.
         """
-        for entity in entities if isinstance(entities, Iterable) else [entities]:
-            following = self._visit(entity)
-            if following:
-                self.do(following)
+        with self._events_after():
+            for entity in entities if isinstance(entities, Iterable) else [entities]:
+                following = self._visit(entity)
+                if following:
+                    self.do(following)
+
+    @contextmanager
+    def _events_after(self) -> Iterator[None]:
+        """Hold events back: who waits for one may be named further down in the file."""
+        if self._busy:
+            yield
+            return
+        self._busy = True
+        try:
+            yield
+            told = 0
+            while self._events:
+                told += 1
+                if told > MOST_EVENTS:
+                    raise UsageError("event handlers set each other off without end: name targets")
+                self._tell(self._events.popleft())
+        finally:
+            self._busy = False
 
     def _visit(self, entity: Any) -> Any:
         if not hasattr(entity, "visit"):
@@ -135,13 +161,21 @@ class Launch(Node):
             raise InputError(f"{where}: {users.sentence_of(error)}") from error
 
     def emit(self, event: Event) -> None:
-        """Tell an event to whoever waits for it."""
+        """Tell an event to whoever waits for it, once what is being carried out is done."""
+        with self._events_after():
+            self._events.append(event)
+
+    def _tell(self, event: Event) -> None:
         for handler in list(self.handlers):
             if handler.matches(event):
                 if handler.handle_once:
                     self.handlers.remove(handler)
                 self.context.event = event
-                self.do(handler.handle(event, self.context) or ())
+                try:
+                    entities = handler.handle(event, self.context)
+                except Exception as error:
+                    raise InputError(users.sentence_of(error)) from error
+                self.do(entities or ())
         if isinstance(event, Shutdown) and not self._closing:
             self._closing = True
             self._say("INFO", "launch", f"shutting down: {event.reason}")
