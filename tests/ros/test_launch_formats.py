@@ -204,6 +204,7 @@ def test_a_file_is_included_from_beside_the_one_that_includes_it(tmp_path):
         ("<load_composable_node target='x'/>", "'load_composable_node' is not covered"),
         ("<arg name='a'><choise value='1'/></arg>", "'choise' inside; did you mean 'choice'?"),
         ("<log message='$(find-pkg-shar x)'/>", "mean '$(find-pkg-share …)'?"),
+        ("<group scoped='ture'/>", ":2: 'scoped' of 'group' is true or false, not 'ture'"),
         ("<executable cmd=\"echo 'a\"/>", ":2: a quote in 'echo 'a' is not closed"),
     ],
 )  # fmt: skip

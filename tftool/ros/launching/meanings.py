@@ -6,12 +6,13 @@ from functools import partial
 from types import MappingProxyType
 from typing import Any
 
+from tftool.errors import UsageError
 from tftool.ros.launching import composition, nodes, parameters, processes, reactions, settings
 from tftool.ros.launching.conditions import IfCondition, UnlessCondition
 from tftool.ros.launching.description import LaunchDescriptionSource
 from tftool.ros.launching.elements import Element
 from tftool.ros.launching.parsing import parsed
-from tftool.ros.launching.substitutions import TextSubstitution
+from tftool.ros.launching.substitutions import TextSubstitution, is_true
 
 _COMPONENTS = "composable nodes are libraries in C++; 'node' starts programs in Python"
 
@@ -62,7 +63,13 @@ def _optional(element: Element, name: str, default: Any = None) -> Any:
 
 
 def _flag(element: Element, name: str, default: str) -> bool:
-    return str(element.get(name, default)).strip().lower() in ("true", "1")
+    """An attribute that decides while the file is read, so no substitution."""
+    text = str(element.get(name, default))
+    try:
+        return is_true(text)
+    except UsageError:
+        what = f"'{name}' of '{element.tag}' is true or false, not '{text}'"
+        raise element.refusal(what, "", ()) from None
 
 
 def _each(element: Element, read: Callable[[Element], Any], *tags: str) -> list[Any]:
