@@ -190,15 +190,15 @@ def test_launched_commands_run_beside_the_nodes_on_the_wall_clock(tmp_path, caps
 def test_a_commands_lines_may_be_of_any_length(monkeypatch):
     import asyncio
 
-    from tftool.ros.launching import processes
+    from tftool.ros.launching import commands
 
-    monkeypatch.setattr(processes, "LONGEST_LINE", 300_000)
+    monkeypatch.setattr(commands, "LONGEST_LINE", 300_000)
 
     async def read():
         stream = asyncio.StreamReader()
         stream.feed_data(b"a\n" + b"b" * 200_000 + b"\n\n" + b"c" * 400_000 + b"\nd\xff")
         stream.feed_eof()
-        return [line async for line in processes.lines_of(stream)]
+        return [line async for line in commands.lines_of(stream)]
 
     first, long, empty, *pieces, last = asyncio.run(read())
 

@@ -3,7 +3,6 @@
 import asyncio
 import shlex
 import signal
-import subprocess
 from collections import deque
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
@@ -13,12 +12,12 @@ from typing import Any, ClassVar
 from tftool.errors import InputError, TftoolError, UsageError
 from tftool.ros import executables, users
 from tftool.ros.launching.arguments import declared, refuse_unknown
+from tftool.ros.launching.commands import Command, begin, lines_of, run_at_once
 from tftool.ros.launching.context import LaunchContext
 from tftool.ros.launching.ending import interrupt
 from tftool.ros.launching.events import Event, ProcessExited, ProcessStarted, Shutdown
 from tftool.ros.launching.files import load_file
 from tftool.ros.launching.nodes import Executable
-from tftool.ros.launching.processes import Command, lines_of
 from tftool.ros.program import Program, ProgramNode
 from tftool.ros.workspace import Workspace
 from tftool.runtime.clock import SimClock
@@ -261,7 +260,7 @@ class Launch(Node):
             self._say("INFO", label, f"process started: {shlex.join(command.words)}")
             self.emit(ProcessStarted(action=action, process_name=label))
             if isinstance(self.clock, SimClock):
-                status = self._run_at_once(label, command)
+                status = run_at_once(command, lambda line: self._say("", label, line))
                 # Not at once: who waits for its end may be named further down in the file.
                 self._start_task(self._end_soon(action, label, status), self._watches)
             else:
@@ -274,39 +273,14 @@ class Launch(Node):
             self._respawns[label] = (max(respawn, SOONEST), start)
         start()
 
-    def _run_at_once(self, label: str, command: Command) -> int:
-        """Run a command while simulated time stands still; its exit status."""
-        try:
-            done = subprocess.run(
-                command.words,
-                env=dict(command.environment),
-                cwd=command.cwd,
-                capture_output=True,
-                text=True,
-                errors="replace",
-                check=False,
-            )
-        except OSError as error:
-            raise UsageError(_cannot_run(command, error)) from None
-        for line in (done.stdout + done.stderr).splitlines():
-            self._say("", label, line)
-        return done.returncode
-
     async def _end_soon(self, action: Any, label: str, status: int) -> None:
         self._ended(action, label, status, "")
 
     async def _watch(self, action: Any, label: str, command: Command) -> None:
         try:
-            process = await asyncio.create_subprocess_exec(
-                *command.words,
-                env=dict(command.environment),
-                cwd=command.cwd,
-                stdout=asyncio.subprocess.PIPE,
-                stderr=asyncio.subprocess.STDOUT,
-                start_new_session=True,
-            )
-        except OSError as error:
-            self._ended(action, label, 127, _cannot_run(command, error))
+            process = await begin(command)
+        except UsageError as error:
+            self._ended(action, label, 127, str(error))
             return
         self._running[label] = process
         if self._closing:
@@ -393,9 +367,3 @@ class Launch(Node):
             if isinstance(node, ProgramNode) and node.name == record.node:
                 return node.program.label
         return self.labels.get(record.node, "launch")
-
-
-def _cannot_run(command: Command, error: OSError) -> str:
-    # A folder that is not there is told in the same words as a command that is not.
-    missing = "" if error.filename in (None, command.words[0]) else f" '{error.filename}'"
-    return f"cannot run '{command.words[0]}': {error.strerror}{missing}"

@@ -1,22 +1,18 @@
-"""launch's actions that start something with an end of its own; commands of the system."""
+"""launch's actions that start something with an end of its own."""
 
-import asyncio
-from collections.abc import AsyncIterator, Iterable, Mapping, Sequence
-from dataclasses import dataclass
+from collections.abc import Iterable, Mapping
 from pathlib import Path
-from typing import Any, Final
+from typing import Any
 
 from tftool.errors import UsageError
 from tftool.ros.launching.action import Action
+from tftool.ros.launching.commands import Command
 from tftool.ros.launching.context import LaunchContext
 from tftool.ros.launching.events import OnProcessExit
 from tftool.ros.launching.substitutions import is_true, perform
 
 LONGEST = 1e9
 """How many seconds something may wait: about thirty years."""
-
-LONGEST_LINE: Final = 1 << 20
-"""Bytes of a command's output after which a line is shown though it has not ended."""
 
 
 class Startable(Action):
@@ -82,21 +78,6 @@ def seconds_of(context: LaunchContext, value: Any, what: str) -> float:
     return found
 
 
-@dataclass(frozen=True, slots=True)
-class Command:
-    """A command of the system.
-
-    Attributes:
-        words: It and its arguments.
-        environment: Its environment variables, all of them.
-        cwd: Where it runs; None for here.
-    """
-
-    words: Sequence[str]
-    environment: Mapping[str, str]
-    cwd: str | None
-
-
 class ExecuteProcess(Startable):
     """A command of the system."""
 
@@ -141,20 +122,3 @@ class ExecuteProcess(Startable):
 
 def _texts(context: LaunchContext, given: Mapping[Any, Any]) -> dict[str, str]:
     return {perform(context, key): perform(context, value) for key, value in given.items()}
-
-
-async def lines_of(stream: asyncio.StreamReader) -> AsyncIterator[str]:
-    """What a command writes, line by line.
-
-    asyncio's own reader raises where a line is longer than 64 KiB.
-    """
-    rest = b""
-    while chunk := await stream.read(1 << 16):
-        *lines, rest = (rest + chunk).split(b"\n")
-        if len(rest) > LONGEST_LINE:
-            lines.append(rest)
-            rest = b""
-        for line in lines:
-            yield line.decode(errors="replace")
-    if rest:
-        yield rest.decode(errors="replace")

@@ -1,0 +1,95 @@
+"""Commands of the system, run beside the nodes."""
+
+import asyncio
+import subprocess
+from collections.abc import AsyncIterator, Callable, Mapping, Sequence
+from dataclasses import dataclass
+from typing import Final
+
+from tftool.errors import UsageError
+
+LONGEST_LINE: Final = 1 << 20
+"""Bytes of a command's output after which a line is shown though it has not ended."""
+
+
+@dataclass(frozen=True, slots=True)
+class Command:
+    """A command of the system.
+
+    Attributes:
+        words: It and its arguments.
+        environment: Its environment variables, all of them.
+        cwd: Where it runs; None for here.
+    """
+
+    words: Sequence[str]
+    environment: Mapping[str, str]
+    cwd: str | None
+
+
+def run_at_once(command: Command, say: Callable[[str], object]) -> int:
+    """Run a command to its end; `say` is told its lines.
+
+    Returns:
+        Its exit status.
+
+    Raises:
+        UsageError: If it cannot be run.
+    """
+    try:
+        done = subprocess.run(
+            command.words,
+            env=dict(command.environment),
+            cwd=command.cwd,
+            capture_output=True,
+            text=True,
+            errors="replace",
+            check=False,
+        )
+    except OSError as error:
+        raise _cannot_run(command, error) from None
+    for line in (done.stdout + done.stderr).splitlines():
+        say(line)
+    return done.returncode
+
+
+async def begin(command: Command) -> asyncio.subprocess.Process:
+    """Start a command, leading a group of its own.
+
+    Raises:
+        UsageError: If it cannot be run.
+    """
+    try:
+        return await asyncio.create_subprocess_exec(
+            *command.words,
+            env=dict(command.environment),
+            cwd=command.cwd,
+            stdout=asyncio.subprocess.PIPE,
+            stderr=asyncio.subprocess.STDOUT,
+            start_new_session=True,
+        )
+    except OSError as error:
+        raise _cannot_run(command, error) from None
+
+
+def _cannot_run(command: Command, error: OSError) -> UsageError:
+    # A folder that is not there is told in the same words as a command that is not.
+    missing = "" if error.filename in (None, command.words[0]) else f" '{error.filename}'"
+    return UsageError(f"cannot run '{command.words[0]}': {error.strerror}{missing}")
+
+
+async def lines_of(stream: asyncio.StreamReader) -> AsyncIterator[str]:
+    """What a command writes, line by line.
+
+    asyncio's own reader raises where a line is longer than 64 KiB.
+    """
+    rest = b""
+    while chunk := await stream.read(1 << 16):
+        *lines, rest = (rest + chunk).split(b"\n")
+        if len(rest) > LONGEST_LINE:
+            lines.append(rest)
+            rest = b""
+        for line in lines:
+            yield line.decode(errors="replace")
+    if rest:
+        yield rest.decode(errors="replace")
