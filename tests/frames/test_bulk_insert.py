@@ -188,17 +188,24 @@ def test_rows_are_refused_each_for_its_reason():
     ]
 
 
-def test_of_many_refused_rows_the_log_gets_ten_and_the_number():
+@pytest.mark.parametrize(
+    ("count", "rest"),
+    [
+        (1000, "and 990 more samples for frame turtle1 according to authority me were refused"),
+        (11, "and 1 more sample for frame turtle1 according to authority me was refused"),
+    ],
+)
+def test_of_many_refused_rows_the_log_gets_ten_and_the_number(count, rest):
     lines = []
     buffer = Buffer(log=lambda level, text: lines.append(text))
-    stamps, translations, rotations = line(1000)
+    stamps, translations, rotations = line(count)
     translations[:] = np.nan
 
     report = buffer.set_transforms("world", "turtle1", stamps, translations, rotations, "me")
 
-    assert len(report.refused) == 1000
+    assert len(report.refused) == count
     assert len(lines) == 11
-    assert lines[-1].startswith("and 990 more samples for frame turtle1")
+    assert lines[-1].startswith(rest)
     assert buffer.frames() == []
 
 

@@ -208,8 +208,9 @@ def old_data(child: str, stamp: Stamp, authority: str) -> str:
 
 def and_more(child: str, count: int, authority: str) -> str:
     """For what else was refused of many samples that were set together."""
+    samples, were = ("sample", "was") if count == 1 else ("samples", "were")
     return (
-        f"and {count} more samples for frame {child} according to authority {authority} were "
+        f"and {count} more {samples} for frame {child} according to authority {authority} {were} "
         "refused; what set_transforms gave back says which"
     )
 
