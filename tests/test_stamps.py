@@ -1,5 +1,6 @@
 import math
 
+import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
@@ -27,6 +28,17 @@ def test_seconds_round_half_away_as_tf2_does(value, stamp):
 def test_seconds_that_are_no_number_are_refused(value):
     with pytest.raises(ValueError, match="not a finite number"):
         seconds(value)
+
+
+def test_an_array_of_seconds_is_refused_with_the_remedy():
+    times = np.array([1.0, 2.5])
+
+    with pytest.raises(TypeError, match="one number, not an array") as refusal:
+        seconds(times)
+
+    assert "np.rint(times * 1e9).astype(np.int64)" in str(refusal.value)
+    with pytest.raises(TypeError, match="not str"):
+        seconds("1.0")
 
 
 @pytest.mark.parametrize(

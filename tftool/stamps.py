@@ -29,9 +29,20 @@ def seconds(value: float) -> int:
         Whole nanoseconds.
 
     Raises:
+        TypeError: If `value` is no number, or more than one.
         ValueError: If `value` is NaN or infinite.
     """
-    if not math.isfinite(value):
+    try:
+        is_finite = math.isfinite(value)
+    except TypeError as error:
+        # What it says of an array speaks of dimensions, not of what to do.
+        if not hasattr(value, "__array__"):
+            raise
+        raise TypeError(
+            "seconds takes one number, not an array: "
+            "np.rint(times * 1e9).astype(np.int64) makes stamps of many seconds"
+        ) from error
+    if not is_finite:
         raise ValueError(f"{value!r} is not a finite number of seconds")
     whole = math.floor(value)
     # The fraction is never negative, so half away from zero is half up.

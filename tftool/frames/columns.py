@@ -80,6 +80,8 @@ def stamps_of(times: npt.ArrayLike, name: str) -> Stamps:
         ValueError: If the shape is another, or one does not fit 64 bits.
     """
     given = np.asarray(times)
+    if given.ndim == 0:
+        raise ValueError(f"{name} have the shape (n,), not (): one goes as a list, [{times}]")
     if given.ndim != 1:
         raise ValueError(f"{name} have the shape (n,), not {given.shape}")
     if given.size == 0:
