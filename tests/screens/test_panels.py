@@ -226,6 +226,13 @@ def test_with_room_a_pair_is_told_as_tf2_echo_does():
     assert len(lines) <= 12
 
 
+def test_the_time_in_a_panel_reads_as_a_decimal():
+    stamp = seconds(1009) + 55_000_549
+
+    assert echo(found(stamp=stamp), width=62, height=12)[1] == "At time 1009.055000549"
+    assert echo(found(stamp=stamp))[-1] == "time 1009.055"
+
+
 @pytest.mark.parametrize(
     ("x", "y", "said"),
     [(2.0, 0.0, "2.000 m, ahead"), (0.0, -2.0, "2.000 m, 90.0° right"), (0.0, 0.0, "0.000 m")],

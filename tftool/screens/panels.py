@@ -146,7 +146,7 @@ def pair(moment: Moment, width: int, height: int, look: Look) -> list[Text]:
         return lines + wrapped(asked.refusal, width, look.ink(look.palette.warning))
     away = _away(*asked.found.transform.translation, look)
     if width >= BLOCK_WIDTH and height >= BLOCK_LINES:
-        block = echo.block(asked.found).splitlines()
+        block = echo.block(asked.found, pads_time=True).splitlines()
         return [*lines, *(Text(line, text) for line in [*block, f"- Away: {away}"])]
     (x, y, z), rotation = asked.found.transform
     degrees = (math.degrees(angle) for angle in rpy_from_quaternion(rotation))
