@@ -256,6 +256,43 @@ def test_who_waits_for_a_processs_start_may_be_named_after_it(tmp_path, started)
     assert done.said("launch") == ["listed", "next"]
 
 
+@pytest.mark.parametrize(
+    ("action", "elapsed"),
+    [
+        ("ExecuteProcess(cmd=['true'])", 0),
+        ("TimerAction(period=1.5, actions=[])", 1.5),
+        ("Node(package='pkg_tf', executable='rotate', arguments=['0.5'])", 0.5),
+    ],
+)
+def test_what_takes_time_is_complete_once_it_has_ended(tmp_path, action, elapsed):
+    done = described(
+        tmp_path,
+        f"RegisterEventHandler(OnExecutionComplete(target_action=(first := {action}), "
+        "on_completion=[LogInfo(msg='done'), Shutdown()]))",
+        "first",
+        "TimerAction(period=0.2, actions=[LogInfo(msg='meanwhile')])",
+        "Node(package='turtlesim', executable='turtlesim_node')",
+    )
+
+    meanwhile = ["meanwhile"] if elapsed else []
+    assert done.said("launch") == [*meanwhile, "done", "shutting down: reason not given"]
+    assert done.elapsed == pytest.approx(elapsed, abs=0.01)
+
+
+def test_who_waits_for_an_actions_completion_too_late_is_told(tmp_path):
+    done = described(
+        tmp_path,
+        "(first := ExecuteProcess(cmd=['true']))",
+        "RegisterEventHandler("
+        "OnExecutionComplete(target_action=first, on_completion=[Shutdown()]))",
+    )
+
+    assert done.said("launch") == [
+        "an OnExecutionComplete is never told, as in ROS 2: its ExecuteProcess was carried out "
+        "before. Register it above its target_action"
+    ]
+
+
 def test_handlers_that_set_each_other_off_without_end_are_found_out(tmp_path):
     with pytest.raises(NodeFailed, match="set each other off without end"):
         described(

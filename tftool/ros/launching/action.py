@@ -2,7 +2,7 @@
 
 import sys
 from collections.abc import Sequence
-from typing import Any
+from typing import Any, ClassVar
 
 from tftool.ros.fibers import place_of
 from tftool.ros.launching.context import LaunchContext
@@ -17,7 +17,14 @@ class Action:
     Attributes:
         condition: Whether it is done at all; None for always.
         where: "file:line" where the launch file says it.
+        takes_time: Whether it is done only some time after `execute`; the launch says when.
+        is_begun: Whether it was carried out.
+        is_awaited: Whether somebody waited for its end when it was.
     """
+
+    takes_time: ClassVar[bool] = False
+    is_begun = False
+    is_awaited = False
 
     def __init__(self, *, condition: Any = None, **kwargs: Any) -> None:
         self.condition = condition
@@ -33,7 +40,11 @@ class Action:
         if self.condition is not None and not self.condition.evaluate(context):
             return None
         following = self.execute(context)
-        context.launch.emit(ExecutionComplete(action=self))
+        # As in ROS 2: who begins to wait for it later is not told.
+        self.is_begun = True
+        self.is_awaited = context.launch.is_awaited(ExecutionComplete(action=self))
+        if not self.takes_time:
+            context.launch.complete(self)
         return following
 
     def execute(self, context: LaunchContext) -> Any:

@@ -2,7 +2,7 @@
 
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from pathlib import Path
-from typing import Any
+from typing import Any, ClassVar
 
 from tftool.ros.launching.action import Action
 from tftool.ros.launching.context import LaunchContext
@@ -118,6 +118,8 @@ class _LeaveFile(Action):
 class TimerAction(Action):
     """Actions after a while."""
 
+    takes_time: ClassVar[bool] = True
+
     def __init__(
         self, *, period: Any, actions: Iterable[Any], cancel_on_shutdown: Any = True, **kwargs: Any
     ) -> None:
@@ -131,7 +133,7 @@ class TimerAction(Action):
             UsageError: If the period is no number of seconds.
         """
         period = seconds_of(context, self.period, "a TimerAction's period")
-        context.launch.later(period, self.actions)
+        context.launch.later(self, period, self.actions)
 
     def describe_sub_entities(self) -> Sequence[Any]:
         """The actions inside."""

@@ -15,7 +15,13 @@ from tftool.ros.launching.arguments import declared, refuse_unknown
 from tftool.ros.launching.commands import Command, begin, lines_of, run_at_once
 from tftool.ros.launching.context import LaunchContext
 from tftool.ros.launching.ending import interrupt
-from tftool.ros.launching.events import Event, ProcessExited, ProcessStarted, Shutdown
+from tftool.ros.launching.events import (
+    Event,
+    ExecutionComplete,
+    ProcessExited,
+    ProcessStarted,
+    Shutdown,
+)
 from tftool.ros.launching.files import load_file
 from tftool.ros.launching.nodes import Executable
 from tftool.ros.program import Program, ProgramNode
@@ -180,6 +186,15 @@ class Launch(Node):
             self._say("INFO", "launch", f"shutting down: {event.reason}")
             self._end()
 
+    def is_awaited(self, event: Event) -> bool:
+        """Whether somebody waits for an event."""
+        return any(handler.matches(event) for handler in self.handlers)
+
+    def complete(self, action: Any) -> None:
+        """Tell that an action is done."""
+        if action.is_awaited:
+            self.emit(ExecutionComplete(action=action))
+
     def info(self, text: str) -> None:
         """Say something."""
         self._say("INFO", "launch", text)
@@ -188,14 +203,15 @@ class Launch(Node):
         """Say what is odd."""
         self._say("WARNING", "launch", text)
 
-    def later(self, period: float, actions: Sequence[Any]) -> None:
-        """Carry actions out after so many seconds, in the scope of now."""
+    def later(self, action: Any, period: float, actions: Sequence[Any]) -> None:
+        """Carry actions out after so many seconds, in the scope of now; `action` asks for it."""
         kept = self.context.kept()
 
         async def wait() -> None:
             await self.clock.sleep(seconds(period), self.phase, self.rank)
             with self.context.back_to(kept):
                 self._guarded(lambda: self.do(actions))
+                self._guarded(lambda: self.complete(action))
 
         self._start_task(wait(), self._timers)
 
@@ -313,12 +329,13 @@ class Launch(Node):
             self._say("ERROR", label, f"process has died, exit status {status}{told}")
         event = ProcessExited(action=action, process_name=label, returncode=status)
         self._guarded(lambda: self.emit(event))
-        self._respawn(label)
+        if not self._respawn(label):
+            self._guarded(lambda: self.complete(action))
         self._look_round()
 
-    def _respawn(self, label: str) -> None:
+    def _respawn(self, label: str) -> bool:
         if label not in self._respawns or self._closing:
-            return
+            return False
         delay, start = self._respawns[label]
 
         async def wait() -> None:
@@ -326,6 +343,7 @@ class Launch(Node):
             self._guarded(start)
 
         self._start_task(wait(), self._timers)
+        return True
 
     def _guarded(self, work: Callable[[], object]) -> None:
         """Do something later than the launch began: what is wrong ends the launch."""

@@ -112,9 +112,14 @@ class OnProcessStart(EventHandler):
 
 
 class OnExecutionComplete(EventHandler):
-    """When an action is done."""
+    """When an action is done: what it starts has ended, and is not started again.
+
+    Attributes:
+        target: The action, something that says whether one is meant, or None for any.
+    """
 
     def __init__(self, *, target_action: Any = None, on_completion: Any, **kwargs: Any) -> None:
+        self.target = target_action
         super().__init__(
             matcher=lambda e: (
                 isinstance(e, ExecutionComplete) and _targets(e.action, target_action)

@@ -2,7 +2,7 @@
 
 from collections.abc import Iterable, Mapping
 from pathlib import Path
-from typing import Any
+from typing import Any, ClassVar
 
 from tftool.errors import UsageError
 from tftool.ros.launching.action import Action
@@ -17,6 +17,8 @@ LONGEST = 1e9
 
 class Startable(Action):
     """What is started, ends some time, and may be started again."""
+
+    takes_time: ClassVar[bool] = True
 
     def __init__(
         self,

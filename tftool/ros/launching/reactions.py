@@ -4,7 +4,7 @@ from typing import Any
 
 from tftool.ros.launching.action import Action
 from tftool.ros.launching.context import LaunchContext
-from tftool.ros.launching.events import Event, EventHandler
+from tftool.ros.launching.events import Event, EventHandler, OnExecutionComplete
 from tftool.ros.launching.events import Shutdown as ShutdownEvent
 from tftool.ros.launching.substitutions import perform
 
@@ -31,6 +31,16 @@ class RegisterEventHandler(Action):
     def execute(self, context: LaunchContext) -> Any:
         """Begin to listen."""
         context.launch.handlers.append(self.event_handler)
+        handler = self.event_handler
+        if isinstance(handler, OnExecutionComplete) and getattr(handler.target, "is_begun", False):
+            context.launch.warn(
+                f"an OnExecutionComplete is never told, as in ROS 2: its {_kind(handler.target)} "
+                "was carried out before. Register it above its target_action"
+            )
+
+
+def _kind(action: Any) -> str:
+    return type(action).__name__
 
 
 class UnregisterEventHandler(Action):
