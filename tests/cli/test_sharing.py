@@ -51,6 +51,10 @@ def test_a_domain_in_the_environment_that_is_none_is_named(tftool, monkeypatch, 
         (["--host", "--read-only"], "cannot --host one"),
         (["--listen", "7448"], "'7448' is no endpoint"),
         (["--connect", "http/localhost:1"], "'http/localhost:1' is no endpoint"),
+        (["--connect", "tcp/127.0.0.1"], "'tcp/127.0.0.1' has no port: write tcp/HOST:PORT"),
+        (["--listen", "tls/[::1]"], "'tls/[::1]' has no port: write tls/HOST:PORT"),
+        (["--listen", "udp/here:"], "'udp/here:' has no port"),
+        (["--connect", "tcp/there#iface=lo:1"], "has no port"),
         (["--connect", "tls/there:7448"], "needs --tls-cert, --tls-key and --tls-ca"),
         (["--tls-cert", "pyproject.toml"], "give --tls-cert, --tls-key and --tls-ca together"),
         (["--zenoh-config", "README.md", "--listen", "tcp/0.0.0.0:1"], "says all endpoints"),
@@ -62,6 +66,14 @@ def test_what_contradicts_itself_is_wrong_usage(tftool, words, told):
 
     assert result.status == 2
     assert told in result.err
+
+
+@pytest.mark.parametrize(
+    "endpoint",
+    ["tcp/[::1]:7448", "ws/0.0.0.0:0", "udp/here:1?rel=1#iface=lo", "unixsock-stream/tmp/place"],
+)
+def test_an_endpoint_with_all_it_needs_is_taken(told, endpoint):
+    assert told(connect=[endpoint]).connect == (endpoint,)
 
 
 @pytest.mark.parametrize("option", ["--zenoh-config", "--tls-cert", "--tls-key", "--tls-ca"])

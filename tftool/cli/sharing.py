@@ -241,13 +241,18 @@ def _read(
 
 
 def _check_endpoint(endpoint: str, *, has_files: bool) -> None:
-    from tftool.link.reach import PROTOCOLS
+    from tftool.link.reach import PROTOCOLS, has_port
 
     protocol, slash, address = endpoint.partition("/")
     if not slash or not address or protocol not in PROTOCOLS:
         raise UsageError(
             f"'{endpoint}' is no endpoint: write PROTOCOL/ADDRESS, such as tcp/192.168.1.5:7448, "
             f"with one of {', '.join(PROTOCOLS)}."
+        )
+    if not has_port(endpoint):
+        raise UsageError(
+            f"'{endpoint}' has no port: write {protocol}/HOST:PORT, such as "
+            f"{protocol}/192.168.1.5:7448."
         )
     if protocol in ("tls", "quic") and not has_files:
         raise UsageError(f"'{endpoint}' needs --tls-cert, --tls-key and --tls-ca.")

@@ -5,6 +5,7 @@ pay for it, and a platform without it can still do everything else.
 """
 
 import json
+import re
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, Final
@@ -14,6 +15,8 @@ from tftool.errors import LinkError
 PROTOCOLS: Final = ("tcp", "udp", "tls", "quic", "ws", "unixsock-stream")
 """How an endpoint may begin."""
 
+_PATHS: Final = ("unixsock-stream",)  # what names a file and not a port
+_PORT = re.compile(r".+:[0-9]{1,5}", re.ASCII)
 _CONGESTED = 1_000_000  # microseconds a sender waits for a reader that takes nothing
 _NEAR_HELLO, _FAR_HELLO = 1000, 5000  # milliseconds for two processes to get to know each other
 _SCOUTING_DELAY = 100  # milliseconds `open` waits at most for a peer that does not answer
@@ -49,6 +52,14 @@ class Reach:
     connect: tuple[str, ...] = ()
     certificates: Certificates | None = None
     config: Path | None = None
+
+
+def has_port(endpoint: str) -> bool:
+    """Whether an endpoint says its port, where it must; zenoh would look in vain for one."""
+    protocol, _, rest = endpoint.partition("/")
+    # What follows a question mark or a hash are zenoh's own settings of an endpoint.
+    address = re.split(r"[?#]", rest, maxsplit=1)[0]
+    return protocol in _PATHS or _PORT.fullmatch(address) is not None
 
 
 def import_zenoh() -> Any:
