@@ -13,7 +13,7 @@ from tftool.link import services
 from tftool.link.graph import Role
 from tftool.link.membership import Options
 from tftool.link.session import Link
-from tftool.messages import Clear, Twist2D
+from tftool.messages import Clear, RotateAbsolute, Twist2D
 from tftool.runtime.endpoints import PUBLISHER, SUBSCRIPTION, Endpoint, Quality
 from tftool.runtime.node import Node
 from tftool.runtime.topics import GoalResult
@@ -348,6 +348,19 @@ def test_a_goal_of_any_type_is_taken_or_refused_fed_back_and_ended():
                 "succeeded", FIBONACCI.Result(sequence=[0, 1, 1])
             )
             assert fed == [FIBONACCI.Feedback(sequence=[0, 1])]
+
+    play(act())
+
+
+@pytest.mark.parametrize("goal", [RotateAbsolute(1.0), {"order": 3}, SET_BOOL.Request()])
+def test_a_goal_of_another_type_is_refused_before_it_is_sent(goal):
+    async def act():
+        async with Two() as two:
+            two.here.serve_action("fibonacci", lambda goal: None, FIBONACCI, node="counter")
+            await until(lambda: "fibonacci" in two.there.actions())
+
+            with pytest.raises(LinkError, match="is of type example_interfaces/action/Fibonacci"):
+                await two.there.send_goal("fibonacci", goal)
 
     play(act())
 

@@ -209,6 +209,11 @@ class ActionClient:
             part.close()
 
     def _accept(self, goal: GoalHandle) -> None:
+        if not types.is_goal_of(goal.request, self._type):
+            raise LinkError(
+                f"action '{self._name}' is of type {self._type}, which takes no "
+                f"{type(goal.request).__name__}"
+            )
         goal_id = secrets.token_bytes(16)
         self._goals[goal_id] = goal
         goal.decided = asyncio.get_running_loop().create_future()

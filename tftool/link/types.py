@@ -283,6 +283,16 @@ def is_same(request: Any, kind: MessageType) -> bool:
     )
 
 
+def is_goal_of(request: Any, ros_type: str) -> bool:
+    """Whether a goal, a message or a value of ours, is of an action's type."""
+    known = ACTIONS.get(type(request))
+    if known is not None:
+        return plain_name(known[0]) == plain_name(ros_type)
+    return isinstance(request, Message) and plain_name(request.interface__) == plain_name(
+        f"{ros_type}_Goal"
+    )
+
+
 def answer_to(request: Any, answer: Any) -> Any:
     """The answer, a message, as those expect it who asked with a request of ours."""
     kind = SERVICES[type(request)][1]
