@@ -121,6 +121,26 @@ def test_who_comes_late_gets_as_many_as_were_kept_and_nothing_of_who_has_left(no
     assert heard == ["two", "three"]
 
 
+@pytest.mark.parametrize(
+    ("history", "depth", "kept"),
+    [("KEEP_ALL", 2, ["0", "1", "2"]), ("KEEP_LAST", 2, ["1", "2"]), ("KEEP_LAST", 0, ["2"])],
+)
+def test_a_publisher_keeps_all_or_as_many_as_its_depth_and_one_at_least(node, history, depth, kept):
+    from rclpy.qos import DurabilityPolicy, HistoryPolicy, QoSProfile
+    from std_msgs.msg import String
+
+    offered = QoSProfile(
+        history=HistoryPolicy[history], depth=depth, durability=DurabilityPolicy.TRANSIENT_LOCAL
+    )
+    out, heard = node.create_publisher(String, "map", offered), []
+    for number in range(3):
+        out.publish(String(data=str(number)))
+    node.create_subscription(String, "map", lambda m: heard.append(m.data), profile(latched=True))
+    spin(node)
+
+    assert heard == kept
+
+
 def test_the_graph_tells_what_is_exchanged_and_who_answers(node):
     from std_msgs.msg import String
     from std_srvs.srv import Trigger

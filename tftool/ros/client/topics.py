@@ -38,7 +38,7 @@ class Publisher(Entity):
             full,
             kind.interface__,
             quality,
-            kept=deque(maxlen=profile.depth or None) if latched else None,
+            kept=deque(maxlen=_room(profile)) if latched else None,
         )
         self._leave = member.world.endpoints.add(self._endpoint)
 
@@ -120,8 +120,7 @@ class Subscription(Entity):
         self.topic = topic
         self.full = full
         self._converter = values.converter(kind, full)
-        keeps_all = profile.history is HistoryPolicy.KEEP_ALL
-        self._queue: deque[Any] = deque(maxlen=None if keeps_all else max(1, profile.depth))
+        self._queue: deque[Any] = deque(maxlen=_room(profile))
         self._takes_info = _takes_two(callback)
         self._quality = quality_of(profile, offered=False)
         # What other processes send, and sent before, comes to a latched one by itself.
@@ -190,6 +189,11 @@ class Subscription(Entity):
         self._stop()
         self._leave()
         self._queue.clear()
+
+
+def _room(profile: QoSProfile) -> int | None:
+    """How many messages a profile keeps; None for all of them."""
+    return None if profile.history is HistoryPolicy.KEEP_ALL else max(1, profile.depth)
 
 
 def _takes_two(callback: Callable[..., Any]) -> bool:
