@@ -1,12 +1,12 @@
 """The options of sharing: what they say, and what cannot be said."""
 
+import subprocess
 import sys
-from pathlib import Path
 
 import pytest
 
+from tests.certificates import certificates, needs_openssl
 from tftool.cli.sharing import Choice, Mode, choice, shares
-from tftool.link.reach import Certificates
 
 
 @pytest.fixture
@@ -107,10 +107,45 @@ def test_a_zenoh_configuration_that_is_none_is_a_sentence(tftool):
     assert "the link cannot be opened (README.md)" in result.err
 
 
+@needs_openssl
+@pytest.mark.parametrize(
+    ("cert", "key", "ca", "refusal"),
+    [
+        ("own.key", "own.key", "ca.pem", "'{}/own.key' holds no certificate in PEM."),
+        ("own.pem", "own.key", "ca.key", "'{}/ca.key' holds no certificate in PEM."),
+        ("own.pem", "own.ext", "ca.pem", "'{}/own.ext' holds no private key in PEM"),
+        ("own.pem", "locked.key", "ca.pem", "'{}/locked.key' holds no private key in PEM, or one"),
+        ("own.pem", "ca.key", "ca.pem", "'{0}/ca.key' is not the key of the certificate '{0}/own"),
+    ],
+)
+def test_certificates_that_cannot_serve_are_told_before_anything_is_opened(
+    tftool, tmp_path, cert, key, ca, refusal
+):
+    certificates(tmp_path)
+    lock = [
+        "openssl",
+        "ec",
+        "-in",
+        "own.key",
+        "-aes128",
+        "-passout",
+        "pass:x",
+        "-out",
+        "locked.key",
+    ]
+    subprocess.run(lock, check=True, capture_output=True, cwd=tmp_path)
+    files = ["--tls-cert", tmp_path / cert, "--tls-key", tmp_path / key, "--tls-ca", tmp_path / ca]
+
+    result = tftool("echo", "a", "b", "--connect", "tls/localhost:7999", *files)
+
+    assert result.status == 3
+    assert result.err.startswith("tftool: " + refusal.format(tmp_path))
+
+
+@needs_openssl
 def test_the_link_gets_what_was_said(told, tmp_path):
-    files = [tmp_path / name for name in ("cert", "key", "ca")]
-    for file in files:
-        file.write_text("")
+    made = certificates(tmp_path)
+    files = [made.certificate, made.key, made.authority]
 
     chosen = told(
         join=True,
@@ -126,7 +161,7 @@ def test_the_link_gets_what_was_said(told, tmp_path):
     assert chosen.is_asked_for
     options = chosen.options()
     assert options.reach.listen == ("tls/0.0.0.0:7448",)
-    assert options.reach.certificates == Certificates(*map(Path, files))
+    assert options.reach.certificates == made
     assert options.read_only
 
 

@@ -4,11 +4,10 @@ import asyncio
 import json
 import math
 import re
-import shutil
-import subprocess
 
 import pytest
 
+from tests.certificates import certificates, needs_openssl
 from tests.link.conftest import new_world, until
 from tftool.errors import LinkError, TftoolError
 from tftool.frames.buffer import Buffer
@@ -16,7 +15,7 @@ from tftool.frames.sample import TransformStamped
 from tftool.geometry.rigid import Transform
 from tftool.link.graph import Role, hosts
 from tftool.link.membership import Options
-from tftool.link.reach import Certificates, Reach
+from tftool.link.reach import Reach
 from tftool.link.session import Link
 from tftool.link.tf import TF
 from tftool.link.transforms import encode_transforms
@@ -703,25 +702,7 @@ def test_where_there_are_no_unix_sockets_the_loopback_serves(monkeypatch):
     play(send())
 
 
-def certificates(folder):
-    """A small authority and one certificate of it for this machine."""
-
-    def openssl(*words):
-        subprocess.run(["openssl", *words], check=True, capture_output=True, cwd=folder)
-
-    for name in ("ca", "own"):
-        openssl("ecparam", "-name", "prime256v1", "-genkey", "-noout", "-out", f"{name}.key")
-    (folder / "own.ext").write_text("subjectAltName=DNS:localhost,IP:127.0.0.1\n")
-    openssl("req", "-x509", "-key", "ca.key", "-subj", "/CN=test", "-days", "2", "-out", "ca.pem")
-    openssl("req", "-new", "-key", "own.key", "-subj", "/CN=localhost", "-out", "own.csr")
-    openssl(
-        *("x509", "-req", "-in", "own.csr", "-CA", "ca.pem", "-CAkey", "ca.key"),
-        *("-CAcreateserial", "-days", "2", "-extfile", "own.ext", "-out", "own.pem"),
-    )
-    return Certificates(folder / "own.pem", folder / "own.key", folder / "ca.pem")
-
-
-@pytest.mark.skipif(shutil.which("openssl") is None, reason="needs openssl to make certificates")
+@needs_openssl
 def test_over_tls_only_who_has_a_certificate_is_let_in(session_dir, monkeypatch, tmp_path):
     monkeypatch.setattr("tftool.link.opening.REACHING", 1.0)
     files = certificates(tmp_path)
@@ -736,7 +717,11 @@ def test_over_tls_only_who_has_a_certificate_is_let_in(session_dir, monkeypatch,
                 assert hosts(far.graph.processes())
             (tmp_path / "stranger").mkdir()
             stranger = certificates(tmp_path / "stranger")
-            with pytest.raises(LinkError, match="nobody answers at tls/localhost"):
+            with pytest.raises(LinkError, match="nobody answers at tls/localhost") as refusal:
                 Link(Options("echo", reach=Reach(connect=endpoint, certificates=stranger)))
+            assert f"the other side's by {stranger.authority}" in str(refusal.value)
+            plain = (endpoint[0].replace("tls/", "tcp/"),)
+            with pytest.raises(LinkError, match="listens with tls/ does not answer tcp/"):
+                Link(Options("echo", reach=Reach(connect=plain)))
 
     play(reach())

@@ -210,7 +210,7 @@ def _read(
 
     Raises:
         UsageError: If they contradict each other.
-        InputError: If a file is not there.
+        InputError: If a file is not there, or not what it is given as.
     """
     if join and host:
         raise UsageError("--join and --host contradict each other: choose one.")
@@ -228,20 +228,25 @@ def _read(
     endpoints = [*(listen or ()), *(connect or ())]
     for endpoint in endpoints:
         _check_endpoint(endpoint, has_files=all(files))
+    tls = (tls_cert, tls_key, tls_ca) if tls_cert and tls_key and tls_ca else None
+    if tls is not None:
+        from tftool.link.reach import Certificates
+
+        Certificates(*tls).check()
     return Choice(
         command,
         Mode.JOIN if join else Mode.HOST if host else Mode.AUTO,
         _domain() if domain is None else domain,
         tuple(listen or ()),
         tuple(connect or ()),
-        (tls_cert, tls_key, tls_ca) if tls_cert and tls_key and tls_ca else None,
+        tls,
         zenoh_config,
         read_only,
     )
 
 
 def _check_endpoint(endpoint: str, *, has_files: bool) -> None:
-    from tftool.link.reach import PROTOCOLS, has_port
+    from tftool.link.reach import PROTOCOLS, SECURED, has_port
 
     protocol, slash, address = endpoint.partition("/")
     if not slash or not address or protocol not in PROTOCOLS:
@@ -254,7 +259,7 @@ def _check_endpoint(endpoint: str, *, has_files: bool) -> None:
             f"'{endpoint}' has no port: write {protocol}/HOST:PORT, such as "
             f"{protocol}/192.168.1.5:7448."
         )
-    if protocol in ("tls", "quic") and not has_files:
+    if protocol in SECURED and not has_files:
         raise UsageError(f"'{endpoint}' needs --tls-cert, --tls-key and --tls-ca.")
 
 

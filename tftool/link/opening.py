@@ -9,6 +9,7 @@ from tftool.errors import LinkError
 from tftool.link import keys
 from tftool.link.graph import Graph
 from tftool.link.membership import Options
+from tftool.link.reach import SECURED, Reach, protocol_of
 from tftool.link.rendezvous import Rendezvous
 from tftool.link.transport import Wire
 from tftool.runtime.clock import WallClock
@@ -94,10 +95,7 @@ class Opening:
         if reach.config is not None:
             self._await_neighbours(1, NEARBY)
         elif reach.connect and not self._await_neighbours(others + 1, REACHING):
-            raise LinkError(
-                f"nobody answers at {', '.join(reach.connect)} within {REACHING:g} s; "
-                "is the other side running, and reachable from here?"
-            )
+            raise LinkError(_nobody_at(reach))
 
     def _await_neighbours(self, count: int, patience: float) -> bool:
         return _await(lambda: len(self.wire.neighbours) >= count, patience)
@@ -118,6 +116,24 @@ class Opening:
         if _await(some_are_known, INTRODUCED if is_expected else 0.0):
             # Those who only look never show a token: no reason to wait for long.
             _await(all_are_known, SHOWN if is_expected else 0.0)
+
+
+def _nobody_at(reach: Reach) -> str:
+    """What to look for where nobody answers: who is refused is told no more than that."""
+    protocols = {protocol_of(endpoint) for endpoint in reach.connect}
+    text = (
+        f"nobody answers at {', '.join(reach.connect)} within {REACHING:g} s; "
+        "is the other side running, and reachable from here?"
+    )
+    if reach.certificates is not None and protocols & set(SECURED):
+        text += (
+            " Do the certificates fit? Ours must be signed by the authority the other side was "
+            f"given, the other side's by {reach.certificates.authority} and made out to the host "
+            "named here."
+        )
+    if "tcp" in protocols:
+        text += " A port that listens with tls/ does not answer tcp/."
+    return text
 
 
 def _await(condition: Callable[[], bool], patience: float) -> bool:

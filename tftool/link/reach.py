@@ -10,10 +10,13 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, Final
 
-from tftool.errors import LinkError
+from tftool.errors import InputError, LinkError
 
 PROTOCOLS: Final = ("tcp", "udp", "tls", "quic", "ws", "unixsock-stream")
 """How an endpoint may begin."""
+
+SECURED: Final = ("tls", "quic")
+"""Those of them where both sides show certificates."""
 
 _PATHS: Final = ("unixsock-stream",)  # what names a file and not a port
 _PORT = re.compile(r".+:[0-9]{1,5}", re.ASCII)
@@ -36,6 +39,40 @@ class Certificates:
     key: Path
     authority: Path
 
+    def check(self) -> None:
+        """See that the files are what they are given as; zenoh says of none which is not.
+
+        Raises:
+            InputError: If one is no such PEM file, or the key is another certificate's.
+        """
+        import ssl
+
+        file = self.certificate
+        try:
+            ssl.SSLContext(ssl.PROTOCOL_TLS_CLIENT).load_verify_locations(file)
+            file = self.authority
+            ssl.SSLContext(ssl.PROTOCOL_TLS_CLIENT).load_verify_locations(file)
+        except ssl.SSLError as error:
+            raise InputError(f"'{file}' holds no certificate in PEM.") from error
+        except OSError as error:
+            raise InputError(f"'{file}' cannot be read: {error.strerror}.") from error
+        try:
+            # A password to go with it, or openssl would ask for one in the terminal.
+            context = ssl.SSLContext(ssl.PROTOCOL_TLS_CLIENT)
+            context.load_cert_chain(self.certificate, self.key, password="")
+        except ssl.SSLError as error:
+            raise InputError(self._unusable(error.reason)) from error
+        except OSError as error:
+            raise InputError(f"'{self.key}' cannot be read: {error.strerror}.") from error
+
+    def _unusable(self, reason: str | None) -> str:
+        if reason == "KEY_VALUES_MISMATCH":
+            return f"'{self.key}' is not the key of the certificate '{self.certificate}'."
+        if reason:
+            told = reason.lower().replace("_", " ")
+            return f"'{self.certificate}' cannot be used with '{self.key}': {told}."
+        return f"'{self.key}' holds no private key in PEM, or one with a password."
+
 
 @dataclass(frozen=True, slots=True)
 class Reach:
@@ -52,6 +89,11 @@ class Reach:
     connect: tuple[str, ...] = ()
     certificates: Certificates | None = None
     config: Path | None = None
+
+
+def protocol_of(endpoint: str) -> str:
+    """How an endpoint begins."""
+    return endpoint.partition("/")[0]
 
 
 def has_port(endpoint: str) -> bool:
