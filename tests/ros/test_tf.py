@@ -432,6 +432,7 @@ def test_the_core_answers_at_once_or_refuses(node):
 
 
 def test_a_buffer_of_ones_own_transforms_what_it_can_look_up(node):
+    import tf2_geometry_msgs  # noqa: F401 -- says how points are transformed
     import tf2_ros
     from geometry_msgs.msg import PointStamped
 
