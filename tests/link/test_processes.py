@@ -89,6 +89,20 @@ def test_session_lists_processes_nodes_topics_rates_and_services():
         assert found["services"]["spawn"]["type"] == "turtlesim/srv/Spawn"
         text = run_here("session").stdout
         assert re.search(rf"tftool echo, process {first.pid}, hosts, since \d\d:\d\d:\d\d", text)
+        services = found["services"]
+        parameters = [name for name in services if name.endswith("_parameters")]
+        actions = [name for name in services if "/_action/" in name]
+        assert parameters
+        assert actions
+        listed = text.split("Services")[1]
+        assert "  turtle1/set_pen  turtlesim/srv/SetPen\n" in listed
+        assert not any(f"  {name}  " in listed for name in [*parameters, *actions])
+        # Between the heading and the line that counts stands what is listed.
+        folded = len(services) - (len(listed.splitlines()) - 2)
+        assert listed.endswith(f"and {folded} of parameters and actions (--verbose lists them)\n")
+        everything = run_here("session", "--verbose").stdout
+        assert all(f"  {name}  " in everything for name in services)
+        assert "--verbose" not in everything
 
 
 def test_session_lists_what_no_topic_can_be_called_and_listens_to_the_rest():

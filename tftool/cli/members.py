@@ -15,6 +15,9 @@ if TYPE_CHECKING:
 ROLES = {"host": "hosts", "source": "brings its own", "guest": "joined"}
 """What a process is to the others, in words."""
 
+_EVERY_NODES = ("rcl_interfaces/", "type_description_interfaces/")
+"""How the types of those services begin that every node of ROS 2 has."""
+
 
 def session(
     listen_for: Annotated[
@@ -23,12 +26,18 @@ def session(
             "--for", metavar="SECONDS", callback=positive, help="How long to listen for rates."
         ),
     ] = 1.0,
+    verbose: Annotated[
+        bool,
+        typer.Option("--verbose", "-v", help="List the services of parameters and actions, too."),
+    ] = False,
     for_programs: ForPrograms = False,
 ) -> None:
     """Show who shares the session that runs here (ros2 node list, ros2 topic list and hz).
 
     Every process of tftool, its command and since when it is there; every node; every
-    topic and how often something comes in on it; every service.
+    topic and how often something comes in on it; every service. Services that each node has
+    for its parameters, and those that make up actions, are counted, and listed by --verbose;
+    --json has all of them.
 
     tftool session
     tftool session --connect tcp/localhost:7447
@@ -45,7 +54,8 @@ def session(
     if link.graph.is_empty:
         notice(f"Nobody is here in domain {choice().domain}: start 'tftool demo', for example.")
     found = _listened(link, listen_for)
-    sys.stdout.write((json.dumps(found) if for_programs else _written(found)) + "\n")
+    text = json.dumps(found) if for_programs else _written(found, verbose=verbose)
+    sys.stdout.write(text + "\n")
 
 
 def _listened(link: "Link", duration: float) -> dict[str, Any]:
@@ -114,7 +124,7 @@ def _listened(link: "Link", duration: float) -> dict[str, Any]:
     }
 
 
-def _written(found: dict[str, Any]) -> str:
+def _written(found: dict[str, Any], *, verbose: bool) -> str:
     """Say it to a person; names come from strangers and are made harmless."""
     from datetime import datetime
 
@@ -142,11 +152,22 @@ def _written(found: dict[str, Any]) -> str:
             f"from {_several(topic['publishers'])}, to {_several(topic['subscribers'])}"
         )
     lines.append(f"Services ({len(found['services'])})")
-    lines += [
-        f"  {visible(name)}  {visible(service['type'])}"
+    shown = {
+        name: service["type"]
         for name, service in found["services"].items()
-    ]
+        if verbose or not _goes_without_saying(name, service["type"])
+    }
+    lines += [f"  {visible(name)}  {visible(ros_type)}" for name, ros_type in shown.items()]
+    folded = len(found["services"]) - len(shown)
+    if folded:
+        lines.append(f"  and {folded} of parameters and actions (--verbose lists them)")
     return "\n".join(lines)
+
+
+def _goes_without_saying(name: str, ros_type: str) -> bool:
+    """Whether a service is no node's own: one that every node has, or hidden as in ROS 2."""
+    hidden = any(part.startswith("_") for part in name.split("/"))
+    return hidden or ros_type.startswith(_EVERY_NODES)
 
 
 def _several(nodes: list[str]) -> str:
