@@ -255,6 +255,50 @@ def test_a_node_can_be_put_into_a_scenario(tmp_path, capsys):
     assert "[mine]: laser in map" in capsys.readouterr().err
 
 
+def interrupted(folder, line, *words):
+    """Run a command that is interrupted once it has said a line; its status, what it said."""
+    environment = {**os.environ, "TFTOOL_SESSION_DIR": str(folder / "session")}
+    command = subprocess.Popen(
+        [sys.executable, "-m", "tftool", *words],
+        stderr=subprocess.PIPE,
+        text=True,
+        env={**environment, "PYTHONPATH": str(TUTORIAL.parent.parent)},
+    )
+    with command:
+        for said in command.stderr:
+            if line in said:
+                command.send_signal(signal.SIGINT)
+                break
+        rest = command.stderr.read()
+    return command.returncode, rest
+
+
+def test_ctrl_c_ends_a_launch_as_ros2_launch_ends(tmp_path):
+    file = tmp_path / "some.launch.py"
+    file.write_text(
+        "from launch import LaunchDescription\nfrom launch.actions import *\n"
+        "from launch.event_handlers import *\nfrom launch_ros.actions import Node\n"
+        "def generate_launch_description():\n"
+        "    sim = Node(package='turtlesim', executable='turtlesim_node')\n"
+        "    return LaunchDescription([\n"
+        "        sim, ExecuteProcess(cmd=['sh', '-c', 'echo ready; sleep 60']),\n"
+        "        RegisterEventHandler(OnProcessExit(target_action=sim, on_exit=[\n"
+        "            LogInfo(msg='sim is over'), ExecuteProcess(cmd=['echo', 'another'])])),\n"
+        "        RegisterEventHandler(OnShutdown(on_shutdown=lambda event, context: [\n"
+        "            LogInfo(msg=f'ends: {event.reason}')]))])\n"
+    )
+    status, said = interrupted(tmp_path, "[sh-2] ready", "launch", "--ros-free", str(file))
+
+    assert status == 130
+    assert said.splitlines() == [
+        "[WARNING] [launch]: user interrupted with ctrl-c (SIGINT)",
+        "[INFO] [launch]: ends: ctrl-c (SIGINT)",
+        "[INFO] [turtlesim_node-1]: process has finished cleanly",
+        "[INFO] [launch]: sim is over",
+        "[INFO] [sh-2]: process has finished cleanly",
+    ]
+
+
 def test_ctrl_c_runs_destroy_node_and_ends_the_command_as_interrupted(tmp_path):
     file = tmp_path / "ends.py"
     file.write_text(
@@ -265,20 +309,8 @@ def test_ctrl_c_runs_destroy_node_and_ends_the_command_as_interrupted(tmp_path):
         "        super().destroy_node()\n"
         "rclpy.init()\nnode = Ends('ends')\nnode.get_logger().info('ready')\nrclpy.spin(node)\n"
     )
-    environment = {**os.environ, "TFTOOL_SESSION_DIR": str(tmp_path / "session")}
-    command = subprocess.Popen(
-        [sys.executable, "-m", "tftool", "run", "--host", str(file)],
-        stderr=subprocess.PIPE,
-        text=True,
-        env={**environment, "PYTHONPATH": str(TUTORIAL.parent.parent)},
-    )
-    with command:
-        for line in command.stderr:
-            if "[ends]: ready" in line:
-                command.send_signal(signal.SIGINT)
-                break
-        rest = command.stderr.read()
+    status, rest = interrupted(tmp_path, "[ends]: ready", "run", "--host", str(file))
 
-    assert command.returncode == 130
+    assert status == 130
     assert "[ends]: destroyed" in rest
     assert "Traceback" not in rest

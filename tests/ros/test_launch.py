@@ -96,7 +96,7 @@ def test_the_demos_own_launch_files_start_our_nodes(name, started):
     folder = Workspace(TUTORIAL).share("turtle_tf2_py") / "launch"
     done = launch(folder / f"{name}.launch.py", seconds=3)
 
-    assert done.said(started) == ["process started"]
+    assert done.said(started) == ["process started", "process has finished cleanly"]
     assert len(done.places) == 2
 
 

@@ -92,13 +92,11 @@ def launch(
         world.log.listen(tell)
         try:
             limit = None if run_for is None else seconds(run_for)
-            session.run(hosting.until(world, started.ended, limit))
+            work = hosting.until(world, started.ended, limit)
+            session.run(work, on_interrupt=started.interrupt)
         except NodeFailed as failure:
             # What the launch itself could not do is no failed node.
             if failure.node == started.name and isinstance(failure.__cause__, TftoolError):
                 raise failure.__cause__ from None
-            raise
-        except KeyboardInterrupt:
-            notice("[WARNING] [launch]: user interrupted with ctrl-c (SIGINT)")
             raise
         return 1 if started.failed else 0

@@ -50,8 +50,14 @@ class Session:
         if self.link is not None:
             self.link.close()
 
-    def run(self, work: Coroutine[Any, Any, T]) -> T:
+    def run(
+        self, work: Coroutine[Any, Any, T], *, on_interrupt: Callable[[], object] | None = None
+    ) -> T:
         """Do some work while the world lives, on the world's clock.
+
+        Args:
+            work: What to do.
+            on_interrupt: Called when a signal ends it, before anything of the world ends.
 
         Returns:
             What the work returns; the world ends with it.
@@ -60,7 +66,7 @@ class Session:
             NodeFailed: If a node of the world raised first.
             KeyboardInterrupt: If a signal ended it.
         """
-        return run(self.world.clock, self.along(work))
+        return run(self.world.clock, self.along(work, on_interrupt))
 
     def moment(self, after: Duration) -> Stamp:
         """The moment so long after the world began.
@@ -87,7 +93,9 @@ class Session:
 
         run(self.world.clock, lived())
 
-    async def along(self, work: Coroutine[Any, Any, T]) -> T:
+    async def along(
+        self, work: Coroutine[Any, Any, T], on_interrupt: Callable[[], object] | None = None
+    ) -> T:
         """The same inside a running loop, for those who bring their own."""
         stop_telling = self.world.log.listen(tell_news)
         living = asyncio.ensure_future(self.live(None))
@@ -99,6 +107,10 @@ class Session:
                 # A world that failed ends the work; one that merely ended does not.
                 living.result()
             return await working
+        except asyncio.CancelledError:
+            if on_interrupt is not None:
+                on_interrupt()
+            raise
         finally:
             for task in both:
                 task.cancel()

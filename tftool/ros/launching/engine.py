@@ -6,6 +6,7 @@ import signal
 from collections import deque
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
+from functools import partial
 from pathlib import Path
 from typing import Any, ClassVar
 
@@ -81,7 +82,7 @@ class Launch(Node):
         self.labels: dict[str, str] = {}
         self._path = path
         self._say = say
-        self._running: dict[str, Program | asyncio.subprocess.Process | Node] = {}
+        self._running: dict[str, Callable[[], object]] = {}  # how each is ended
         self._timers: set[asyncio.Task[None]] = set()
         self._watches: set[asyncio.Task[None]] = set()
         self._respawns: dict[str, tuple[float, Callable[[], None]]] = {}
@@ -107,13 +108,10 @@ class Launch(Node):
             self._closing = True
             for timer in self._timers:
                 timer.cancel()
-            for running in list(self._running.values()):
-                if isinstance(running, Program):
-                    self.world.remove(running)
-                elif isinstance(running, asyncio.subprocess.Process):
-                    interrupt(running)
+            for end in list(self._running.values()):
+                end()
             await asyncio.gather(*self._timers, *self._watches, return_exceptions=True)
-        while any(isinstance(one, Program) for one in self._running.values()):
+        while self._running:
             self._over = asyncio.get_running_loop().create_future()
             await self._over
         self.ended.set()
@@ -195,6 +193,13 @@ class Launch(Node):
         if action.is_awaited:
             self.emit(ExecutionComplete(action=action))
 
+    def interrupt(self) -> None:
+        """Say that the user ends the launch; who ends the world ends it too."""
+        self._closing = True
+        self._say("WARNING", "launch", "user interrupted with ctrl-c (SIGINT)")
+        event = Shutdown(reason="ctrl-c (SIGINT)", due_to_sigint=True)
+        self._guarded(lambda: self.emit(event))
+
     def info(self, text: str) -> None:
         """Say something."""
         self._say("INFO", "launch", text)
@@ -251,9 +256,12 @@ class Launch(Node):
                 # The others do without it.
                 self.warn(f"left out: {error}")
                 return
-            if not isinstance(node, Program):
+            if isinstance(node, Program):
+                self._running[label] = partial(self.world.remove, node)
+            else:
                 self.labels[node.name] = label
-            self._running[label] = node
+                # It lives as long as the world, which ends with the launch.
+                self._running[label] = partial(self._ended, action, label, 0, "")
             self._say("INFO", label, "process started")
             self.emit(ProcessStarted(action=action, process_name=label))
 
@@ -285,6 +293,9 @@ class Launch(Node):
         self._start(label, start, respawn)
 
     def _start(self, label: str, start: Callable[[], None], respawn: float | None) -> None:
+        if self._closing:
+            # The end of one may be what another waits for to begin.
+            return
         if respawn is not None:
             self._respawns[label] = (max(respawn, SOONEST), start)
         start()
@@ -298,7 +309,7 @@ class Launch(Node):
         except UsageError as error:
             self._ended(action, label, 127, str(error))
             return
-        self._running[label] = process
+        self._running[label] = partial(interrupt, process)
         if self._closing:
             interrupt(process)
         if process.stdout is not None:
