@@ -98,3 +98,23 @@ def test_messages_that_a_workspace_defines_itself_reach_another_terminal(tmp_pat
                 "caught toys.msg.Ball(color='red', bounces=array('f', [0.5, 0.25]), "
                 "place=geometry_msgs.msg.Point(x=1.0, y=0.0, z=0.0))"
             )
+
+
+def test_who_only_looks_is_told_that_nobody_gets_what_its_nodes_send(tmp_path):
+    launched = tmp_path / "talk.launch.py"
+    launched.write_text(
+        "from launch import LaunchDescription\n"
+        "def generate_launch_description():\n"
+        "    return LaunchDescription([])\n"
+    )
+    told = "--read-only: what nodes here publish, broadcast and serve, nobody else gets."
+    with node("listener") as listener:
+        listener.says("No session is running here")
+        run = ["run", "--read-only", "--for", 1, NODES / "talker.py"]
+        with Process(*run) as talker:
+            talker.says(told)
+            assert talker.end() == 0
+        with Process("launch", "--read-only", launched) as launch:
+            launch.says(told)
+            assert launch.end() == 0
+        assert "I heard" not in listener.text

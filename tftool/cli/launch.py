@@ -49,7 +49,7 @@ def launch(
     from tftool.cli import console_log
     from tftool.cli.notices import notice
     from tftool.cli.session import open_empty_session, open_session
-    from tftool.cli.sharing import Mode, choice
+    from tftool.cli.sharing import Mode, choice, tell_read_only
     from tftool.errors import NodeFailed, TftoolError, UsageError
     from tftool.ros import hosting
     from tftool.runtime.clock import SimClock
@@ -72,6 +72,7 @@ def launch(
         else:
             # It brings all there is to it, and shares a session that runs all the same.
             session = open_empty_session(SimClock() if simulated else None)
+        tell_read_only()
         world = session.world
 
         def say(level: str, who: str, text: str) -> None:

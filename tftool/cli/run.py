@@ -56,6 +56,7 @@ def run(
 
     from tftool.cli import console_log
     from tftool.cli.session import NO_SESSION, open_empty_session, open_session
+    from tftool.cli.sharing import tell_read_only
     from tftool.errors import UsageError
     from tftool.ros import hosting
     from tftool.runtime.clock import SimClock
@@ -81,6 +82,7 @@ def run(
                 without=alone,
                 because=SIMULATED if simulated else NO_SESSION,
             )
+        tell_read_only()
         world = session.world
 
         def tell(record: "LogRecord") -> None:

@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
+from tftool.cli.notices import notice
 from tftool.errors import InputError, UsageError
 
 if TYPE_CHECKING:
@@ -83,6 +84,12 @@ def refuse_read_only(command: str, purpose: str) -> None:
     """
     if choice().read_only:
         raise UsageError(f"--read-only publishes nothing, and to {purpose} is all {command} does.")
+
+
+def tell_read_only() -> None:
+    """Say to whoever runs nodes that only look what comes of what they send."""
+    if choice().read_only:
+        notice("--read-only: what nodes here publish, broadcast and serve, nobody else gets.")
 
 
 _choice: ContextVar[Choice | None] = ContextVar("choice", default=None)
