@@ -87,7 +87,9 @@ def test_session_lists_processes_nodes_topics_rates_and_services():
         assert found["topics"]["tf"]["publishers"] == ["broadcaster1", "broadcaster2"]
         assert found["topics"]["turtle1/pose"]["rate"] > 10
         assert found["services"]["spawn"]["type"] == "turtlesim/srv/Spawn"
-        text = run_here("session").stdout
+        listing = run_here("session")
+        assert not listing.stderr
+        text = listing.stdout
         assert re.search(rf"tftool echo, process {first.pid}, hosts, since \d\d:\d\d:\d\d", text)
         services = found["services"]
         parameters = [name for name in services if name.endswith("_parameters")]
@@ -246,6 +248,11 @@ def test_a_stopped_process_keeps_nobody_from_joining():
                 joined = run_here("echo", "turtle2", "turtle1", "--once")
                 assert joined.returncode == 0
                 assert "Joined" in joined.stderr
+                listed = run_here("session", "--for", "0.1")
+                assert listed.stderr == (
+                    "1 process of this machine does not answer (stopped with Ctrl-Z?).\n"
+                )
+                assert listed.stdout.startswith("Processes (1)\n")
             finally:
                 static.started.send_signal(signal.SIGCONT)
 

@@ -51,7 +51,10 @@ def session(
     if choice().mode.name == "HOST":
         raise UsageError("session lists who is there: it has nothing to --host.")
     link = open_link()
-    if link.graph.is_empty:
+    if link.silent:
+        processes, do = ("process", "does") if link.silent == 1 else ("processes", "do")
+        notice(f"{link.silent} {processes} of this machine {do} not answer (stopped with Ctrl-Z?).")
+    elif link.graph.is_empty:
         notice(f"Nobody is here in domain {choice().domain}: start 'tftool demo', for example.")
     found = _listened(link, listen_for)
     text = json.dumps(found) if for_programs else _written(found, verbose=verbose)

@@ -36,6 +36,7 @@ class Opening:
     Attributes:
         wire: What carries everything.
         graph: Who else was there when it came.
+        silent: How many processes of this machine have a place there and do not answer.
     """
 
     def __init__(self, options: Options) -> None:
@@ -62,6 +63,7 @@ class Opening:
             self._leave()
             raise
         self.graph = Graph(self.wire.zid, options.domain)
+        self.silent = 0
         reach = options.reach
         try:
             self._reach_out(len(others))
@@ -90,7 +92,8 @@ class Opening:
         """Wait until somebody is there, where somebody should be."""
         # zenoh itself gives up waiting early, and a busy machine is slow to say hello: who
         # took that for nobody would host a second world. A stopped process never says it.
-        self._await_neighbours(others, NEARBY)
+        if not self._await_neighbours(others, NEARBY):
+            self.silent = max(0, others - len(self.wire.neighbours))
         reach = self._options.reach
         if reach.config is not None:
             self._await_neighbours(1, NEARBY)

@@ -38,6 +38,7 @@ class Link(Membership):
 
     Attributes:
         departures: How many of those have left that transforms came from.
+        silent: How many processes of this machine did not answer when it joined.
     """
 
     def __init__(self, options: Options) -> None:
@@ -52,6 +53,7 @@ class Link(Membership):
         """
         self._opening = Opening(options)
         super().__init__(options, self._opening.wire, self._opening.graph)
+        self.silent = self._opening.silent
         self._stops: list[Callable[[], None]] = []
         self._bridges: dict[str, TopicBridge | TransformBridge] = {}
         self._servers: dict[str, tuple[Offer[Any], ServiceServer | ActionServer]] = {}
