@@ -34,6 +34,25 @@ def test_a_file_is_run_beside_a_simulator(capsys):
     assert 'Could not transform turtle2 to turtle1: "turtle2" passed to lookupTransform' in told
 
 
+def test_a_program_reads_its_own_arguments(tmp_path, capsys):
+    file = tmp_path / "asks.py"
+    file.write_text(
+        "import argparse, copy, rclpy, sys\n"
+        "parser = argparse.ArgumentParser()\nparser.add_argument('where')\n"
+        "where = parser.parse_args().where\nrclpy.init()\n"
+        "log = rclpy.create_node('asks').get_logger()\n"
+        "log.info(f'{where} {sys.argv[1:]} {sys.argv[0][-7:]}')\n"
+        "log.info(f'{(sys.argv + [1])[1:]} {([0] + sys.argv)[2:]} {(2 * sys.argv)[1::2]}')\n"
+        "log.info(f'{copy.copy(sys.argv)[1:]} {sys.argv.copy()[1:]}')\n"
+    )
+
+    assert main(["run", *SIMULATED, str(file), "here"]) == 0
+    told = capsys.readouterr().err
+    assert "[asks]: here ['here'] asks.py\n" in told
+    assert "[asks]: ['here', 1] ['here'] ['here', 'here']\n" in told
+    assert "[asks]: ['here'] ['here']\n" in told
+
+
 @pytest.mark.parametrize("where", [".", "pkg_tf", "pkg_tf/launch"])
 def test_a_packages_console_script_is_found_from_anywhere_in_the_workspace(
     monkeypatch, capsys, where

@@ -202,6 +202,28 @@ class _Arguments(UserList[str]):
     def data(self, value: list[str]) -> None:
         """Nothing: programs' arguments are theirs."""
 
+    # A part must be a plain list: what is of this kind always shows all the arguments.
+
+    def __getitem__(self, index: Any) -> Any:
+        return self.data[index]
+
+    def __add__(self, other: Any) -> Any:
+        return self.data + list(other)
+
+    def __radd__(self, other: Any) -> Any:
+        return list(other) + self.data
+
+    def __mul__(self, times: int) -> Any:
+        return self.data * times
+
+    __rmul__ = __mul__
+
+    def copy(self) -> Any:
+        """Its words, to be changed by themselves."""
+        return self.data.copy()
+
+    __copy__ = copy
+
 
 _importing = threading.Lock()
 _finder: _Finder | None = None
