@@ -351,6 +351,22 @@ def test_a_node_that_fails_does_not_stop_the_others(tmp_path):
     assert done.elapsed == 3
 
 
+def test_a_node_may_be_a_file_of_no_package(tmp_path):
+    file = tmp_path / "alone.py"
+    file.write_text(
+        "import rclpy, sys\nrclpy.init()\nnode = rclpy.create_node('alone')\n"
+        "node.declare_parameter('x', 0)\n"
+        "node.get_logger().info(f\"{sys.argv[:2]} {node.get_parameter('x').value}\")\n"
+    )
+    done = described(
+        tmp_path,
+        f"Node(executable=r'{file}', name='renamed', arguments=['a'], parameters=[{{'x': 3}}])",
+    )
+
+    assert done.texts("renamed") == [f"['{file}', 'a'] 3"]
+    assert done.said("alone.py-1") == ["process started", "process has finished cleanly"]
+
+
 # What is wrong
 
 
@@ -360,7 +376,11 @@ def test_a_node_that_fails_does_not_stop_the_others(tmp_path):
         ("Node(package='turtlesm', executable='x')", "no package 'turtlesm'.*mean 'turtlesim'"),
         ("Node(package='turtlesim', executable='turtlesim')", "did you mean 'turtlesim_node'"),
         ("Node(package='pkg_tf', executable='follow')", "package 'pkg_tf' has no executable"),
-        ("Node(executable='x')", "a Node needs a package"),
+        ("Node(executable='x')", "there is no file 'x' to run; .* package="),
+        (
+            "Node(executable='sleep')",
+            "a Python file here, not '.*/sleep': run it by ExecuteProcess",
+        ),
         ("Node(package='turtlesim', executable='turtlesim_node', name='a b')", "'a b' cannot be"),
         ("LogInfo(msg=LaunchConfiguration('x'))", "launch configuration 'x' does not exist"),
         ("DeclareLaunchArgument('x')", "launch argument 'x' .* has no default: pass x:="),

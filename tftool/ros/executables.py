@@ -3,6 +3,7 @@
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from difflib import get_close_matches
+from pathlib import Path
 from typing import Any
 
 from tftool.errors import UsageError
@@ -239,7 +240,7 @@ OUR_PACKAGES = tuple(sorted({package for package, _ in _OURS}))
 def start(
     world: World,
     workspace: Workspace,
-    package: str,
+    package: str | None,
     executable: str,
     *,
     label: str,
@@ -253,8 +254,8 @@ def start(
     Args:
         world: Where it is to live.
         workspace: Where users' packages are looked for, first.
-        package: Its package.
-        executable: Its name there.
+        package: Its package; None for a file.
+        executable: Its name there, or the file.
         label: What the program is called among others: "listener-4".
         argv: Its whole `sys.argv`.
         arguments: Its own arguments.
@@ -266,6 +267,10 @@ def start(
         UsageError: If there is no such package or executable; the nearest is told.
         InputError: If its file cannot be read or is no Python.
     """
+    if package is None:
+        return start_file(
+            world, Path(executable), label=label, argv=argv, options=options, on_exit=on_exit
+        )
     found = workspace.packages.get(package)
     if found is not None and executable in found.scripts:
         module, _, function = found.scripts[executable].partition(":")
@@ -291,6 +296,23 @@ def start(
         f"package '{package}' has no executable '{executable}'{hint} "
         f"(it has {', '.join(sorted(known)) or 'none'})"
     )
+
+
+def start_file(
+    world: World,
+    path: Path,
+    *,
+    label: str,
+    argv: Sequence[str],
+    options: RosOptions,
+    on_exit: Callable[[Program], object] | None = None,
+) -> Program:
+    """Start a Python file in a world; the arguments are those of `start`.
+
+    Raises:
+        InputError: If the file cannot be read or is no Python.
+    """
+    return _program(world, label, users.file_body(path), argv, options, on_exit)
 
 
 def _program(

@@ -57,10 +57,11 @@ def start_program(
         path = Path(target)
         options, _ = names.parse(rest)
         options.name = options.name or name or None
-        body = users.whole(users.file_body(path))
         label = world.free_name(name or path.stem)
         argv = [target, *rest]
-        Program(world, label, body, argv=argv, options=options, on_exit=on_exit)
+        executables.start_file(
+            world, path, label=label, argv=argv, options=options, on_exit=on_exit
+        )
         return label
     if not rest or rest[0].startswith("-"):
         found = workspace.packages.get(target)

@@ -250,7 +250,7 @@ class Launch(Node):
                     argv=argv,
                     arguments=executable.arguments,
                     options=options,
-                    on_exit=lambda program: self._program_ended(action, label, program),
+                    on_exit=partial(self._program_ended, action, label),
                 )
             except executables.HasItsOwnCommand as error:
                 # The others do without it.

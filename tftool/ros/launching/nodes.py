@@ -1,8 +1,10 @@
 """launch_ros's actions: nodes, their namespaces and remappings."""
 
 import shlex
+import shutil
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
+from pathlib import Path
 from typing import Any
 
 from tftool.errors import UsageError
@@ -17,17 +19,17 @@ from tftool.ros.names import RosOptions
 
 @dataclass(frozen=True, slots=True)
 class Executable:
-    """A package's executable, ready to be started.
+    """An executable, ready to be started.
 
     Attributes:
-        package: Its package.
-        name: Its name there.
+        package: Its package; None for a file.
+        name: Its name there, or the file.
         arguments: Its own arguments.
         options: ROS 2's.
         label: What it is called in the log, before its number.
     """
 
-    package: str
+    package: str | None
     name: str
     arguments: Sequence[str]
     options: RosOptions
@@ -35,7 +37,7 @@ class Executable:
 
 
 class Node(Startable):
-    """A node: a package's executable."""
+    """A node: a package's executable, or a file."""
 
     def __init__(
         self,
@@ -85,22 +87,37 @@ class Node(Startable):
             options.parameters += more.parameters
             options.remaps += more.remaps
             options.name = more.name or options.name
-        if self.package is None:
-            raise UsageError("a Node needs a package here; run a command by ExecuteProcess")
+        package = None if self.package is None else perform(context, self.package)
+        executable = perform(context, self.executable)
+        if package is None:
+            executable = _file(executable)
         self.handle_exit(context)
         self.say_unused(context, "additional_env", "env", "cwd", "shell")
-        executable = perform(context, self.executable)
-        started = Executable(
-            perform(context, self.package),
-            executable,
-            arguments,
-            options,
-            perform(context, self.exec_name) or executable,
-        )
+        label = perform(context, self.exec_name) or Path(executable).name
+        started = Executable(package, executable, arguments, options, label)
         context.launch.start_node(self, started, self.respawn_after(context))
 
     def _remappings(self, context: LaunchContext) -> list[tuple[str, str]]:
         return [(perform(context, old), perform(context, new)) for old, new in self.remappings]
+
+
+def _file(executable: str) -> str:
+    """The file a node without a package is, looked for as a shell does.
+
+    Raises:
+        UsageError: If there is none, or it is no Python.
+    """
+    found = shutil.which(executable) or executable
+    try:
+        with Path(found).open("rb") as file:
+            first = file.readline(200)
+    except OSError:
+        raise UsageError(
+            f"there is no file '{executable}' to run; a package's executable needs package='…'"
+        ) from None
+    if first.startswith(b"\x7fELF") or (first.startswith(b"#!") and b"python" not in first):
+        raise UsageError(f"a node is a Python file here, not '{found}': run it by ExecuteProcess")
+    return found
 
 
 def _listed(given: Any) -> list[Any]:
