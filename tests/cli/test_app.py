@@ -124,7 +124,7 @@ def test_every_error_has_its_exit_status_and_nothing_in_it_acts_on_the_terminal(
     def fail(*_):
         raise error
 
-    monkeypatch.setattr("tftool.cli.static_arguments.parse", fail)
+    monkeypatch.setattr("tftool.nodes.static_arguments.parse", fail)
 
     result = tftool("static")
 
@@ -200,7 +200,7 @@ def test_an_interrupt_that_reaches_it_is_130(monkeypatch):
     def interrupt(*_):
         raise KeyboardInterrupt
 
-    monkeypatch.setattr("tftool.cli.static_arguments.parse", interrupt)
+    monkeypatch.setattr("tftool.nodes.static_arguments.parse", interrupt)
 
     assert app.main(["static"]) == 130
 

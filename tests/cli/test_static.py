@@ -2,8 +2,8 @@ import math
 
 import pytest
 
-from tftool.cli.static_arguments import parse
 from tftool.errors import UsageError
+from tftool.nodes.static_arguments import parse
 
 words = str.split
 FRAMES = ["--frame-id", "a", "--child-frame-id", "b"]

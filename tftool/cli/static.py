@@ -8,7 +8,7 @@ import typer
 
 if TYPE_CHECKING:
     from tftool.cli.lifetime import Session
-    from tftool.cli.static_arguments import StaticArguments
+    from tftool.nodes.static_arguments import StaticArguments
 
 Metres = Annotated[str | None, typer.Option(metavar="METRES")]
 Part = Annotated[str | None, typer.Option(metavar="NUMBER")]
@@ -53,7 +53,7 @@ def static(
     tftool static 0 0 3 0 0 3.14 A B          x y z yaw pitch roll: 3.14 is ROLL
     tftool static 0 0 3 0 0 0 1 A B           x y z qx qy qz qw
     """
-    from tftool.cli.static_arguments import parse
+    from tftool.nodes.static_arguments import parse
 
     given = {
         "x": x, "y": y, "z": z, "roll": roll, "pitch": pitch, "yaw": yaw,
@@ -94,9 +94,9 @@ def publish(said: "StaticArguments", *, spin: bool) -> None:
 
 async def _published(session: "Session", said: "StaticArguments", spin: bool) -> None:
     from tftool.cli.notices import notice
-    from tftool.cli.static_arguments import advice
     from tftool.errors import UsageError
     from tftool.frames.sample import TransformStamped
+    from tftool.nodes.static_arguments import advice
     from tftool.views.escaping import visible
     from tftool.views.static import lines
 

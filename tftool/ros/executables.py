@@ -8,13 +8,13 @@ from typing import Any
 
 from tftool.errors import UsageError
 from tftool.frames.sample import TransformStamped
-from tftool.geometry.conversions import quaternion_from_rpy
-from tftool.geometry.rigid import Transform
 from tftool.messages import Color
+from tftool.nodes import static_arguments
 from tftool.nodes.broadcasters import Broadcaster, DynamicCarrot, FixedCarrot, StaticBroadcaster
 from tftool.nodes.follower import Follower
 from tftool.nodes.points import MessageBroadcaster, PointDrawer
 from tftool.nodes.squares import DrawSquare, Mimic
+from tftool.nodes.static_turtle import static_turtle
 from tftool.nodes.turtlesim import BACKGROUND, Turtlesim
 from tftool.ros import users
 from tftool.ros.names import RosOptions, join
@@ -103,74 +103,15 @@ def _follower(parameter: str) -> Callable[[Asked], Node]:
 
 
 def _static_turtle(asked: Asked) -> Node:
-    words = asked.arguments
-    if len(words) != 7:
-        raise UsageError(
-            "static_turtle_tf2_broadcaster takes seven arguments, not "
-            f"{len(words)}: child_frame_name x y z roll pitch yaw"
-        )
-    child, *rest = words
-    x, y, z, roll, pitch, yaw = _numbers(rest)
-    if child == "world":
-        raise UsageError('Your static turtle name cannot be "world"')
-    return _static(asked, "world", child, (x, y, z), quaternion_from_rpy(roll, pitch, yaw))
+    return StaticBroadcaster(asked.world, asked.name, transforms=[static_turtle(asked.arguments)])
 
 
 def _static_publisher(asked: Asked) -> Node:
-    words = list(asked.arguments)
-    if words and words[0].startswith("--"):
-        return _new_style(asked, words)
-    if len(words) == 9:
-        *numbers, parent, child = words
-        x, y, z, *rotation = _numbers(numbers)
-    elif len(words) == 8:
-        *numbers, parent, child = words
-        # The old form's order is yaw, pitch, roll.
-        x, y, z, yaw, pitch, roll = _numbers(numbers)
-        rotation = list(quaternion_from_rpy(roll, pitch, yaw))
-    else:
-        raise UsageError(
-            "static_transform_publisher takes x y z yaw pitch roll parent child, the same with a "
-            "quaternion, or --x … --frame-id … --child-frame-id …"
-        )
-    return _static(asked, parent, child, (x, y, z), rotation)
-
-
-def _new_style(asked: Asked, words: list[str]) -> Node:
-    known = ("x", "y", "z", "qx", "qy", "qz", "qw", "roll", "pitch", "yaw", "frame-id",
-             "child-frame-id")  # fmt: skip
-    given: dict[str, str] = {}
-    for option, value in zip(words[::2], [*words[1::2], ""], strict=False):
-        name = option.removeprefix("--")
-        if name not in known or not value:
-            near = get_close_matches(name, known, n=1)
-            hint = f"; did you mean '--{near[0]}'?" if near and name not in known else ""
-            raise UsageError(f"static_transform_publisher cannot use '{option} {value}'{hint}")
-        given[name] = value
-    if "frame-id" not in given or "child-frame-id" not in given:
-        raise UsageError("static_transform_publisher needs --frame-id and --child-frame-id")
-    turned = [given.get(name, "0") for name in ("roll", "pitch", "yaw")]
-    roll, pitch, yaw = _numbers(turned)
-    rotation = list(quaternion_from_rpy(roll, pitch, yaw))
-    if any(name in given for name in ("qx", "qy", "qz", "qw")):
-        if any(name in given for name in ("roll", "pitch", "yaw")):
-            raise UsageError("give a quaternion or roll, pitch, yaw, not both")
-        parts = zip(("qx", "qy", "qz", "qw"), "0001", strict=True)
-        rotation = _numbers([given.get(name, default) for name, default in parts])
-    x, y, z = _numbers([given.get(name, "0") for name in "xyz"])
-    return _static(asked, given["frame-id"], given["child-frame-id"], (x, y, z), rotation)
-
-
-def _static(asked: Asked, parent: str, child: str, place: Any, rotation: Any) -> Node:
-    sample = TransformStamped(0, parent, child, Transform(place, rotation))
+    said = static_arguments.parse(asked.arguments)
+    if said is None:
+        raise UsageError("'tftool static --help' says what static_transform_publisher takes")
+    sample = TransformStamped(0, said.parent, said.child, said.transform)
     return StaticBroadcaster(asked.world, asked.name, transforms=[sample])
-
-
-def _numbers(words: Sequence[str]) -> list[float]:
-    try:
-        return [float(word) for word in words]
-    except ValueError as error:
-        raise UsageError(f"a number is wanted: {error}") from None
 
 
 def _mimic(asked: Asked) -> Node:

@@ -1,4 +1,4 @@
-"""The words after `tftool static`: tf2's two styles of saying one transform."""
+"""The words of static_transform_publisher: tf2's two styles of saying one transform."""
 
 import math
 import re
