@@ -367,6 +367,27 @@ def test_a_node_may_be_a_file_of_no_package(tmp_path):
     assert done.said("alone.py-1") == ["process started", "process has finished cleanly"]
 
 
+def test_what_handlers_do_knows_their_event(tmp_path):
+    done = described(
+        tmp_path,
+        "(fails := ExecuteProcess(cmd=['sh', '-c', 'exit 3']))",
+        "RegisterEventHandler(OnProcessExit(target_action=fails, on_exit=["
+        "LogInfo(msg=['exit ', LocalSubstitution('event.returncode')]),"
+        "TimerAction(period=1.0, actions=["
+        "EmitEvent(event=launch.events.Shutdown(reason='it was')), "
+        "LogInfo(msg=['of ', LocalSubstitution('event.process_name')])])]))",
+        "RegisterEventHandler(OnShutdown("
+        "on_shutdown=[LogInfo(msg=['asked to: ', LocalSubstitution('event.reason')])]))",
+    )
+
+    assert done.said("launch") == [
+        "exit 3",
+        "of sh-1",
+        "asked to: it was",
+        "shutting down: it was",
+    ]
+
+
 # What is wrong
 
 
@@ -387,6 +408,11 @@ def test_a_node_may_be_a_file_of_no_package(tmp_path):
         ("DeclareLaunchArgument('x', default_value='c', choices=['a'])", "one of a, not 'c'"),
         ("LogInfo(msg='', condition=IfCondition('maybe'))", "'true', 'false', '1' or '0', not"),
         ("LogInfo(msg=PythonExpression('1 +'))", r"cannot evaluate the expression '1 \+'"),
+        (
+            "EmitEvent(event=Shutdown())",
+            "EmitEvent needs an event, not a Shutdown of launch.actions",
+        ),
+        ("LogInfo(msg=LocalSubstitution('event.reason'))", "no 'event' for 'event.reason' here"),
         ("LogInfo(msg=EnvironmentVariable('NO_SUCH'))", "'NO_SUCH' does not exist"),
         ("LogInfo(msg=FindExecutable(name='no-such'))", "no command 'no-such'"),
         ("LogInfo(msg=Command('false'))", r"the command \['false'\] failed"),

@@ -167,6 +167,7 @@ launch.substitutions: launching.substitutions: EnvironmentVariable PathJoinSubst
 launch.substitutions: launching.substitutions: StringJoinSubstitution PythonExpression
 launch.substitutions: launching.substitutions: ThisLaunchFile ThisLaunchFileDir AnonName
 launch.substitutions: launching.substitutions: FindExecutable Command SubstitutionFailure
+launch.substitutions: launching.substitutions: LocalSubstitution
 launch.substitutions: launching.logic: EqualsSubstitution NotEqualsSubstitution AndSubstitution
 launch.substitutions: launching.logic: OrSubstitution NotSubstitution AnySubstitution
 launch.substitutions: launching.logic: AllSubstitution IfElseSubstitution

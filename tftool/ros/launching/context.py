@@ -4,6 +4,7 @@ import os
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from pathlib import Path
+from types import SimpleNamespace
 from typing import Any
 
 from tftool.errors import UsageError
@@ -26,6 +27,7 @@ class LaunchContext:
         workspace: Where packages are looked for.
         load: Reads a launch file, for those that include one.
         launch: What runs it.
+        event: What is being handled, None while nothing is.
     """
 
     def __init__(
@@ -43,6 +45,11 @@ class LaunchContext:
         self.event: Any = None
         self._numbers: dict[str, int] = {}
         self._kept: list[tuple[Any, ...]] = []
+
+    @property
+    def locals(self) -> SimpleNamespace:
+        """What is known here alone: the event that is being handled."""
+        return SimpleNamespace() if self.event is None else SimpleNamespace(event=self.event)
 
     def number_of(self, name: str) -> int:
         """A number for a name, the same one each time."""
@@ -71,6 +78,7 @@ class LaunchContext:
             self.namespace,
             list(self.remaps),
             list(self.parameters),
+            self.event,
         )
 
     def push(self) -> None:
@@ -99,4 +107,5 @@ class LaunchContext:
             self.namespace,
             self.remaps,
             self.parameters,
+            self.event,
         ) = kept

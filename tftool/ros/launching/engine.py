@@ -179,6 +179,7 @@ class Launch(Node):
                 except Exception as error:
                     raise InputError(users.sentence_of(error)) from error
                 self.do(entities or ())
+                self.context.event = None
         if isinstance(event, Shutdown) and not self._closing:
             self._closing = True
             self._say("INFO", "launch", f"shutting down: {event.reason}")

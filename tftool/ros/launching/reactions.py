@@ -2,6 +2,7 @@
 
 from typing import Any
 
+from tftool.errors import UsageError
 from tftool.ros.launching.action import Action
 from tftool.ros.launching.context import LaunchContext
 from tftool.ros.launching.events import Event, EventHandler, OnExecutionComplete
@@ -39,8 +40,8 @@ class RegisterEventHandler(Action):
             )
 
 
-def _kind(action: Any) -> str:
-    return type(action).__name__
+def _kind(value: Any) -> str:
+    return type(value).__name__
 
 
 class UnregisterEventHandler(Action):
@@ -64,7 +65,14 @@ class EmitEvent(Action):
         self.event = event
 
     def execute(self, context: LaunchContext) -> Any:
-        """Emit it."""
+        """Emit it.
+
+        Raises:
+            UsageError: If it is none.
+        """
+        if not isinstance(self.event, Event):
+            action = " of launch.actions" if isinstance(self.event, Action) else ""
+            raise UsageError(f"EmitEvent needs an event, not a {_kind(self.event)}{action}")
         context.launch.emit(self.event)
 
 

@@ -140,6 +140,31 @@ class EnvironmentVariable(Substitution):
         return f"EnvVar({describe(self.name)})"
 
 
+class LocalSubstitution(Substitution):
+    """What is known at a place alone: 'event.reason' in what an event's handler does."""
+
+    def __init__(self, expression: str, description: str | None = None) -> None:
+        self.expression = expression
+        self.description = description
+
+    def perform(self, context: LaunchContext) -> str:
+        """The value now."""
+        value: Any = context.locals
+        for name in self.expression.split("."):
+            if not hasattr(value, name):
+                known = ", ".join(one for one in vars(value) if not one.startswith("_"))
+                raise SubstitutionFailure(
+                    f"there is no '{name}' for '{self.expression}' here, "
+                    f"but {known or 'nothing: only what a handler does knows its event'}"
+                )
+            value = getattr(value, name)
+        return str(value)
+
+    def describe(self) -> str:
+        """LocalVar('event.reason')."""
+        return f"LocalVar('{self.description or self.expression}')"
+
+
 class PathJoinSubstitution(Substitution):
     """Path parts, joined."""
 
