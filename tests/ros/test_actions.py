@@ -217,3 +217,35 @@ def test_a_servers_callbacks_may_be_coroutines_and_a_failing_one_ends_its_goal_a
     assert "Error raised in execute callback: ValueError: two is one too many" in error
     assert "test_actions.py" in error
     assert warning == "Goal state not set, assuming aborted."
+
+
+@pytest.mark.parametrize(
+    ("before", "instead"),
+    [
+        (
+            "return GoalResponse.ACCEPT if request.order < 20 else GoalResponse.REJECT",
+            "raise ValueError('no')",
+        ),
+        (
+            "rclpy.spin(FibonacciServer(), executor=MultiThreadedExecutor())",
+            "node = FibonacciServer(); time.sleep(1); node.destroy_node(); time.sleep(60)",
+        ),
+    ],
+    ids=["fails", "leaves"],
+)
+def test_a_goal_is_refused_by_a_server_that_fails_or_leaves_before_it_decides(
+    ros_runtime, tmp_path, before, instead
+):
+    import rclpy
+    from action_tutorials_interfaces.action import Fibonacci
+    from rclpy.action import ActionClient
+
+    file = tmp_path / "server.py"
+    file.write_text(SERVER.replace(before, instead))
+    ros_runtime.start(file, on_exit=lambda program: None)
+    rclpy.init()
+    client = ActionClient(rclpy.create_node("client"), Fibonacci, "fibonacci")
+    assert client.wait_for_server(timeout_sec=5.0)
+
+    assert not finish(client, client.send_goal_async(order(1))).accepted
+    assert ros_runtime.elapsed() < 5

@@ -115,7 +115,7 @@ class ActionServer:
             self._feedback.put(_bytes(said))
 
         goal = await self._link.world.send_goal(self._name, request, feed)
-        if goal.decided is not None and not await goal.decided:
+        if goal.decided is not None and not await asyncio.shield(goal.decided):
             return False
         self._goals[goal_id] = goal, now
         while len(self._goals) > KEPT:

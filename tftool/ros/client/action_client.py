@@ -1,5 +1,6 @@
 """rclpy.action's client: sends goals, hears of them, gives them up."""
 
+import asyncio
 from collections.abc import Callable
 from typing import Any
 
@@ -139,7 +140,8 @@ class ActionClient(Asker):
                 refused = error
                 self.put(lambda: future.set_exception(refused))
                 return
-            accepted = handle.decided is None or await handle.decided
+            # Shielded: the decision is the server's, whether or not this client waits for it.
+            accepted = handle.decided is None or await asyncio.shield(handle.decided)
             held = ClientGoalHandle(self, goal_id, handle if accepted else None)
             self.put(lambda: future.set_result(held))
 

@@ -136,6 +136,7 @@ class ActionServer(Inbox):
         self._on_cancel = cancel_callback or (lambda handle: CancelResponse.REJECT)
         self.full = member.full(action_name)
         self._stop: Callable[[], None] = lambda: None
+        self._goals: set[WorldGoal] = set()
 
         def serve() -> "ActionServer":
             self._stop = member.world.serve_action(
@@ -167,6 +168,7 @@ class ActionServer(Inbox):
 
     def arrived(self, goal: WorldGoal) -> None:
         """Keep a goal until an executor takes it."""
+        self._goals = {one for one in self._goals if not one.done} | {goal}
         goal.decided = asyncio.get_running_loop().create_future()
         request = values.unpack(goal.request, self.type_.Goal)
         handle = ServerGoalHandle(self, goal, request)
@@ -174,22 +176,33 @@ class ActionServer(Inbox):
         self.put(lambda: self._consider(handle, goal))
 
     def withdraw(self) -> None:
-        """Take no more goals."""
+        """Take no more goals; those nobody has decided about are refused."""
         super().withdraw()
         self._stop()
+        for goal in self._goals:
+            self._decide(goal, False)
+
+    def _decide(self, goal: WorldGoal, accepted: bool) -> bool:
+        """Tell a goal's client whether it is taken; the first decision counts, and is returned."""
+        decided = goal.decided
+        assert decided is not None
+        if not decided.done():
+            decided.set_result(accepted)
+            if not accepted:
+                goal.finish("aborted", self.type_.Result())
+        return decided.result()
 
     # On the fiber
 
     async def _consider(self, handle: ServerGoalHandle, goal: WorldGoal) -> None:
-        accepted = await _outcome(self._on_goal(handle.request)) == GoalResponse.ACCEPT
-
-        def answer() -> None:
-            if goal.decided is not None:
-                goal.decided.set_result(accepted)
-            if not accepted:
-                goal.finish("aborted", self.type_.Result())
-
-        self.member.program.ask(answer)
+        ask = self.member.program.ask
+        try:
+            response = await _outcome(self._on_goal(handle.request))
+        except Exception:
+            # As in ROS 2 it ends whoever spins; the client must not wait for ever.
+            ask(lambda: self._decide(goal, False))
+            raise
+        accepted = ask(lambda: self._decide(goal, response == GoalResponse.ACCEPT))
         if accepted:
             await _outcome(self._on_accepted(handle))
 
