@@ -200,6 +200,35 @@ def test_values_of_a_given_type_are_of_that_type(brief):
     assert done.texts("brief") == ["a=3 b=5 c=5.0"]
 
 
+def test_a_lifecycle_node_begins_unconfigured_and_others_bring_it_on(tmp_path):
+    nodes = tmp_path / "mine" / "scripts"
+    nodes.mkdir(parents=True)
+    (tmp_path / "mine" / "package.xml").write_text("<package><name>mine</name></package>")
+    (nodes / "camera.py").write_text(
+        "import rclpy\nfrom rclpy.lifecycle import LifecycleNode, TransitionCallbackReturn\n"
+        "class Camera(LifecycleNode):\n"
+        "    def on_configure(self, state):\n"
+        "        self.get_logger().info(f'from {state.label}')\n"
+        "        return TransitionCallbackReturn.SUCCESS\n"
+        "rclpy.init()\nrclpy.spin(Camera('x'))\n"
+    )
+    (nodes / "manager.py").write_text(
+        "import rclpy\nfrom lifecycle_msgs.srv import ChangeState\nrclpy.init()\n"
+        "node = rclpy.create_node('manager')\n"
+        "client = node.create_client(ChangeState, '/front/camera/change_state')\n"
+        "client.wait_for_service()\nrequest = ChangeState.Request()\n"
+        "request.transition.id = 1\nclient.call(request)\n"
+    )
+    done = described(
+        tmp_path,
+        "LifecycleNode(package='mine', executable='camera.py', name='camera', namespace='front')",
+        "Node(package='mine', executable='manager.py')",
+        start=tmp_path,
+    )
+
+    assert done.texts("front.camera") == ["from unconfigured"]
+
+
 def test_a_shutdown_ends_the_nodes_that_run(brief):
     (brief / "mine" / "scripts" / "long.py").write_text(
         "import rclpy\nrclpy.init()\nnode = rclpy.create_node('long')\n"

@@ -223,7 +223,6 @@ def test_a_mistake_in_xml_is_told_with_its_line_and_the_nearest_word(tmp_path, t
     ("line", "told"),
     [
         ("from launch_ros.actions import ComposableNodeContainer", "of launch_ros.actions is not"),
-        ("from launch_ros.actions import LifecycleNode", "of launch_ros.actions is not covered"),
         ("from launch.event_handlers import OnProcessIO", "of launch.event_handlers is not"),
         ("from launch.actions import GroupActon", "is not covered; did you mean 'GroupAction'?"),
         (

@@ -175,7 +175,7 @@ launch.utilities: launching.substitutions: perform_substitutions=perform
 launch_xml.launch_description_sources: launching.description: XMLLaunchDescriptionSource
 launch_yaml.launch_description_sources: launching.description: YAMLLaunchDescriptionSource
 launch_ros.actions: launching.nodes: Node PushRosNamespace PushROSNamespace=PushRosNamespace
-launch_ros.actions: launching.nodes: SetRemap
+launch_ros.actions: launching.nodes: SetRemap LifecycleNode
 launch_ros.actions: launching.parameters: SetParameter SetUseSimTime SetParametersFromFile
 launch_ros.substitutions: launching.substitutions: FindPackageShare FindPackagePrefix FindPackage
 launch_ros.parameter_descriptions: launching.parameters: ParameterValue ParameterFile

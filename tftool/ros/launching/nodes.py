@@ -129,6 +129,13 @@ def _listed(given: Any) -> list[Any]:
     return [given] if isinstance(given, Substitution) else list(given)
 
 
+class LifecycleNode(Node):
+    """A node that is configured and activated by others, or by itself, before it works."""
+
+    def __init__(self, *, name: Any, namespace: Any, **kwargs: Any) -> None:
+        super().__init__(name=name, namespace=namespace, **kwargs)
+
+
 class PushRosNamespace(Action):
     """Puts nodes of the scope into a namespace."""
 
