@@ -29,10 +29,11 @@ def tftool(capsys, monkeypatch):
 
 @pytest.fixture
 def simulated(monkeypatch):
-    """Hosted worlds live on simulated time, from the end of their head start on."""
+    """Hosted worlds live on simulated time, from the end of their head start on, unshared."""
 
     class Simulated(SimClock):
         def __init__(self, rate=1.0, *, head_start=0):
             super().__init__()
 
     monkeypatch.setattr("tftool.cli.session.WallClock", Simulated)
+    monkeypatch.setattr("tftool.cli.session._open_link", lambda chosen: (None, ""))

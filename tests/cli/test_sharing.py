@@ -6,7 +6,11 @@ import sys
 import pytest
 
 from tests.certificates import certificates, needs_openssl
+from tftool.cli import session
 from tftool.cli.sharing import Choice, Mode, choice, shares
+
+# As it is where no test has put something in its place.
+OPEN_LINK = session._open_link
 
 
 @pytest.fixture
@@ -191,7 +195,7 @@ def test_without_zenoh_a_world_is_hosted_and_joining_says_what_is_missing(
     tftool, monkeypatch, simulated
 ):
     monkeypatch.setitem(sys.modules, "zenoh", None)
-    monkeypatch.setattr("tftool.cli.session._is_real", lambda clock: True)
+    monkeypatch.setattr("tftool.cli.session._open_link", OPEN_LINK)
 
     hosted = tftool("echo", "world", "turtle1", "--once")
     joined = tftool("echo", "world", "turtle1", "--once", "--join")

@@ -14,7 +14,6 @@ from tftool.cli.lifetime import Session, lived, shared
 from tftool.cli.notices import notice
 from tftool.cli.sharing import Choice, Mode, choice, open_link
 from tftool.errors import LinkError, UsageError
-from tftool.runtime import clock as clocks
 from tftool.runtime.clock import Clock, WallClock
 from tftool.runtime.world import World
 from tftool.stamps import Duration, Stamp, seconds
@@ -172,7 +171,7 @@ def join_session(
 def open_empty_session(clock: Clock | None = None) -> Session:
     """Give a world with nothing in it to whoever brings all there is to it; others see it."""
     world = World(clock or WallClock())
-    link = _open_link(choice())[0] if _is_real(world.clock) else None
+    link = _open_link(choice())[0] if clock is None else None
     alive = lived(world, link, "source")
     return Session(world, True, "an empty world", alive, link=link)
 
@@ -231,8 +230,6 @@ def _open_link(chosen: Choice) -> tuple["Link | None", str]:
     Raises:
         LinkError: If something was asked for that only a link can give.
     """
-    if not _is_real(WallClock()):
-        return None, ""
     try:
         return open_link(), ""
     except LinkError as error:
@@ -256,11 +253,6 @@ def _has_host(link: "Link") -> bool:
 
     # A host that has only just begun has no turtles yet, and will have some.
     return bool(hosts(link.graph.processes()) or link.graph.entities("SS", name="spawn"))
-
-
-def _is_real(clock: Clock) -> bool:
-    """Whether a clock's time is that of other processes too."""
-    return isinstance(clock, clocks.WallClock)
 
 
 def _name_of(link: "Link") -> str:
