@@ -333,3 +333,28 @@ def test_ctrl_c_runs_destroy_node_and_ends_the_command_as_interrupted(tmp_path):
     assert status == 130
     assert "[ends]: destroyed" in rest
     assert "Traceback" not in rest
+
+
+@pytest.mark.parametrize("number", [signal.SIGINT, signal.SIGTERM])
+def test_the_first_signal_ends_an_endless_loop_on_simulated_time_too(tmp_path, number):
+    file = tmp_path / "endless.py"
+    file.write_text(
+        NODE + "def tick():\n    node.get_logger().info('ticked')\n    while True:\n        pass\n"
+        "node.create_timer(1.0, tick)\nrclpy.spin(node)\n"
+    )
+    command = subprocess.Popen(
+        [sys.executable, "-m", "tftool", "run", *SIMULATED, str(file)],
+        stderr=subprocess.PIPE,
+        text=True,
+        env={**os.environ, "PYTHONPATH": str(TUTORIAL.parent.parent)},
+    )
+    with command:
+        for line in command.stderr:
+            if "[mine]: ticked" in line:
+                command.send_signal(number)
+                break
+        rest = command.stderr.read()
+
+    assert command.returncode == 130
+    assert "did not come to rest" not in rest
+    assert "Traceback" not in rest

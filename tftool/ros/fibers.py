@@ -124,6 +124,7 @@ class Fiber:
         on_busy: Callable[[Place | None], object] = lambda place: None,
         patience: float | None = None,
         give_up: float | None = None,
+        told_to_end: Callable[[], bool] = lambda: False,
     ) -> None:
         """Prepare a thread for `body`; `drive` starts it.
 
@@ -136,6 +137,8 @@ class Fiber:
             patience: See `on_busy`.
             give_up: In strict mode, after how many real seconds the code is stopped (`GIVE_UP`
                 unless told).
+            told_to_end: In strict mode, whether a signal has come meanwhile: the loop, which
+                stands still, learns of it only afterwards.
         """
         self.name = name
         self.interrupted = False
@@ -146,6 +149,7 @@ class Fiber:
         self._on_busy = on_busy
         self._patience = PATIENCE if patience is None else patience
         self._give_up = GIVE_UP if give_up is None else give_up
+        self._told_to_end = told_to_end
         self._go = _taken_lock()
         self._rest = _taken_lock()
         self._request: Callable[[], Any] | None = None
@@ -279,10 +283,14 @@ class Fiber:
         if self._thread is None:
             self._rest.acquire()
             return
-        if self._rest.acquire(timeout=self._patience):
+        if self._rests_within(self._patience):
             return
-        self._say_busy()
-        if self._rest.acquire(timeout=max(0.0, self._give_up - self._patience)):
+        if not self._told_to_end():
+            self._say_busy()
+            if self._rests_within(max(0.0, self._give_up - self._patience)):
+                return
+        if self._told_to_end():
+            self._end_now()
             return
         place = self.place()
         self._raise_in_thread(SystemExit)
@@ -292,6 +300,23 @@ class Fiber:
             f"'{self.name}' did not come to rest for {self._give_up:g} s and simulated time "
             f"waits for it: {place or 'no line of yours is running'}"
         )
+
+    def _rests_within(self, limit: float) -> bool:
+        """Whether the thread comes to rest in so many real seconds, unless told to end."""
+        while limit > 0.0 and not self._told_to_end():
+            part = min(limit, GRACE)
+            if self._rest.acquire(timeout=part):
+                return True
+            limit -= part
+        return self._rest.acquire(blocking=False)
+
+    def _end_now(self) -> None:
+        """End code that a signal found busy; what does not heed it is left alone."""
+        if not self.interrupted:
+            self.interrupted = True
+            self._raise_in_thread(KeyboardInterrupt)
+        if not self._rest.acquire(timeout=GRACE * 4):
+            self.ended = True
 
     async def _interrupt(self, loop: asyncio.AbstractEventLoop) -> None:
         """End code that is running right now: politely first, then by raising in it."""

@@ -108,7 +108,7 @@ class Program(Node):
         if body is None:
             self.fiber = Fiber.adopt(name)
         else:
-            self.fiber = Fiber(name, body, strict=self.strict, on_busy=self._say_busy)
+            self.fiber = self.new_fiber(name, body, on_busy=self._say_busy)
         self._own(self.fiber)
         super().__init__(world, name)
 
@@ -172,6 +172,16 @@ class Program(Node):
         self._others.add(task)
         task.add_done_callback(self._fiber_ended)
         return task
+
+    def new_fiber(self, name: str, body: Callable[[], object], **settings: Any) -> Fiber:
+        """One more thread for this program, not begun yet."""
+        return Fiber(
+            name,
+            body,
+            strict=self.strict,
+            told_to_end=lambda: self.clock.interrupted,
+            **settings,
+        )
 
     def _fiber_ended(self, task: "asyncio.Task[None]") -> None:
         self._others.discard(task)

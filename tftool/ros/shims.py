@@ -74,7 +74,7 @@ class UserThread(threading.Thread):
             super().start()
             return
         self._owner = owner
-        self._fiber = fiber = Fiber(self.name, self._run_told, strict=owner.strict)
+        self._fiber = fiber = owner.new_fiber(self.name, self._run_told)
         owner.ask(lambda: [owner.start_fiber(fiber)])
 
     def _run_told(self) -> None:

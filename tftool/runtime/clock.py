@@ -44,14 +44,18 @@ class Clock(ABC):
     Attributes:
         epoch: The moment the clock was made. Never 0, which means "latest".
         rate: How many of the clock's seconds pass in a real one; infinite when simulated.
+        interrupted: Whether a signal has asked the run on it to end; known at once, even
+            while something holds up the loop, which would otherwise be the first to know.
     """
 
     epoch: Stamp
     rate: float
+    interrupted: bool
 
     def __init__(self, epoch: Stamp, rate: float) -> None:
         self.epoch = epoch
         self.rate = rate
+        self.interrupted = False
         self._waiters: list[tuple[Stamp, int, int, int, asyncio.Future[None]]] = []
         self._asked = 0
 
@@ -325,17 +329,18 @@ def run(clock: Clock, main: Coroutine[Any, Any, T]) -> T:
         Exception: What the coroutine raises.
     """
     loop = clock.new_loop()
+    clock.interrupted = False
     try:
         asyncio.set_event_loop(loop)
         task = loop.create_task(main)
-        signals = _Signals(loop, task)
+        signals = _Signals(clock, loop, task)
         try:
             result = loop.run_until_complete(task)
-            if signals.caught:
+            if clock.interrupted:
                 raise KeyboardInterrupt
             return result
         except asyncio.CancelledError:
-            if signals.caught:
+            if clock.interrupted:
                 raise KeyboardInterrupt from None
             raise
         finally:
@@ -350,8 +355,10 @@ def run(clock: Clock, main: Coroutine[Any, Any, T]) -> T:
 class _Signals:
     """Turns the first SIGINT or SIGTERM into a cancellation, where the platform lets us."""
 
-    def __init__(self, loop: asyncio.AbstractEventLoop, task: "asyncio.Task[Any]") -> None:
-        self.caught = False
+    def __init__(
+        self, clock: Clock, loop: asyncio.AbstractEventLoop, task: "asyncio.Task[Any]"
+    ) -> None:
+        self._clock = clock
         self._loop = loop
         self._task = task
         self._before: dict[signal.Signals, Any] = {}
@@ -363,10 +370,15 @@ class _Signals:
                 loop.add_signal_handler(number, self._catch)
             except NotImplementedError:  # Windows: KeyboardInterrupt comes by itself
                 return
+            # The loop is still woken by the signal; this one is told even while it is held up.
+            signal.signal(number, self._note)
             self._before[number] = before
 
+    def _note(self, number: int, frame: object) -> None:
+        self._clock.interrupted = True
+
     def _catch(self) -> None:
-        self.caught = True
+        self._clock.interrupted = True
         self._task.cancel()
         self.restore(dict.fromkeys(self._before, signal.SIG_DFL))
 

@@ -18,7 +18,6 @@ from tftool.ros.client.exceptions import ExternalShutdownException, ShutdownExce
 from tftool.ros.client.futures import Future, Task
 from tftool.ros.client.member import Member, member_of
 from tftool.ros.client.timers import Timer
-from tftool.ros.fibers import Fiber
 from tftool.stamps import Stamp, seconds
 
 THREADS = 4
@@ -351,7 +350,7 @@ class MultiThreadedExecutor(Executor):
             while self._workers < self._threads - 1:
                 self._workers += 1
                 name = f"{self._program.name}#{self._workers}"
-                self._program.start_fiber(Fiber(name, work, strict=self._program.strict))
+                self._program.start_fiber(self._program.new_fiber(name, work))
 
         self._program.ask(start)
 
