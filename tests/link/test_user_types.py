@@ -352,6 +352,32 @@ def test_a_goal_of_any_type_is_taken_or_refused_fed_back_and_ended():
     play(act())
 
 
+def test_who_calls_a_goal_off_hears_what_its_server_decides():
+    async def act():
+        async with Two() as two:
+            goals, decisions = [], [False, True]
+
+            def accept(goal):
+                goal.on_cancel = lambda: goal.decide_cancel(decisions.pop(0))
+                goals.append(goal)
+
+            two.here.serve_action("fibonacci", accept, FIBONACCI, node="counter")
+            await until(lambda: "fibonacci" in two.there.actions())
+            goal = await two.there.send_goal("fibonacci", FIBONACCI.Goal(order=3))
+            await until(lambda: goals)
+
+            goal.cancel()
+            assert not await goal.cancellation()
+            assert not goals[0].cancel_requested
+            goal.cancel()
+            assert await goal.cancellation()
+            assert goals[0].cancel_requested
+            goals[0].finish("canceled", FIBONACCI.Result())
+            assert (await goal.result()).status == "canceled"
+
+    play(act())
+
+
 @pytest.mark.parametrize("goal", [RotateAbsolute(1.0), {"order": 3}, SET_BOOL.Request()])
 def test_a_goal_of_another_type_is_refused_before_it_is_sent(goal):
     async def act():

@@ -178,9 +178,10 @@ def test_a_server_is_asked_to_cancel_once_each_time_a_client_asks(ros_runtime):
     client = ActionClient(node, Fibonacci, "fib")
     handle = finish(client, client.send_goal_async(order(1)))
     for count in (1, 2):
-        finish(client, handle.cancel_goal_async())
-        rclpy.spin_until_future_complete(node, Future(), timeout_sec=0.5)
+        answer = finish(client, handle.cancel_goal_async())
         assert len(asked) == count
+        assert answer.return_code == answer.ERROR_REJECTED
+        assert len(answer.goals_canceling) == 0
     end.set_result(None)
     assert finish(client, handle.get_result_async()).status == 4
 
@@ -249,3 +250,31 @@ def test_a_goal_is_refused_by_a_server_that_fails_or_leaves_before_it_decides(
 
     assert not finish(client, client.send_goal_async(order(1))).accepted
     assert ros_runtime.elapsed() < 5
+
+
+def test_a_cancellation_that_is_never_decided_is_refused_when_its_server_leaves(ros_runtime):
+    import rclpy
+    from action_tutorials_interfaces.action import Fibonacci
+    from rclpy.action import ActionClient, ActionServer
+    from rclpy.task import Future
+
+    rclpy.init()
+    node = rclpy.create_node("both")
+    end = Future()
+
+    async def work(handle):
+        await end
+        return Fibonacci.Result()
+
+    def on_cancel(handle):
+        server.destroy()
+        raise ValueError("no")
+
+    server = ActionServer(node, Fibonacci, "fib", work, cancel_callback=on_cancel)
+    client = ActionClient(node, Fibonacci, "fib")
+    handle = finish(client, client.send_goal_async(order(1)))
+    answer = handle.cancel_goal_async()
+    with pytest.raises(ValueError, match="no"):
+        finish(client, answer)
+
+    assert finish(client, answer).return_code == 1

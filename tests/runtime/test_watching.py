@@ -1,5 +1,7 @@
 """Those who are told when something comes or goes: a link to other processes is one."""
 
+import pytest
+
 from tftool.messages import Twist2D
 from tftool.runtime.clock import SimClock, run
 from tftool.runtime.node import Node
@@ -56,13 +58,33 @@ def test_a_topic_tells_of_demand_when_a_listener_comes_and_when_it_goes():
     assert counts == [1, 0]
 
 
-def test_a_server_that_does_not_look_is_told_of_a_cancel_once():
+def test_a_server_that_decides_is_asked_anew_only_after_it_has_refused():
     async def ask():
         goal = GoalHandle("turn")
-        told = []
-        goal.on_cancel = lambda: told.append(goal.cancel_requested)
+        asked = []
+        goal.on_cancel = lambda: asked.append(goal.cancel_requested)
+        found = []
+        for accepted in (False, True):
+            goal.cancel()
+            goal.cancel()
+            goal.decide_cancel(accepted)
+            found.append((len(asked), await goal.cancellation(), goal.cancel_requested))
         goal.cancel()
-        goal.cancel()
-        return told
+        return found, asked
 
-    assert run(SimClock(), ask()) == [True]
+    found, asked = run(SimClock(), ask())
+
+    assert found == [(1, False, False), (2, True, True)]
+    assert asked == [False, False], "nothing is canceled before the server agrees"
+
+
+@pytest.mark.parametrize(("status", "accepted"), [("canceled", True), ("succeeded", False)])
+def test_the_end_of_a_goal_answers_an_open_cancellation(status, accepted):
+    async def ask():
+        goal = GoalHandle("turn")
+        goal.on_cancel = lambda: None
+        goal.cancel()
+        goal.finish(status, None)
+        return await goal.cancellation()
+
+    assert run(SimClock(), ask()) is accepted

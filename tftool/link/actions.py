@@ -10,7 +10,7 @@ from tftool.link import keys, types
 from tftool.link.codec import codec
 from tftool.link.keys import Entity
 from tftool.link.membership import Membership
-from tftool.link.services import LONGEST, PATIENCE, Asking, Endpoint, Tasks, patience_for
+from tftool.link.services import LONGEST, Asking, Endpoint, Tasks, patience_for
 from tftool.link.topics import Sender
 from tftool.link.transport import Arrived
 from tftool.link.types import ActionType
@@ -32,7 +32,7 @@ _FEEDBACK: Final = Quality(depth=10)
 _STATUS: Final = Quality(depth=1, is_latched=True)
 
 _EVERY_GOAL = bytes(16)
-_NO_ERROR, _UNKNOWN_GOAL, _ENDED = 0, 2, 3
+_NO_ERROR, _REJECTED, _UNKNOWN_GOAL, _ENDED = 0, 1, 2, 3
 
 
 def _message(ros_type: str, **fields: Any) -> Any:
@@ -131,17 +131,27 @@ class ActionServer:
     async def _cancel_goal(self, payload: bytes) -> bytes:
         asked = _read(f"{CANCEL_GOAL}_Request", payload)
         goal_id = bytes(asked.goal_info.goal_id.uuid)
-        chosen = list(self._goals) if goal_id == _EVERY_GOAL else [goal_id]
-        canceled = []
-        for each in chosen:
-            goal, accepted = self._goals.get(each, (None, 0))
-            if goal is not None and not goal.done:
-                goal.cancel()
-                canceled.append(_info(each, accepted))
-        if canceled or goal_id == _EVERY_GOAL:
+        every = goal_id == _EVERY_GOAL
+        chosen = [
+            (each, *self._goals[each])
+            for each in (list(self._goals) if every else [goal_id])
+            if each in self._goals
+        ]
+        going = [one for one in chosen if not one[1].done]
+        for _, goal, _ in going:
+            goal.cancel()
+        canceled = [
+            _info(each, accepted) for each, goal, accepted in going if await goal.cancellation()
+        ]
+        if canceled:
+            code = _NO_ERROR
+            self._publish_status()
+        elif going:
+            code = _REJECTED
+        elif every:
             code = _NO_ERROR
         else:
-            code = _ENDED if goal_id in self._goals else _UNKNOWN_GOAL
+            code = _ENDED if chosen else _UNKNOWN_GOAL
         answer = f"{CANCEL_GOAL}_Response"
         return _bytes(_message(answer, return_code=code, goals_canceling=canceled))
 
@@ -217,7 +227,7 @@ class ActionClient:
         goal_id = secrets.token_bytes(16)
         self._goals[goal_id] = goal
         goal.decided = asyncio.get_running_loop().create_future()
-        goal.on_cancel = lambda: self._tasks.start(self._call_off(goal_id))
+        goal.on_cancel = lambda: self._tasks.start(self._call_off(goal_id, goal))
         self._tasks.start(self._follow(goal_id, goal, goal.decided))
 
     async def _follow(
@@ -256,13 +266,17 @@ class ActionClient:
             self._type, None if isinstance(goal.request, Message) else type(goal.request)
         )
 
-    async def _call_off(self, goal_id: bytes) -> None:
+    async def _call_off(self, goal_id: bytes, goal: GoalHandle) -> None:
         info = _info(goal_id, 0)
+        accepted = False
         try:
             asked = _message(f"{CANCEL_GOAL}_Request", goal_info=info)
-            await self._cancel.ask(_bytes(asked), PATIENCE)
-        except LinkError as error:
+            answer = await self._cancel.ask(_bytes(asked), patience_for(goal.request))
+            accepted = bool(_read(f"{CANCEL_GOAL}_Response", answer).goals_canceling)
+        except (LinkError, MalformedMessage) as error:
             self._link.world.log.warn("link", f"{self._name}: {error}")
+        finally:
+            goal.decide_cancel(accepted)
 
     def _on_feedback(self, message: Arrived) -> None:
         try:

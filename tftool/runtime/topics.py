@@ -145,9 +145,10 @@ class GoalHandle:
 
     Attributes:
         request: What was asked for.
-        cancel_requested: Whether the client wants it stopped.
+        cancel_requested: Whether the client wants it stopped, and the server agreed.
         feedback: The last feedback, None before the first.
-        on_cancel: Called once when the client wants it stopped, for a server that does not look.
+        on_cancel: Called when the client wants it stopped, for a server that decides about that
+            by `decide_cancel`; None for one that always agrees.
         decided: Whether the server takes the goal, once it has decided; None for one that
             takes every goal.
     """
@@ -159,17 +160,29 @@ class GoalHandle:
         self.on_cancel: Callable[[], object] | None = None
         self.decided: asyncio.Future[bool] | None = None
         self._on_feedback = on_feedback
+        self._cancellation: asyncio.Future[bool] | None = None
         self._result: asyncio.Future[GoalResult] = asyncio.get_running_loop().create_future()
 
     # The client's side.
 
     def cancel(self) -> None:
-        """Ask the server to stop; does nothing once the goal has ended."""
-        if self.done or self.cancel_requested:
+        """Ask the server to stop.
+
+        Does nothing once the goal has ended, or while a cancellation is considered or accepted;
+        a server that refused is asked anew.
+        """
+        considered = self._cancellation is not None and not self._cancellation.done()
+        if self.done or self.cancel_requested or considered:
             return
-        self.cancel_requested = True
-        if self.on_cancel is not None:
+        self._cancellation = asyncio.get_running_loop().create_future()
+        if self.on_cancel is None:
+            self.decide_cancel(True)
+        else:
             self.on_cancel()
+
+    async def cancellation(self) -> bool:
+        """Wait for what the server says to the last cancellation; whether it agrees."""
+        return self._cancellation is not None and await asyncio.shield(self._cancellation)
 
     async def result(self) -> GoalResult:
         """Wait for the end."""
@@ -193,9 +206,16 @@ class GoalHandle:
         if self._on_feedback is not None:
             self._on_feedback(value)
 
+    def decide_cancel(self, accepted: bool) -> None:
+        """Say whether the goal will be stopped; the first answer to a cancellation counts."""
+        if self._cancellation is not None and not self._cancellation.done():
+            self.cancel_requested = accepted
+            self._cancellation.set_result(accepted)
+
     def finish(self, status: Status, value: Any) -> None:
         """End the goal; the first end counts."""
         if not self.done:
+            self.decide_cancel(status == "canceled")
             self._result.set_result(GoalResult(status, value))
 
 

@@ -31,14 +31,6 @@ class _Feedback:
         self.feedback = feedback
 
 
-class _Cancelled:
-    """What cancel_goal answers."""
-
-    def __init__(self, goals: list[Any]) -> None:
-        self.return_code = 0
-        self.goals_canceling = goals
-
-
 class ClientGoalHandle:
     """A goal, as the one who sent it holds it."""
 
@@ -179,16 +171,24 @@ class ActionClient(Asker):
         """A future of the answer to a cancellation."""
         future = Future(executor=self.member.executor)
 
-        def ask() -> None:
-            going = goal is not None and not goal.done
-            if goal is not None:
-                again = goal.cancel_requested
-                goal.cancel()
-                # A goal tells its server once, but a server that refused may be asked anew.
-                if again and going and goal.on_cancel is not None:
-                    goal.on_cancel()
-            info: Any = INTERFACES.message("action_msgs/GoalInfo")(goal_id=handle.goal_id)
-            self.put(lambda: future.set_result(_Cancelled([info] if going else [])))
+        async def ask() -> None:
+            answer = await _cancelled(goal, handle.goal_id)
+            self.put(lambda: future.set_result(answer))
 
-        self.member.program.ask(ask)
+        self.ask(ask())
         return future
+
+
+async def _cancelled(goal: WorldGoal | None, goal_id: Any) -> Any:
+    """Ask for a cancellation; the response of CancelGoal, once the server has decided."""
+    response: Any = INTERFACES.part("action_msgs/srv/CancelGoal_Response")
+    if goal is None:
+        return response(return_code=response.ERROR_UNKNOWN_GOAL_ID)
+    if goal.done:
+        return response(return_code=response.ERROR_GOAL_TERMINATED)
+    goal.cancel()
+    if not await goal.cancellation():
+        ended = response.ERROR_GOAL_TERMINATED
+        return response(return_code=ended if goal.done else response.ERROR_REJECTED)
+    info: Any = INTERFACES.message("action_msgs/GoalInfo")
+    return response(goals_canceling=[info(goal_id=goal_id)])

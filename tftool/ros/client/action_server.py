@@ -172,15 +172,16 @@ class ActionServer(Inbox):
         goal.decided = asyncio.get_running_loop().create_future()
         request = values.unpack(goal.request, self.type_.Goal)
         handle = ServerGoalHandle(self, goal, request)
-        goal.on_cancel = lambda: self.put(lambda: self._consider_cancel(handle))
+        goal.on_cancel = lambda: self.put(lambda: self._consider_cancel(handle, goal))
         self.put(lambda: self._consider(handle, goal))
 
     def withdraw(self) -> None:
-        """Take no more goals; those nobody has decided about are refused."""
+        """Take no more goals; what nobody has decided about is refused."""
         super().withdraw()
         self._stop()
         for goal in self._goals:
             self._decide(goal, False)
+            goal.decide_cancel(False)
 
     def _decide(self, goal: WorldGoal, accepted: bool) -> bool:
         """Tell a goal's client whether it is taken; the first decision counts, and is returned."""
@@ -206,9 +207,15 @@ class ActionServer(Inbox):
         if accepted:
             await _outcome(self._on_accepted(handle))
 
-    async def _consider_cancel(self, handle: ServerGoalHandle) -> None:
-        if handle.is_active and await _outcome(self._on_cancel(handle)) == CancelResponse.ACCEPT:
-            handle.request_cancel()
+    async def _consider_cancel(self, handle: ServerGoalHandle, goal: WorldGoal) -> None:
+        accepted = False
+        try:
+            if handle.is_active:
+                accepted = await _outcome(self._on_cancel(handle)) == CancelResponse.ACCEPT
+            if accepted:
+                handle.request_cancel()
+        finally:
+            self.member.program.ask(lambda: goal.decide_cancel(accepted))
 
     def execute(self, handle: ServerGoalHandle, callback: Any = None) -> None:
         """Work on a goal, on the executor of the node."""
