@@ -3,9 +3,7 @@
 import asyncio
 import shlex
 import signal
-from collections import deque
-from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
-from contextlib import contextmanager
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from functools import partial
 from pathlib import Path
 from typing import Any, ClassVar
@@ -16,6 +14,7 @@ from tftool.ros.launching.arguments import declared, refuse_unknown
 from tftool.ros.launching.commands import Command, begin, lines_of, run_at_once
 from tftool.ros.launching.context import LaunchContext
 from tftool.ros.launching.ending import interrupt
+from tftool.ros.launching.event_queue import EventQueue
 from tftool.ros.launching.events import (
     Event,
     ExecutionComplete,
@@ -39,9 +38,6 @@ Say = Callable[[str, str, str], object]
 
 SOONEST = 0.1
 """Seconds before a program is started again at least: one that ends at once must let time pass."""
-
-MOST_EVENTS = 1000
-"""How many events may follow from one another at once."""
 
 
 class Launch(Node):
@@ -88,8 +84,7 @@ class Launch(Node):
         self._respawns: dict[str, tuple[float, Callable[[], None]]] = {}
         self._count = 0
         self._closing = False
-        self._busy = False
-        self._events: deque[Event] = deque()
+        self._events = EventQueue(self._tell)
         self._over: asyncio.Future[None] | None = None
         super().__init__(world, "launch")
 
@@ -125,29 +120,11 @@ class Launch(Node):
             UsageError: If one cannot be carried out as the launch file says; its line is told.
             InputError: If the launch file's own code raises.
         """
-        with self._events_after():
+        with self._events.held():
             for entity in entities if isinstance(entities, Iterable) else [entities]:
                 following = self._visit(entity)
                 if following:
                     self.do(following)
-
-    @contextmanager
-    def _events_after(self) -> Iterator[None]:
-        """Hold events back: who waits for one may be named further down in the file."""
-        if self._busy:
-            yield
-            return
-        self._busy = True
-        try:
-            yield
-            told = 0
-            while self._events:
-                told += 1
-                if told > MOST_EVENTS:
-                    raise UsageError("event handlers set each other off without end: name targets")
-                self._tell(self._events.popleft())
-        finally:
-            self._busy = False
 
     def _visit(self, entity: Any) -> Any:
         if not hasattr(entity, "visit"):
@@ -165,8 +142,7 @@ class Launch(Node):
 
     def emit(self, event: Event) -> None:
         """Tell an event to whoever waits for it, once what is being carried out is done."""
-        with self._events_after():
-            self._events.append(event)
+        self._events.add(event)
 
     def _tell(self, event: Event) -> None:
         for handler in list(self.handlers):
