@@ -229,6 +229,24 @@ def test_a_lifecycle_node_begins_unconfigured_and_others_bring_it_on(tmp_path):
     assert done.texts("front.camera") == ["from unconfigured"]
 
 
+def test_a_node_asked_to_end_before_it_was_made_has_not_failed(tmp_path):
+    nodes = tmp_path / "mine" / "scripts"
+    nodes.mkdir(parents=True)
+    (tmp_path / "mine" / "package.xml").write_text("<package><name>mine</name></package>")
+    (nodes / "slow.py").write_text(
+        "import time, rclpy\nrclpy.init()\ntime.sleep(2.0)\nrclpy.create_node('slow')\n"
+    )
+    done = described(
+        tmp_path,
+        "Node(package='mine', executable='slow.py')",
+        "TimerAction(period=1.0, actions=[Shutdown()])",
+        start=tmp_path,
+    )
+
+    assert done.said("slow.py-1")[-1] == "process has finished cleanly"
+    assert done.failed == []
+
+
 def test_a_shutdown_ends_the_nodes_that_run(brief):
     (brief / "mine" / "scripts" / "long.py").write_text(
         "import rclpy\nrclpy.init()\nnode = rclpy.create_node('long')\n"

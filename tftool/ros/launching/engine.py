@@ -10,6 +10,7 @@ from typing import Any, ClassVar
 
 from tftool.errors import InputError, TftoolError, UsageError
 from tftool.ros import executables, users
+from tftool.ros.client.exceptions import NotInitializedException
 from tftool.ros.launching.arguments import declared, refuse_unknown
 from tftool.ros.launching.commands import Command, begin, lines_of, run_at_once
 from tftool.ros.launching.context import LaunchContext
@@ -303,7 +304,9 @@ class Launch(Node):
         reason = "" if program.failure is None else users.sentence_of(program.failure)
         if isinstance(program.failure, SystemExit):
             reason = ""
-        interrupted = program.status == 130
+        # Asked to end before it made its node, it finds rclpy shut down.
+        too_late = program.interrupted and isinstance(program.failure, NotInitializedException)
+        interrupted = program.status == 130 or too_late
         self._ended(action, label, 0 if interrupted else program.status or 0, reason)
 
     def _ended(self, action: Any, label: str, status: int, reason: str) -> None:
