@@ -358,3 +358,20 @@ def test_the_first_signal_ends_an_endless_loop_on_simulated_time_too(tmp_path, n
     assert command.returncode == 130
     assert "did not come to rest" not in rest
     assert "Traceback" not in rest
+
+
+@pytest.mark.parametrize(
+    ("words", "status", "told"),
+    [
+        (["nope.py"], 3, "cannot read 'nope.py'"),
+        (["pkg_tf"], 2, "which executable of package 'pkg_tf'?"),
+        (["pkg_tf", "rotate", "--ros-args", "-p", "a=5"], 2, "a=5"),
+        (["pkg_tf/pkg_tf/turtle_following.py", "--ros-args", "-p", "a=5"], 2, "a=5"),
+    ],
+)
+def test_a_wrong_command_line_is_refused_before_a_world_is_hosted(capsys, words, status, told):
+    assert main(["run", *SIMULATED, *words]) == status
+    said = capsys.readouterr().err
+    assert told in said
+    assert "hosting" not in said
+    assert "Starting turtlesim" not in said

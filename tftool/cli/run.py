@@ -71,6 +71,7 @@ def run(
     simulator = (target, *words[:1]) == ("turtlesim", "turtlesim_node")
     with hosting.ros_free(insist=insist):
         hosting.packages.use(workspace)
+        hosting.check_program(workspace, target, words)
         if simulator:
             session = open_empty_session(clock)
         else:

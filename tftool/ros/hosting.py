@@ -26,6 +26,33 @@ def is_file(word: str) -> bool:
     return Path(word).suffix in FILES or "/" in word or Path(word).is_file()
 
 
+def check_program(workspace: Workspace, target: str, rest: Sequence[str]) -> None:
+    """Refuse words that `start_program` would refuse, before there is a world.
+
+    Raises:
+        UsageError: If no executable is named, or what follows `--ros-args` is malformed.
+        InputError: If the file cannot be read or is no Python.
+    """
+    words = rest
+    if is_file(target):
+        users.compile_file(Path(target))
+    else:
+        _need_executable(workspace, target, rest)
+        words = rest[1:]
+    names.parse(words)
+
+
+def _need_executable(workspace: Workspace, target: str, rest: Sequence[str]) -> None:
+    if rest and not rest[0].startswith("-"):
+        return
+    found = workspace.packages.get(target)
+    if found is None and Path(target).is_dir():
+        raise UsageError(f"'{target}' is a folder: give a node's file, or PACKAGE EXECUTABLE")
+    known = ", ".join(sorted(found.scripts)) if found is not None else ""
+    hint = f" ({known})" if known else ""
+    raise UsageError(f"which executable of package '{target}'?{hint} For a file, give its path")
+
+
 def start_program(
     world: World,
     workspace: Workspace,
@@ -63,13 +90,7 @@ def start_program(
             world, path, label=label, argv=argv, options=options, on_exit=on_exit
         )
         return label
-    if not rest or rest[0].startswith("-"):
-        found = workspace.packages.get(target)
-        if found is None and Path(target).is_dir():
-            raise UsageError(f"'{target}' is a folder: give a node's file, or PACKAGE EXECUTABLE")
-        known = ", ".join(sorted(found.scripts)) if found is not None else ""
-        hint = f" ({known})" if known else ""
-        raise UsageError(f"which executable of package '{target}'?{hint} For a file, give its path")
+    _need_executable(workspace, target, rest)
     executable, *words = rest
     options, arguments = names.parse(words)
     options.name = options.name or name or None
