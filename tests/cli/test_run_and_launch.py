@@ -375,3 +375,24 @@ def test_a_wrong_command_line_is_refused_before_a_world_is_hosted(capsys, words,
     assert told in said
     assert "hosting" not in said
     assert "Starting turtlesim" not in said
+
+
+@pytest.mark.parametrize(
+    ("words", "told"),
+    [
+        (["--for", "1"], "'--for' after FILE goes to the node; tftool's own options stand before"),
+        (["--listen=tcp/[::]:0"], "'--listen' after FILE goes to the node; tftool's own"),
+        (["-p", "a:=b"], "'-p a:=b' goes to the node as it is; ROS 2's arguments stand after"),
+        (["--rate", "5", "--ros-args", "-p", "a:=b"], ""),
+    ],
+)
+def test_who_seems_to_mean_tftool_by_a_word_for_the_node_is_told(tmp_path, capsys, words, told):
+    file = tmp_path / "says.py"
+    file.write_text("import sys\n" + NODE + "node.get_logger().info(f'{sys.argv[1:]}')\n")
+
+    assert main(["run", *SIMULATED, str(file), *words]) == 0
+
+    said = capsys.readouterr().err
+    assert told in said
+    assert ("to the node" in said) is bool(told)
+    assert f"[mine]: {words}" in said

@@ -1,11 +1,14 @@
 """`tftool run`: a node of the user's own, without ROS."""
 
+import itertools
+from collections.abc import Collection, Sequence
 from typing import TYPE_CHECKING, Annotated
 
 import typer
 
 from tftool.cli.options import positive, simulated_seconds
 from tftool.stamps import seconds
+from tftool.views.escaping import visible
 
 SIMULATED = "Simulated time is a world's own, and shares no session"
 
@@ -13,7 +16,33 @@ if TYPE_CHECKING:
     from tftool.runtime.log import LogRecord
 
 
+def misplaced(words: Sequence[str], own: Collection[str]) -> list[str]:
+    """What to tell who seems to mean this command, or ROS 2, by a word the node is given.
+
+    Args:
+        words: What stands after FILE.
+        own: The names of this command's options.
+    """
+    told = []
+    before = ""
+    for word in itertools.takewhile(lambda word: word != "--ros-args", words):
+        option = word.partition("=")[0]
+        if option.startswith("--") and option in own:
+            told.append(
+                f"'{visible(option)}' after FILE goes to the node; "
+                "tftool's own options stand before FILE."
+            )
+        elif before in ("-p", "-r", "--param", "--remap") and ":=" in word:
+            told.append(
+                f"'{before} {visible(word)}' goes to the node as it is; "
+                "ROS 2's arguments stand after --ros-args."
+            )
+        before = word
+    return told
+
+
 def run(
+    context: typer.Context,
     target: Annotated[
         str, typer.Argument(metavar="FILE|PACKAGE", help="A node's file, or a package.")
     ],
@@ -55,6 +84,7 @@ def run(
     from pathlib import Path
 
     from tftool.cli import console_log
+    from tftool.cli.notices import notice
     from tftool.cli.session import NO_SESSION, open_empty_session, open_session
     from tftool.cli.sharing import tell_read_only
     from tftool.errors import UsageError
@@ -66,6 +96,9 @@ def run(
     if simulated:
         simulated_seconds(run_for)
     words = list(rest or [])
+    own = {name for option in context.command.params for name in option.opts if name[0] == "-"}
+    for word in misplaced(words, own):
+        notice(word)
     workspace = hosting.Workspace(Path.cwd())
     clock = SimClock() if simulated else None
     simulator = (target, *words[:1]) == ("turtlesim", "turtlesim_node")
