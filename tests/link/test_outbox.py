@@ -76,8 +76,11 @@ def test_a_message_goes_out_by_a_reader_that_takes_nothing_without_waiting_for_i
     assert publisher.calls == [(b"one", b"1"), (b"two", b"2"), "undeclared"]
 
 
-def test_there_is_an_end_to_what_waits(out, monkeypatch):
-    monkeypatch.setattr(outbox, "MOST_WAITING", 50)
+@pytest.mark.parametrize(
+    ("bound", "most", "size"), [("MOST_WAITING", 50, 0), ("MOST_BYTES", 50_000, 1000)]
+)
+def test_there_is_an_end_to_what_waits(out, monkeypatch, bound, most, size):
+    monkeypatch.setattr(outbox, bound, most)
     stuck, sent = Stuck(), []
     out.put(stuck)
     assert stuck.begun.wait(20)
@@ -87,7 +90,7 @@ def test_there_is_an_end_to_what_waits(out, monkeypatch):
         for number in range(60):
             if number == 45:
                 ahead.set()
-            out.put(lambda number=number: sent.append(number))
+            out.put(lambda number=number: sent.append(number), size)
 
     publishing = threading.Thread(target=publish)
     publishing.start()
@@ -99,6 +102,26 @@ def test_there_is_an_end_to_what_waits(out, monkeypatch):
     out.close()
 
     assert sent == list(range(60))
+
+
+def test_the_bytes_of_a_message_count_until_it_is_sent(out, monkeypatch):
+    monkeypatch.setattr(outbox, "MOST_BYTES", 100)
+    stuck = Stuck()
+
+    class Publisher:
+        def put(self, payload, *, attachment):
+            stuck()
+
+    outlet = Outlet(Publisher(), out, keeps=False)
+    publishing = threading.Thread(target=outlet.put, args=(bytes(101), b""))
+    publishing.start()
+    assert stuck.begun.wait(20)
+    publishing.join(0.05)
+    assert publishing.is_alive()
+    stuck.let_go.set()
+    publishing.join(20)
+
+    assert not publishing.is_alive()
 
 
 def test_who_cannot_be_sent_to_keeps_nothing_from_the_others(out):

@@ -19,6 +19,9 @@ MOST_AHEAD: Final = 32
 MOST_WAITING: Final = 20_000
 """Messages that may wait while a reader takes nothing; then the loop waits as well."""
 
+MOST_BYTES: Final = 256 * 1024 * 1024
+"""Bytes of payload that may wait in the same way: a few images weigh more than many poses."""
+
 _PAUSE = 0.0002
 _STUCK = 50  # pauses without progress, after which the sender counts as stuck
 _FAREWELL = 2.0
@@ -28,15 +31,22 @@ class Outbox:
     """Calls that send something, made in their order on one thread."""
 
     def __init__(self) -> None:
-        self._queue: queue.SimpleQueue[Callable[[], object] | None] = queue.SimpleQueue()
-        self._put = 0
-        self._sent = 0
+        self._queue: queue.SimpleQueue[tuple[Callable[[], object], int] | None] = (
+            queue.SimpleQueue()
+        )
+        # Each of these is written by one thread alone, so that neither needs a lock.
+        self._put = self._put_bytes = 0
+        self._sent = self._sent_bytes = 0
         self._stuck = False
         self._closed = False
         self._thread: threading.Thread | None = None
 
-    def put(self, send: Callable[[], object]) -> None:
+    def put(self, send: Callable[[], object], size: int = 0) -> None:
         """Have something sent, after everything before it; what it raises is passed over.
+
+        Args:
+            send: Sends it.
+            size: Bytes it holds until it is sent.
 
         Raises:
             LinkError: If this is closed.
@@ -47,9 +57,9 @@ class Outbox:
             self._thread = threading.Thread(target=self._run, name="outbox", daemon=True)
             self._thread.start()
         self._put += 1
-        self._queue.put(send)
-        ahead = self._put - self._sent
-        if ahead > MOST_WAITING or (ahead > MOST_AHEAD and not self._stuck):
+        self._put_bytes += size
+        self._queue.put((send, size))
+        if self._is_full or (self._put - self._sent > MOST_AHEAD and not self._stuck):
             self._let_catch_up()
 
     def close(self) -> None:
@@ -60,6 +70,12 @@ class Outbox:
             if self._thread is not None:
                 self._thread.join(_FAREWELL)
 
+    @property
+    def _is_full(self) -> bool:
+        """Whether more waits than may."""
+        waiting, held = self._put - self._sent, self._put_bytes - self._sent_bytes
+        return waiting > MOST_WAITING or held > MOST_BYTES
+
     def _let_catch_up(self) -> None:
         """Give way to the sender while it gets on.
 
@@ -67,21 +83,25 @@ class Outbox:
         """
         pause = threading.Event()
         sent, idle = self._sent, 0
-        while self._put - self._sent > MOST_AHEAD // 2:
+        while self._put - self._sent > MOST_AHEAD // 2 or self._is_full:
             pause.wait(_PAUSE)
             idle = idle + 1 if self._sent == sent else 0
             sent = self._sent
-            if idle >= _STUCK and self._put - self._sent <= MOST_WAITING:
+            if idle >= _STUCK and not self._is_full:
                 self._stuck = True
                 return
 
     def _run(self) -> None:
         while True:
-            send = self._queue.get()
-            if send is None:
+            waiting = self._queue.get()
+            if waiting is None:
                 return
+            send, size = waiting
             # Who it was for may be gone by now, or the session closed.
             with contextlib.suppress(Exception):
                 send()
+            # Named no more, so that what counts as sent is free as well.
+            del waiting, send
+            self._sent_bytes += size
             self._sent += 1
             self._stuck = False

@@ -64,7 +64,8 @@ class Outlet:
         Raises:
             LinkError: If the session is closed.
         """
-        self._outbox.put(partial(self._publisher.put, payload, attachment=attachment))
+        send = partial(self._publisher.put, payload, attachment=attachment)
+        self._outbox.put(send, len(payload))
 
     def close(self) -> None:
         """Send no more, once everything before is sent."""
