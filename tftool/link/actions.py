@@ -19,7 +19,7 @@ from tftool.runtime.topics import GoalHandle, Status
 from tftool.stamps import NANOSECONDS, Stamp
 
 KEPT: Final = 100
-"""Goals whose ends are remembered, for who asks late."""
+"""Goals of an action under way or, for who asks late, ended; beyond that none is taken."""
 
 CANCEL_GOAL: Final = "action_msgs/srv/CancelGoal"
 STATUS: Final = "action_msgs/msg/GoalStatusArray"
@@ -69,6 +69,7 @@ class ActionServer:
         self._kind = kind
         self._type = kind.ros_type
         self._goals: dict[bytes, tuple[GoalHandle, Stamp]] = {}
+        self._undecided: set[bytes] = set()
         self._tasks = Tasks()
         node, base = node or link.main_node, f"{name}/_action"
         self._parts = [
@@ -98,11 +99,31 @@ class ActionServer:
         asked = _read(f"{self._type}_SendGoal_Request", payload)
         goal_id = bytes(asked.goal_id.uuid)
         now = self._link.world.clock.now()
-        accepted = goal_id not in self._goals
+        is_new = goal_id not in self._goals and goal_id not in self._undecided
+        accepted = is_new and self._has_room()
         if accepted:
-            accepted = await self._start(goal_id, self._kind.goal.received(asked.goal), now)
+            # Deciding takes a while, in which the same goal may come again.
+            self._undecided.add(goal_id)
+            try:
+                accepted = await self._start(goal_id, self._kind.goal.received(asked.goal), now)
+            finally:
+                self._undecided.discard(goal_id)
         answer = f"{self._type}_SendGoal_Response"
         return _bytes(_message(answer, accepted=accepted, stamp=_time(now)))
+
+    def _has_room(self) -> bool:
+        """Whether one more goal may begin; the oldest that have ended make way for it."""
+        ended = [goal_id for goal_id, (goal, _) in self._goals.items() if goal.done]
+        surplus = len(self._goals) + len(self._undecided) + 1 - KEPT
+        for goal_id in ended[: max(0, surplus)]:
+            del self._goals[goal_id]
+        if surplus <= len(ended):
+            return True
+        self._link.say_once(
+            f"goals {self._name}",
+            f"'{self._name}': {KEPT} goals are under way; until one ends, more are refused.",
+        )
+        return False
 
     async def _start(self, goal_id: bytes, request: Any, now: Stamp) -> bool:
         """Hand a goal to its server; whether it takes it."""
@@ -118,8 +139,6 @@ class ActionServer:
         if goal.decided is not None and not await asyncio.shield(goal.decided):
             return False
         self._goals[goal_id] = goal, now
-        while len(self._goals) > KEPT:
-            del self._goals[next(iter(self._goals))]
         self._publish_status()
         self._tasks.start(self._see_through(goal))
         return True
