@@ -232,6 +232,24 @@ def test_a_service_of_the_host_is_one_of_the_guests_world():
     play(ask())
 
 
+def test_what_a_watcher_of_the_world_changes_while_the_link_looks_at_it_is_carried_too():
+    async def answer():
+        async with Two() as two:
+
+            def changed():
+                # A service of another process has just been entered: by the link itself.
+                if two.there.has_service("clear") and not two.there.has_service("spawn"):
+                    two.there.serve("spawn", lambda request: Spawned("turtle2"), Spawn)
+
+            two.there.watch(changed)
+            two.here.serve("clear", lambda request: None, Clear)
+            await until(lambda: two.here.has_service("spawn"))
+
+            assert await two.here.call("spawn", Spawn(4.0, 2.0)) == Spawned("turtle2")
+
+    play(answer())
+
+
 def test_a_refusal_of_a_service_comes_back_as_a_sentence():
     async def ask():
         async with Two() as two:

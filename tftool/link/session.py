@@ -126,9 +126,12 @@ class Link(Membership):
 
         A crowd of turtles changes the world thousands of times, and one look serves all.
         """
-        if not self._closed and not self._settling:
-            self._match(self._match_nodes, self._carry_topics)
-            self._reconcile_soon()
+        if self._closed:
+            return
+        # While all is being matched this changes nothing, and the look that comes soon finds
+        # what a step that is over has not seen.
+        self._match(self._match_nodes, self._carry_topics)
+        self._reconcile_soon()
 
     def _reconcile(self) -> None:
         """Bring what is declared in line with what the world and the others have."""
@@ -144,7 +147,7 @@ class Link(Membership):
         )
 
     def _match(self, *steps: Callable[[], None]) -> None:
-        # Serving another's service changes the world, which calls this again.
+        # Serving another's service changes the world, which calls this in between.
         if self._closed or self._settling:
             return
         self._settling = True
