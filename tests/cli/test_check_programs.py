@@ -136,6 +136,17 @@ def test_a_launched_node_that_dies_is_named_by_its_label(tftool, tmp_path, monke
     assert "bad.py-1: process has died, exit status 1: ZeroDivisionError" in result.out
 
 
+def test_a_launched_command_that_does_not_end_is_killed_and_named(tftool, tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    monkeypatch.setattr("tftool.ros.launching.commands.LONGEST_RUN", 0.5)
+    Path("a.launch.yaml").write_text("launch:\n- executable: {cmd: sleep 1000}\n")
+
+    result = tftool("check", "two_trees", "--launch", "a.launch.yaml")
+
+    assert result.status == 1
+    assert "sleep-1: process has died, exit status -9: 'sleep 1000' had not ended" in result.out
+
+
 def test_a_launch_file_that_asks_for_what_is_not_there_fails_with_its_line(tftool, tmp_path):
     file = tmp_path / "a.launch.xml"
     file.write_text("<launch>\n<node pkg='pkg_tf' exec='folow'/></launch>")

@@ -1,6 +1,8 @@
 """Commands of the system, run beside the nodes."""
 
 import asyncio
+import shlex
+import signal
 import subprocess
 from collections.abc import AsyncIterator, Callable, Mapping, Sequence
 from dataclasses import dataclass
@@ -10,6 +12,9 @@ from tftool.errors import UsageError
 
 LONGEST_LINE: Final = 1 << 20
 """Bytes of a command's output after which a line is shown though it has not ended."""
+
+LONGEST_RUN: Final = 60.0
+"""Seconds of real time that a command may keep simulated time waiting."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -27,30 +32,37 @@ class Command:
     cwd: str | None
 
 
-def run_at_once(command: Command, say: Callable[[str], object]) -> int:
-    """Run a command to its end; `say` is told its lines.
+def run_at_once(command: Command, say: Callable[[str], object]) -> tuple[int, str]:
+    """Run a command to its end, killing it if that does not come; `say` is told its lines.
 
     Returns:
-        Its exit status.
+        Its exit status, and why it was killed ("" if it was not).
 
     Raises:
         UsageError: If it cannot be run.
     """
+    reason = ""
     try:
         done = subprocess.run(
             command.words,
             env=dict(command.environment),
             cwd=command.cwd,
             capture_output=True,
-            text=True,
-            errors="replace",
             check=False,
+            timeout=LONGEST_RUN,
+        )
+        output, status = done.stdout + done.stderr, done.returncode
+    except subprocess.TimeoutExpired as error:
+        output, status = (error.stdout or b"") + (error.stderr or b""), -signal.SIGKILL
+        reason = (
+            f"'{shlex.join(command.words)}' had not ended after {LONGEST_RUN:g} s, and simulated "
+            "time waits for a command's end; start one that goes on running by itself"
         )
     except OSError as error:
         raise _cannot_run(command, error) from None
-    for line in (done.stdout + done.stderr).splitlines():
+    for line in output.decode(errors="replace").splitlines():
         say(line)
-    return done.returncode
+    return status, reason
 
 
 async def begin(command: Command) -> asyncio.subprocess.Process:

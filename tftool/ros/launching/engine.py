@@ -262,9 +262,9 @@ class Launch(Node):
             self._say("INFO", label, f"process started: {shlex.join(command.words)}")
             self.emit(ProcessStarted(action=action, process_name=label))
             if isinstance(self.clock, SimClock):
-                status = run_at_once(command, lambda line: self._say("", label, line))
+                status, reason = run_at_once(command, lambda line: self._say("", label, line))
                 # Not at once: who waits for its end may be named further down in the file.
-                self._start_task(self._end_soon(action, label, status), self._watches)
+                self._start_task(self._end_soon(action, label, status, reason), self._watches)
             else:
                 self._start_task(self._watch(action, label, command), self._watches)
 
@@ -278,8 +278,8 @@ class Launch(Node):
             self._respawns[label] = (max(respawn, SOONEST), start)
         start()
 
-    async def _end_soon(self, action: Any, label: str, status: int) -> None:
-        self._ended(action, label, status, "")
+    async def _end_soon(self, action: Any, label: str, status: int, reason: str) -> None:
+        self._ended(action, label, status, reason)
 
     async def _watch(self, action: Any, label: str, command: Command) -> None:
         try:
