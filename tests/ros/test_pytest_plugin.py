@@ -208,3 +208,12 @@ def test_workers_of_xdist_have_it_too(pytester, monkeypatch):
 def test_without_the_fixture_rclpy_is_nobodys():
     with pytest.raises(ModuleNotFoundError):
         import rclpy  # noqa: F401
+
+
+def test_an_import_of_rclpy_that_fails_names_the_option_it_needs(pytester):
+    pytester.makepyfile("import rclpy")
+
+    result = pytester.runpytest("-p", "tftool.ros.pytest_plugin")
+
+    result.assert_outcomes(errors=1)
+    result.stdout.fnmatch_lines("*pytest --ros-free lets test files import rclpy at their top*")

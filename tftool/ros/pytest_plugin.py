@@ -51,6 +51,17 @@ def pytest_unconfigure(config: pytest.Config) -> None:
 
 
 @pytest.hookimpl(hookwrapper=True)
+def pytest_make_collect_report(collector: pytest.Collector) -> Iterator[None]:
+    """Say how a test file gets its `import rclpy`, where it has failed."""
+    outcome: Any = yield
+    report = outcome.get_result()
+    if not _imports and report.failed and "No module named 'rclpy" in report.longreprtext:
+        report.sections.append(
+            ("tftool", "pytest --ros-free lets test files import rclpy at their top, without ROS.")
+        )
+
+
+@pytest.hookimpl(hookwrapper=True)
 def pytest_fixture_setup(fixturedef: Any) -> Iterator[None]:
     """Note which fixture is being set up."""
     _set_up.append(fixturedef)
