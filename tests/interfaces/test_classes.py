@@ -203,6 +203,22 @@ def test_a_wrong_definition_is_refused_with_its_name(key, text, told):
     assert told in str(refused.value)
 
 
+def test_a_message_that_contains_itself_is_refused_with_the_fields_that_lead_there():
+    own = Interfaces()
+    own.add(
+        "pkg",
+        {("msg", "Shop"): "Tree[] stock", ("msg", "Tree"): "Branch b", ("msg", "Branch"): "Tree t"},
+    )
+
+    with pytest.raises(InputError) as refused:
+        own.message("pkg/Shop")
+
+    assert str(refused.value) == (
+        "pkg/msg/Shop: field 'stock': pkg/msg/Tree: field 'b': pkg/msg/Branch: field 't': "
+        "pkg/msg/Tree contains itself, so no message of it can ever be made"
+    )
+
+
 @pytest.mark.parametrize(
     ("line", "value"),
     [

@@ -181,11 +181,16 @@ class Interfaces(Schema):
         """The class of any structure: a message, "std_srvs/srv/SetBool_Request", and so on.
 
         Raises:
-            InputError: If there is none of that name.
+            InputError: If there is none of that name, or it contains itself.
         """
+        return self._part(full, ())
+
+    def _part(self, full: str, within: tuple[str, ...]) -> type[Message]:
         made = self._made.get(full)
         if made is None:
-            made = self._made[full] = self._class(self.structure(full))
+            if full in within:
+                raise InputError(f"{full} contains itself, so no message of it can ever be made")
+            made = self._made[full] = self._class(self.structure(full), (*within, full))
         return made
 
     def _compound(self, package: str, kind: str, name: str) -> type[Any]:
@@ -197,12 +202,12 @@ class Interfaces(Schema):
         made["__module__"] = f"{package}.{kind}"
         return type(name, (), made)
 
-    def _class(self, structure: Structure) -> type[Message]:
+    def _class(self, structure: Structure, within: tuple[str, ...]) -> type[Message]:
         package, kind, name = structure.name.split("/")
         members: dict[str, Any] = {
             constant: _literal(type_name, text) for constant, type_name, text in structure.constants
         }
-        fields = tuple(self._field(structure.name, field) for field in structure.fields)
+        fields = tuple(self._field(structure.name, field, within) for field in structure.fields)
         for field in fields:
             members[field.name] = _property(field)
         members["__slots__"] = [f"_{field.name}" for field in fields]
@@ -211,13 +216,13 @@ class Interfaces(Schema):
         members["__module__"] = f"{package}.{kind}"
         return type(name, (Message,), members)
 
-    def _field(self, owner: str, field: schema.Field) -> Field:
+    def _field(self, owner: str, field: schema.Field, within: tuple[str, ...]) -> Field:
         name, type_name, size = field.name, field.type, field.size
         kind: str | type[Message] = type_name
         described = {"float32": "float", "float64": "double"}.get(type_name, type_name)
         if type_name not in PRIMITIVES:
             try:
-                kind = self.part(type_name)
+                kind = self._part(type_name, within)
             except InputError as error:
                 raise InputError(f"{owner}: field '{name}': {error}") from None
             described = type_name.replace("/msg/", "/")
