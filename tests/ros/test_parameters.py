@@ -28,6 +28,24 @@ def test_parameters_are_declared_with_types_and_read_back(node):
     assert not node.has_parameter("on")
 
 
+@pytest.mark.parametrize(
+    ("prefixes", "depth", "names"),
+    [
+        ([], 0, {"use_sim_time", "arm", "arm.reach", "arm.hand.grip"}),
+        ([], 1, {"use_sim_time", "arm"}),
+        ([], 2, {"use_sim_time", "arm", "arm.reach"}),
+        (["arm"], 0, {"arm", "arm.reach", "arm.hand.grip"}),
+        (["arm"], 1, {"arm", "arm.reach"}),
+        (["arm.hand", "use_sim_time"], 1, {"arm.hand.grip", "use_sim_time"}),
+    ],
+)
+def test_parameters_are_listed_as_deep_as_asked(node, prefixes, depth, names):
+    for name in ("arm", "arm.reach", "arm.hand.grip"):
+        node.declare_parameter(name, 1.0)
+
+    assert set(node.list_parameters(prefixes, depth).names) == names
+
+
 def test_a_parameter_without_a_value_cannot_be_read(node):
     from rclpy.exceptions import ParameterUninitializedException
     from rclpy.parameter import Parameter

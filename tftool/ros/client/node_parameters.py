@@ -186,12 +186,19 @@ class NodeParameters:
         return [self.describe_parameter(name) for name in names]
 
     def list_parameters(self, prefixes: Sequence[str], depth: int = 0) -> Any:
-        """The names below some prefixes, all without one."""
-        found = [
-            name
-            for name in self._parameters
-            if not prefixes or any(name == one or name.startswith(f"{one}.") for one in prefixes)
-        ]
+        """The names below some prefixes, all without one.
+
+        `depth` is how many levels below the prefix to list, 0 for all.
+        """
+        starts = [f"{one}." for one in prefixes] or [""]
+
+        def is_listed(name: str) -> bool:
+            return name in prefixes or any(
+                name.startswith(start) and (not depth or name[len(start) :].count(".") < depth)
+                for start in starts
+            )
+
+        found = [name for name in self._parameters if is_listed(name)]
         kind = INTERFACES.message("rcl_interfaces/ListParametersResult")
         return kind(names=found, prefixes=sorted({n.rpartition(".")[0] for n in found} - {""}))
 
