@@ -192,7 +192,9 @@ def test_launched_commands_run_beside_the_nodes_on_the_wall_clock(tmp_path, caps
     assert "[echo-1] hello" in told
     assert "[INFO] [launch]: shutting down: done" in told
     assert "[INFO] [sleep-2]: process has finished cleanly" in told
-    assert status == (1 if "cannot run 'no-such-command-here'" in told else 0)
+    assert "[no-such-command-here-3]: process has died" in told
+    assert "cannot run 'no-such-command-here': No such file or directory" in told
+    assert status == 1
 
 
 def test_a_commands_lines_may_be_of_any_length(monkeypatch):
