@@ -71,7 +71,11 @@ class Context:
         self._listeners.append(callback)
 
     def get_domain_id(self) -> int:
-        """The DDS domain; there is none here."""
+        """ROS 2's default domain, 0.
+
+        A program does not know the domain of the session it lives in (`--domain`): that is the
+        affair of the link to other processes.
+        """
         return 0
 
     def __enter__(self) -> "Context":

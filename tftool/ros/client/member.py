@@ -1,7 +1,8 @@
 """A node's seat in the world: what its publishers, timers, services and the rest need of it.
 
 A node's class belongs to the user, who may call an attribute `world`, `graph` or
-`entities` as well: nothing of ours stands there but the one attribute `_tftool`.
+`entities` as well: so all of this stands behind one attribute, `_tftool`. What a node
+keeps of itself beside it, its clock and its parameters, is private as in rclpy.
 """
 
 import asyncio
