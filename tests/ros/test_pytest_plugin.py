@@ -3,7 +3,7 @@ from pathlib import Path
 import pytest
 
 import tftool
-from tftool.errors import NodeFailed, TftoolError
+from tftool.errors import NodeFailed
 from tftool.nodes.turtlesim import Turtlesim
 
 
@@ -56,11 +56,21 @@ def test_a_program_beside_the_test_that_fails_fails_the_test():
     def test():
         with RosRuntime() as runtime:
             runtime.start(main)
-            with pytest.raises(TftoolError, match="the world has ended"):
+            told = r"(?s)ValueError: broken node.*test_pytest_plugin\.py:\d+, in main"
+            with pytest.raises(NodeFailed, match=told):
                 runtime.sleep(1)
 
-    with pytest.raises(NodeFailed, match="ValueError: broken node"):
-        test()
+    test()  # told once, it is quiet at its end
+
+
+def test_a_failure_the_test_never_waits_for_is_told_at_its_end():
+    from tftool.ros.testing import RosRuntime
+
+    def main():
+        raise ValueError("broken node")
+
+    with pytest.raises(NodeFailed, match="ValueError: broken node"), RosRuntime() as runtime:
+        runtime.start(main)
 
 
 def test_a_test_file_may_import_rclpy_at_its_top_with_ros_free(pytester):

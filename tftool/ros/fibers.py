@@ -113,6 +113,7 @@ class Fiber:
         error: What its body raised, once it has ended.
         ended: Whether its body is over.
         owner: Whose fiber it is, for `current`.
+        end: Makes what every wait raises once it was asked to end.
     """
 
     def __init__(
@@ -155,7 +156,7 @@ class Fiber:
         self._request: Callable[[], Any] | None = None
         self._answer: tuple[Any, BaseException | None] = (None, None)
         self._arrived: tuple[asyncio.AbstractEventLoop, asyncio.Future[None]] | None = None
-        self._end: Callable[[], BaseException] = KeyboardInterrupt
+        self.end: Callable[[], BaseException] = KeyboardInterrupt
         self._thread: threading.Thread | None = threading.Thread(
             target=self._main, args=(body,), name=name, daemon=True
         )
@@ -165,7 +166,7 @@ class Fiber:
         """Make the calling thread a fiber; `drive` it from a loop on another thread."""
         fiber = cls(name, lambda: None, strict=True)
         fiber._thread = None
-        fiber._end = lambda: EndedError("the world has ended")
+        fiber.end = lambda: EndedError("the world has ended")
         _local.fiber = fiber
         return fiber
 
@@ -185,6 +186,7 @@ class Fiber:
             KeyboardInterrupt: If the fiber was asked to end while it waited.
             Exception: What `request` raises.
         """
+        __tracebackhide__ = True
         self._answer = (None, None)
         self._post(request)
         self._go.acquire()
@@ -250,7 +252,7 @@ class Fiber:
                 answer = (value, None)
             except asyncio.CancelledError:
                 self.interrupted = True
-                answer = (None, self._end())
+                answer = (None, self.end())
             except Exception as error:
                 answer = (None, error)
 

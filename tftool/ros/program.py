@@ -206,6 +206,7 @@ class Program(Node):
 
     def ask(self, request: Callable[[], Any]) -> Any:
         """Have something done on the loop's thread, from any thread; see `Fiber.ask`."""
+        __tracebackhide__ = True
         fiber = fibers.current()
         if fiber is not None:
             self._count(1.0 / REQUESTS)

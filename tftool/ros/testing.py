@@ -10,6 +10,8 @@ from pathlib import Path
 from typing import Any
 
 from tftool.ros import names, users
+from tftool.ros.fibers import EndedError
+from tftool.ros.hosting import ProgramFailed
 from tftool.ros.importing import ros_free
 from tftool.ros.program import Program
 from tftool.runtime.clock import Phase, SimClock, run
@@ -33,10 +35,12 @@ class RosRuntime:
         self.world = World(self.clock)
         self._imports = ros_free(insist=True)
         self._failure: BaseException | None = None
+        self._is_told = False
 
     def __enter__(self) -> "RosRuntime":
         self._finder = self._imports.__enter__()
         self.program = Program(self.world, "test", None, on_exit=lambda _: self.world.stop())
+        self.program.fiber.end = self._ended
         self._thread = threading.Thread(target=self._live, name="tftool", daemon=True)
         self._thread.start()
         # The first answer proves that the loop lives.
@@ -49,8 +53,16 @@ class RosRuntime:
             self._thread.join()
         finally:
             self._imports.__exit__(None, None, None)
-        if self._failure is not None:
+        if self._failure is not None and not self._is_told:
             raise self._failure
+
+    def _ended(self) -> BaseException:
+        """What the test is told that waits in a world that has ended: why it has."""
+        failure = self.world.failure
+        if failure is None:
+            return EndedError("the world has ended")
+        self._is_told = True
+        return ProgramFailed(failure.node, failure.__cause__ or failure)
 
     def _live(self) -> None:
         try:
@@ -59,11 +71,21 @@ class RosRuntime:
             self._failure = error
 
     def ask(self, request: Callable[[], Any]) -> Any:
-        """Have something done in the world, and awaited if it can be: `ask(lambda: …)`."""
+        """Have something done in the world, and awaited if it can be: `ask(lambda: …)`.
+
+        Raises:
+            NodeFailed: If a program beside the test, or a node, has failed.
+        """
+        __tracebackhide__ = True
         return self.program.ask(request)
 
     def sleep(self, duration: float) -> None:
-        """Let so many seconds pass; everything due in them happens."""
+        """Let so many seconds pass; everything due in them happens.
+
+        Raises:
+            NodeFailed: If a program beside the test, or a node, has failed.
+        """
+        __tracebackhide__ = True
         self.program.ask(lambda: self.clock.sleep(seconds(duration), Phase.WATCH))
 
     def elapsed(self) -> float:

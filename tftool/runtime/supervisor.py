@@ -36,6 +36,7 @@ async def live(world: World, *, until: Stamp | None = None) -> None:
         world.supervise(None)
         if end is not None:
             end.cancel()
+        world.failure = supervisor.failure
         await supervisor.cancel()
     # Asked last: a node may also fail on its way out.
     if supervisor.failure is not None:

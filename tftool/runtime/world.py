@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from types import MappingProxyType
 from typing import Any, TypeVar, cast
 
-from tftool.errors import TftoolError
+from tftool.errors import NodeFailed, TftoolError
 from tftool.frames.buffer import Buffer
 from tftool.frames.sample import TransformStamped
 from tftool.runtime import waiting
@@ -39,6 +39,7 @@ class World:
         nodes: Those who joined, in order.
         endpoints: Who publishes and subscribes what, of those who say.
         far_nodes: Names of the nodes of other processes, in alphabetical order.
+        failure: The node that ended it by what it raised, as soon as that is known.
     """
 
     def __init__(
@@ -59,6 +60,7 @@ class World:
         self._statics: dict[str, dict[str, TransformStamped]] = {}
         self._far_statics: dict[str, TransformStamped] = {}
         self.far_nodes: tuple[str, ...] = ()
+        self.failure: NodeFailed | None = None
         self._supervisor: Supervision | None = None
         self._watchers: tuple[Callable[[], object], ...] = ()
         self.endpoints = Endpoints(self._changed, self.log.warn)
