@@ -6,6 +6,7 @@ from pathlib import Path
 
 from tftool.errors import NodeFailed, UsageError
 from tftool.ros import executables, importing, names, users
+from tftool.ros.complaints import sentence_of
 from tftool.ros.importing import ros_free
 from tftool.ros.launching import packages
 from tftool.ros.launching.arguments import declared, shown_arguments
@@ -209,7 +210,7 @@ class ProgramFailed(NodeFailed):
 
     def __init__(self, name: str, error: BaseException) -> None:
         super().__init__(name, error)
-        self.args = (f"'{name}' failed: {users.sentence_of(error)}",)
+        self.args = (f"'{name}' failed: {sentence_of(error)}",)
 
 
 __all__ = ["Launch", "Workspace", "importing", "packages", "ros_free"]

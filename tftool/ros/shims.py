@@ -13,6 +13,7 @@ from types import ModuleType
 from typing import Any
 
 from tftool.ros import fibers, program
+from tftool.ros.complaints import sentence_of
 from tftool.ros.fibers import Fiber
 from tftool.stamps import NANOSECONDS, seconds
 
@@ -82,9 +83,6 @@ class UserThread(threading.Thread):
         try:
             self.run()
         except Exception as error:
-            # That module builds on this one.
-            from tftool.ros.users import sentence_of
-
             sentence = f"thread '{self.name}' failed: {sentence_of(error)}"
             self._owner.ask(lambda: self._owner.error(sentence))
 

@@ -1,17 +1,15 @@
-"""Users' code: loading it, and saying what went wrong in it."""
+"""Users' code: loading it, and running it as a program."""
 
 import inspect
-import linecache
 from collections.abc import Callable
 from pathlib import Path
 from types import ModuleType
 from typing import Any
 
 from tftool.errors import InputError, UsageError
-from tftool.ros import fibers, importing, program
-from tftool.ros.fibers import place_of_error
+from tftool.ros import importing, program
+from tftool.ros.complaints import syntax_sentence
 from tftool.ros.shims import builtins_for_users
-from tftool.ros.uncovered import missing_package
 
 
 def file_body(path: Path) -> Callable[[], None]:
@@ -62,20 +60,6 @@ def compile_file(path: Path) -> Any:
         raise InputError(f"'{path}' is no Python text: {error}") from None
 
 
-def syntax_sentence(error: SyntaxError) -> str:
-    """Where a syntax error is, and the user's own line with a caret below it."""
-    where = f"{error.filename}:{error.lineno}:{error.offset}"
-    sentence = f"{where}: {type(error).__name__}: {error.msg}"
-    text = (error.text or "").rstrip("\n")
-    if not text and error.filename and error.lineno:
-        text = linecache.getline(error.filename, error.lineno).rstrip("\n")
-    if not text:
-        return sentence
-    line = text.lstrip()
-    column = max(0, (error.offset or 1) - 1 - (len(text) - len(line)))
-    return f"{sentence}\n    {line}\n    {' ' * column}^"
-
-
 def entry_point_body(module: str, function: str, *, root: Path) -> Callable[[], None]:
     """What runs a console script as its installed wrapper would, from its sources in `root`."""
 
@@ -112,17 +96,3 @@ def whole(body: Callable[[], None]) -> Callable[[], None]:
                     node.face.destroy_node()
 
     return run
-
-
-def sentence_of(error: BaseException) -> str:
-    """What went wrong in users' code: file, line, function, the line, the error."""
-    if isinstance(error, SyntaxError):
-        return syntax_sentence(error)
-    if isinstance(error, InputError | UsageError | fibers.StuckError):
-        return str(error)
-    what = f"{type(error).__name__}: {error}" if str(error) else type(error).__name__
-    if isinstance(error, ModuleNotFoundError) and error.name and str(error).endswith("'"):
-        # Python's own sentence, which ends after the name.
-        what += f"; {missing_package(error.name.partition('.')[0])}"
-    place = place_of_error(error.__traceback__)
-    return what if place is None else f"{what}\n    {place}"

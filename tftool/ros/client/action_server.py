@@ -12,7 +12,7 @@ from tftool.ros import values
 from tftool.ros.client.action_goals import STATUS, GoalStatus, new_id
 from tftool.ros.client.entities import Inbox
 from tftool.ros.client.member import member_of
-from tftool.ros.users import sentence_of
+from tftool.ros.complaints import sentence_of
 from tftool.runtime.topics import GoalHandle as WorldGoal
 from tftool.runtime.topics import Status
 

@@ -9,8 +9,9 @@ from pathlib import Path
 from typing import Any, ClassVar
 
 from tftool.errors import InputError, TftoolError, UsageError
-from tftool.ros import executables, users
+from tftool.ros import executables
 from tftool.ros.client.exceptions import NotInitializedException
+from tftool.ros.complaints import sentence_of
 from tftool.ros.launching.arguments import declared, refuse_unknown
 from tftool.ros.launching.commands import Command, begin, lines_of, run_at_once
 from tftool.ros.launching.context import LaunchContext
@@ -139,7 +140,7 @@ class Launch(Node):
         except TftoolError:
             raise
         except Exception as error:
-            raise InputError(f"{where}: {users.sentence_of(error)}") from error
+            raise InputError(f"{where}: {sentence_of(error)}") from error
 
     def emit(self, event: Event) -> None:
         """Tell an event to whoever waits for it, once what is being carried out is done."""
@@ -154,7 +155,7 @@ class Launch(Node):
                 try:
                     entities = handler.handle(event, self.context)
                 except Exception as error:
-                    raise InputError(users.sentence_of(error)) from error
+                    raise InputError(sentence_of(error)) from error
                 self.do(entities or ())
                 self.context.event = None
         if isinstance(event, Shutdown) and not self._closing:
@@ -301,7 +302,7 @@ class Launch(Node):
     def _program_ended(self, action: Any, label: str, program: Program) -> None:
         # Its name is free again: it may be started anew.
         self.world.remove(program)
-        reason = "" if program.failure is None else users.sentence_of(program.failure)
+        reason = "" if program.failure is None else sentence_of(program.failure)
         if isinstance(program.failure, SystemExit):
             reason = ""
         # Asked to end before it made its node, it finds rclpy shut down.
@@ -342,7 +343,7 @@ class Launch(Node):
             work()
         except Exception as error:
             ours = isinstance(error, TftoolError)
-            self._say("ERROR", "launch", str(error) if ours else users.sentence_of(error))
+            self._say("ERROR", "launch", str(error) if ours else sentence_of(error))
             self.failed.append("launch")
             self._end()
 

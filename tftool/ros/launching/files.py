@@ -5,6 +5,7 @@ from types import ModuleType
 
 from tftool.errors import InputError
 from tftool.ros import users
+from tftool.ros.complaints import sentence_of
 from tftool.ros.launching.description import LaunchDescription
 from tftool.ros.launching.elements import read_xml, read_yaml
 from tftool.ros.launching.meanings import actions_of
@@ -38,7 +39,7 @@ def _from_python(path: Path) -> LaunchDescription:
     except InputError:
         raise
     except Exception as error:
-        raise InputError(f"{path}: {users.sentence_of(error)}") from error
+        raise InputError(f"{path}: {sentence_of(error)}") from error
     if not isinstance(description, LaunchDescription):
         raise InputError(
             f"{path}: generate_launch_description() must return a LaunchDescription, not "
