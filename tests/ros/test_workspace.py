@@ -157,3 +157,22 @@ def test_a_package_linked_into_the_workspace_is_found_and_other_links_are_not_fo
     (source / "loop").symlink_to(tmp_path)
 
     assert list(Workspace(tmp_path / "ws").packages) == ["linked"]
+
+
+def test_what_tests_lie_around_is_theirs_but_for_tftool_itself(tmp_path, monkeypatch):
+    import sys
+
+    from tftool.ros import importing
+
+    (tmp_path / "tftool").mkdir()
+    (tmp_path / "tftool" / "late.py").write_text("")
+    (tmp_path / "helpers.py").write_text("")
+    finder = importing._Finder()
+    finder.tested = tmp_path
+    monkeypatch.setattr(sys, "meta_path", [finder, *sys.meta_path])
+
+    theirs = finder.find_spec("helpers", [str(tmp_path)])
+    ours = finder.find_spec("tftool.late", [str(tmp_path / "tftool")])
+
+    assert isinstance(theirs.loader, importing._TestedLoader)
+    assert not isinstance(ours.loader, importing._TestedLoader)
