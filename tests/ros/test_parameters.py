@@ -212,6 +212,29 @@ def test_parameters_show_compare_and_travel_as_messages(ros_runtime):
     assert not Parameter.Type.DOUBLE.check(object())
 
 
+def test_the_time_to_wait_for_a_nodes_services_holds_for_all_together(ros_runtime, tmp_path):
+    import rclpy
+    from rclpy.parameter_client import AsyncParameterClient
+
+    file = tmp_path / "slow.py"
+    file.write_text(
+        "import time, rclpy\n"
+        "from std_srvs.srv import Trigger\n"
+        "rclpy.init()\n"
+        "node = rclpy.create_node('slow', start_parameter_services=False)\n"
+        "for name in ('get_parameters', 'list_parameters', 'set_parameters'):\n"
+        "    time.sleep(0.75)\n"
+        "    node.create_service(Trigger, f'~/{name}', lambda request, response: response)\n"
+        "rclpy.spin(node)\n"
+    )
+    ros_runtime.start(file)
+    rclpy.init()
+    client = AsyncParameterClient(rclpy.create_node("probe"), "slow")
+
+    assert not client.wait_for_services(timeout_sec=1.0)
+    assert ros_runtime.elapsed() == pytest.approx(1.0)
+
+
 def test_a_client_asks_for_and_changes_another_nodes_parameters(node, tmp_path):
     import rclpy
     from rcl_interfaces.msg import ParameterType

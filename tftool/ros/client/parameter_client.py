@@ -5,6 +5,7 @@ from typing import Any
 
 from tftool.interfaces.classes import INTERFACES
 from tftool.ros.client.futures import Future
+from tftool.ros.client.member import member_of
 from tftool.ros.client.parameters import Parameter, parameter_dict_from_yaml_file
 from tftool.ros.client.qos import (
     QoSProfile,
@@ -50,7 +51,10 @@ class AsyncParameterClient:
 
     def wait_for_services(self, timeout_sec: float | None = None) -> bool:
         """Block until the node is there and answers; whether it does."""
-        return all(client.wait_for_service(timeout_sec) for client in self._clients.values())
+        member = member_of(self.node)
+        # Waited for together: one after the other, each would have the whole time for itself.
+        names = [client.full for client in self._clients.values()]
+        return member.wait_until(lambda: all(map(member.world.has_service, names)), timeout_sec)
 
     def _ask(self, kind: str, callback: Callback | None, **fields: Any) -> Future:
         client = self._clients[kind]
