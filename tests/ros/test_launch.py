@@ -197,6 +197,21 @@ def test_substitutions_give_texts(tmp_path, monkeypatch):
         assert said == wanted or (wanted == "/" and said.endswith("sh"))
 
 
+def test_a_command_may_complain_only_where_that_is_said(tmp_path):
+    script = tmp_path / "complain.sh"
+    script.write_text("echo oh >&2\necho fine\n")
+    done = described(
+        tmp_path,
+        *(
+            f"LogInfo(msg=Command('sh {script}', on_stderr='{what}'))"
+            for what in ("ignore", "capture", "warn")
+        ),
+    )
+
+    complaint = f"the command ['sh', '{script}'] wrote to its standard error: oh"
+    assert done.said("launch") == ["fine\n", "oh\nfine\n", complaint, "fine\n"]
+
+
 def test_environment_and_folder_reach_a_process(tmp_path):
     done = described(
         tmp_path,
@@ -415,6 +430,14 @@ def test_what_handlers_do_knows_their_event(tmp_path):
         ("LogInfo(msg=LocalSubstitution('event.reason'))", "no 'event' for 'event.reason' here"),
         ("LogInfo(msg=EnvironmentVariable('NO_SUCH'))", "'NO_SUCH' does not exist"),
         ("LogInfo(msg=FindExecutable(name='no-such'))", "no command 'no-such'"),
+        (
+            "LogInfo(msg=Command('sh -c \\'echo oh >&2\\''))",
+            r"wrote to its standard error: oh \(on_stderr says whether it may\)",
+        ),
+        (
+            "LogInfo(msg=Command('true', on_stderr='shout'))",
+            "on_stderr is 'fail', 'warn', 'ignore', 'capture', not 'shout'",
+        ),
         ("LogInfo(msg=Command('false'))", r"the command \['false'\] failed"),
         ("TimerAction(period='soon', actions=[])", "period is seconds from 0 .*, not 'soon'"),
         ("ExecuteProcess(cmd=['no-such-command'])", "cannot run 'no-such-command'"),

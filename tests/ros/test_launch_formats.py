@@ -68,6 +68,20 @@ def test_a_command_line_is_parted_as_a_shell_does(tmp_path, cmd, shell, written)
     assert launch(file, seconds=1).said("it-1")[1] == written
 
 
+def test_a_command_in_xml_may_complain_where_that_is_said(tmp_path):
+    file = tmp_path / "a.launch.xml"
+    script = tmp_path / "complain.sh"
+    script.write_text("echo oh >&2\necho fine\n")
+    said = f"<launch><log message=\"$(command 'sh {script}'{{}})\"/></launch>"
+
+    file.write_text(said.format(" ignore"))
+    assert launch(file, seconds=1).said("launch") == ["fine\n"]
+
+    file.write_text(said.format(""))
+    with pytest.raises(TftoolError, match="wrote to its standard error: oh"):
+        launch(file, seconds=1)
+
+
 @pytest.mark.parametrize("ending", FORMATS)
 def test_show_args_is_laid_out_as_ros2_launch_does(ending):
     with ros_free():

@@ -88,7 +88,9 @@ _SUBSTITUTIONS: dict[str, Callable[..., Any]] = {
     "dirname": substitutions.ThisLaunchFileDir,
     "filename": substitutions.ThisLaunchFile,
     "eval": lambda *words: substitutions.PythonExpression(_spaced(words)),
-    "command": lambda command, on_stderr=None: substitutions.Command(command),
+    "command": lambda command, on_stderr="fail": substitutions.Command(
+        command, on_stderr=on_stderr
+    ),
     "anon": substitutions.AnonName,
     "not": logic.NotSubstitution,
     "and": logic.AndSubstitution,

@@ -6,11 +6,14 @@ import shutil
 from collections.abc import Iterable, Sequence
 from difflib import get_close_matches
 from pathlib import Path
-from typing import Any
+from typing import Any, Final
 
 from tftool.errors import UsageError
 from tftool.ros.launching import packages
 from tftool.ros.launching.context import LaunchContext
+
+ON_STDERR: Final = ("fail", "warn", "ignore", "capture")
+"""What a `Command` may do about output on its standard error."""
 
 
 class SubstitutionFailure(UsageError):
@@ -294,7 +297,15 @@ class Command(Substitution):
     """What a command writes."""
 
     def __init__(self, command: Any, *, on_stderr: Any = "fail") -> None:
+        """Prepare to run a command.
+
+        Args:
+            command: It and its arguments, as in a shell.
+            on_stderr: What to do if it writes to its standard error: "fail", "warn", "ignore",
+                or "capture" that as part of its output.
+        """
         self.command = command
+        self.on_stderr = on_stderr
 
     def perform(self, context: LaunchContext) -> str:
         """Its output."""
@@ -302,8 +313,26 @@ class Command(Substitution):
         import subprocess
 
         words = shlex.split(perform(context, self.command))
+        on_stderr = perform(context, self.on_stderr)
+        if on_stderr not in ON_STDERR:
+            raise SubstitutionFailure(
+                f"on_stderr is {', '.join(map(repr, ON_STDERR))}, not '{on_stderr}'"
+            )
+        captured = on_stderr == "capture"
         try:
-            done = subprocess.run(words, capture_output=True, text=True, check=True)
+            done = subprocess.run(
+                words,
+                stdout=subprocess.PIPE,
+                stderr=subprocess.STDOUT if captured else subprocess.PIPE,
+                text=True,
+                check=True,
+            )
         except (OSError, subprocess.CalledProcessError) as error:
             raise SubstitutionFailure(f"the command {words} failed: {error}") from None
+        if done.stderr and on_stderr != "ignore":
+            sentence = f"the command {words} wrote to its standard error: {done.stderr.strip()}"
+            if on_stderr == "fail":
+                raise SubstitutionFailure(f"{sentence} (on_stderr says whether it may)")
+            if context.launch is not None:
+                context.launch.warn(sentence)
         return done.stdout
