@@ -160,6 +160,24 @@ def test_a_latched_subscription_gets_what_was_sent_before_and_others_hear_all_on
     play(send())
 
 
+def test_a_publisher_that_keeps_all_keeps_it_for_other_processes_too():
+    async def send():
+        async with Two() as two:
+            publish = publisher(two.here, is_latched=True, depth=1, keeps_all=True)
+            early, late = [], []
+            subscription(two.there, early)
+            await until(lambda: two.host.graph.entities("MS", name="chatter"))
+            for word in ("one", "two", "three"):
+                publish(STRING(data=word))
+            await until(lambda: len(early) == 3)
+            subscription(two.there, late, node="late", is_latched=True)
+            await until(lambda: late and late[-1][0].data == "three")
+
+            assert [one.data for one, _ in late] == ["one", "two", "three"]
+
+    play(send())
+
+
 def test_what_was_kept_before_there_was_a_link_reaches_those_who_come_late():
     async def send():
         here, there = new_world(), new_world()

@@ -2,6 +2,7 @@
 
 import asyncio
 import contextlib
+import sys
 import threading
 from collections.abc import Callable
 from functools import partial
@@ -144,10 +145,11 @@ class Wire:
             return Outlet(publisher, self._outbox, keeps=False)
         import zenoh.ext as advanced
 
+        kept = sys.maxsize if quality.keeps_all else max(1, quality.depth)
         publisher = advanced.declare_advanced_publisher(
             self._session,
             key,
-            cache=advanced.CacheConfig(max_samples=max(1, quality.depth)),
+            cache=advanced.CacheConfig(max_samples=kept),
             publisher_detection=True,
             **options,
         )
