@@ -212,6 +212,26 @@ def test_a_message_larger_than_we_read_is_refused_unread(monkeypatch):
         codec(INTERFACES.message("std_msgs/String")).decode(cdr.HEADER + bytes(100))
 
 
+@pytest.mark.parametrize(
+    ("text", "item", "most"),
+    [
+        ("string[] data", b"\x01\0\0\0\0\0\0\0", 5),
+        ("std_msgs/String[] data", b"\x01\0\0\0\0\0\0\0", 5),
+        # Each of the outer list holds one more, of the inner list.
+        ("std_msgs/MultiArrayLayout[] data", struct.pack("<IIIIII", 1, 1, 0, 2, 3, 4), 2),
+    ],
+)
+def test_more_texts_and_messages_than_we_make_are_refused(monkeypatch, text, item, most):
+    monkeypatch.setattr(cdr, "MOST_ITEMS", 5)
+
+    def body(count):
+        return cdr.HEADER + struct.pack("<I", count) + item * count
+
+    assert len(Codec(made(text)).decode(body(most)).data) == most
+    with pytest.raises(MalformedMessage, match="hold more than 5 texts and messages"):
+        Codec(made(text)).decode(body(most + 1))
+
+
 def test_an_empty_message_may_come_without_its_byte():
     empty = INTERFACES.find("std_srvs", "srv", "Empty").Request
 

@@ -16,6 +16,9 @@ HEADER: Final = b"\x00\x01\x00\x00"
 LARGEST: Final = 64 * 1024 * 1024
 """Bytes of the largest message we look at."""
 
+MOST_ITEMS: Final = 1_000_000
+"""Texts and messages in the lists of one message: each becomes an object many times its bytes."""
+
 LITTLE: Final = "<"
 """Little endian, as `struct` writes it."""
 
@@ -92,13 +95,14 @@ def read_text(raw: bytes) -> str:
 class Reader:
     """Walks the bytes of one message."""
 
-    __slots__ = ("kind", "order", "payload", "position")
+    __slots__ = ("items", "kind", "order", "payload", "position")
 
     def __init__(self, kind: str, payload: bytes) -> None:
         self.kind = kind
         self.order = check_header(kind, payload)
         self.payload = payload
         self.position = 4
+        self.items = 0
 
     def take(self, length: int, align: int = 1) -> int:
         """Step over some bytes; where they begin."""
@@ -124,6 +128,14 @@ class Reader:
                 self.kind, f"a list announces {count} items where at most {bound} are allowed"
             )
         return int(count)
+
+    def admit(self, items: int) -> None:
+        """Allow for so many texts or messages of a list, on top of those before them."""
+        self.items += items
+        if self.items > MOST_ITEMS:
+            raise MalformedMessage(
+                self.kind, f"its lists hold more than {MOST_ITEMS} texts and messages"
+            )
 
     def text(self, bound: int | None) -> str:
         """The text that comes next."""

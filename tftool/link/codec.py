@@ -196,6 +196,7 @@ class _List:
 
     def read(self, reader: Reader, values: list[Any]) -> None:
         count = reader.count(self._item, self._field.bound) if self._count is None else self._count
+        reader.admit(count)
         if self._plan is None:
             values.append([reader.text(self._field.text_bound) for _ in range(count)])
         else:
