@@ -14,11 +14,13 @@ from tftool.frames.buffer import Buffer
 from tftool.frames.sample import TransformStamped
 from tftool.geometry.rigid import Transform
 from tftool.link.graph import Role, hosts
+from tftool.link.keys import Entity, quality
 from tftool.link.membership import Options
 from tftool.link.reach import Reach
 from tftool.link.session import Link
 from tftool.link.tf import TF
 from tftool.link.transforms import encode_transforms
+from tftool.link.types import TRANSFORMS
 from tftool.messages import (
     Clear,
     Color,
@@ -428,6 +430,39 @@ def test_a_host_that_leaves_is_told_once():
         assert told.startswith("'tftool demo' (process ")
         assert told.endswith("which hosted, has left; what it sent stays as it was.")
         two.guest.close()
+
+    play(leave())
+
+
+def test_a_process_departs_once_however_many_of_its_nodes_sent_transforms():
+    async def leave():
+        two = Two()
+        for name in ("one", "two"):
+            two.here.broadcast([sample(1, name)], name)
+        await until(lambda: len(two.guest.graph.entities("MP", name="tf")) == 2)
+        two.host.close()
+        await until(lambda: two.guest.graph.is_empty)
+
+        assert two.guest.departures == 1
+        two.guest.close()
+
+    play(leave())
+
+
+def test_a_process_that_is_no_tftool_departs_with_the_last_that_sent_transforms():
+    async def leave():
+        async with Two() as two:
+            entities = [
+                Entity(0, "ab", 1, number, "MP", "ros", "tf", TRANSFORMS, quality=quality(TF))
+                for number in (1, 2)
+            ]
+            hide = [two.host.wire.token(entity.token()) for entity in entities]
+            await until(lambda: len(two.guest.graph.entities("MP", name="tf")) == 2)
+            hide[0]()
+            await until(lambda: len(two.guest.graph.entities("MP", name="tf")) == 1)
+            assert two.guest.departures == 0
+            hide[1]()
+            await until(lambda: two.guest.departures == 1)
 
     play(leave())
 

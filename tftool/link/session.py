@@ -37,7 +37,7 @@ class Link(Membership):
     """A process's place in a session: it joins, and carries its world's traffic.
 
     Attributes:
-        departures: How many of those have left that transforms came from.
+        departures: How many of the processes have left that transforms came from.
         silent: How many processes of this machine did not answer when it joined.
     """
 
@@ -295,7 +295,8 @@ class Link(Membership):
             if isinstance(gone, Process):
                 self._left(gone)
             elif gone is not None:
-                self.departures += gone.kind == keys.PUBLISHER and gone.name == "tf"
+                if gone.kind == keys.PUBLISHER and gone.name == "tf":
+                    self._count_departure(gone.session)
                 self._graph_changed()
             return
         new = self.graph.add(token)
@@ -332,9 +333,18 @@ class Link(Membership):
         if process.role is Role.GUEST:
             self.world.log.info(NAME, f"{process} has left.")
             return
-        self.departures += 1
+        self._count_departure(process.session)
         hosted = ", which hosted," if process.role is Role.HOST else ""
         self.world.log.warn(NAME, f"{process}{hosted} has left; what it sent stays as it was.")
+
+    def _count_departure(self, session: str) -> None:
+        """Count a process once the last is gone of what it showed, in whatever order that goes.
+
+        A node may leave a process that stays, and what is not a tftool shows no process.
+        """
+        senders = self.graph.entities(keys.PUBLISHER, name="tf")
+        stays = self.graph.process(session) or any(one.session == session for one in senders)
+        self.departures += not stays
 
     def _mention_foreign_domains(self) -> None:
         for domain in self.graph.foreign_domains:
