@@ -434,6 +434,37 @@ def test_a_host_that_leaves_is_told_once():
     play(leave())
 
 
+def test_a_node_that_leaves_is_no_publisher_of_tf_any_more_but_its_statics_stay():
+    async def leave():
+        async with Two() as two:
+
+            def publishers(topic):
+                return {one.node for one in two.guest.graph.entities("MP", name=topic)}
+
+            node = Node(two.here, "turtle2_broadcaster")
+            for name in (node.name, "no_node"):
+                two.here.broadcast([sample(1, name)], name)
+            two.here.broadcast([sample(0, "carrot")], node.name, static=True)
+            await until(lambda: publishers("tf") == {node.name, "no_node"})
+
+            two.here.remove(node)
+            await until(lambda: publishers("tf") == {"no_node"})
+            assert two.guest.departures == 0
+            with Link(Options("tree")) as late:
+                there = new_world()
+                late.attach(there, role=Role.GUEST)
+                await until(lambda: "carrot" in there.buffer.frames())
+
+                assert there.buffer.snapshot(1).frame("carrot").authority == node.name
+
+            # Under the same name the next one may come.
+            Node(two.here, node.name)
+            two.here.broadcast([sample(2, node.name)], node.name)
+            await until(lambda: publishers("tf") == {node.name, "no_node"})
+
+    play(leave())
+
+
 def test_a_process_departs_once_however_many_of_its_nodes_sent_transforms():
     async def leave():
         two = Two()

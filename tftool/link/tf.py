@@ -44,6 +44,7 @@ class TransformBridge:
         self._link = link
         self._topic = topic
         self._senders: dict[str, Sender] = {}
+        self._nodes: set[str] = set()
         self._inbound: TransformMessage | None = None
         topic.relay = self._publish
         key = keys.any_hash_key(link.options.domain, topic.name, TRANSFORMS)
@@ -58,6 +59,16 @@ class TransformBridge:
         """The buffer always listens; whoever else does is counted."""
         others = self._link.graph.entities(keys.SUBSCRIBER, name=self._topic.name)
         self._topic.far_subscribers = len(others)
+        self._dismiss()
+
+    def _dismiss(self) -> None:
+        """Close the senders of nodes that have left; some authorities were never nodes."""
+        for gone in self._nodes - self._node_names():
+            self._nodes.remove(gone)
+            self._senders.pop(gone).close()
+
+    def _node_names(self) -> set[str]:
+        return {node.name for node in self._link.world.nodes}
 
     def close(self) -> None:
         """Neither send nor listen any more."""
@@ -80,6 +91,8 @@ class TransformBridge:
                 TRANSFORMS,
                 self.quality,
             )
+            if message.authority in self._node_names():
+                self._nodes.add(message.authority)
         if not sender.is_wanted:
             return
         try:
@@ -169,6 +182,9 @@ class StaticBridge(TransformBridge):
     """`tf_static`: who comes later gets all statics of everybody who is there."""
 
     quality = TF_STATIC
+
+    def _dismiss(self) -> None:
+        """Close none: what a node said for all time is sent to late listeners when it has left."""
 
     def _store(
         self, transforms: tuple[TransformStamped, ...], authority: str
