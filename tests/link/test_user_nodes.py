@@ -48,6 +48,7 @@ def test_services_parameters_actions_and_latched_topics_reach_another_terminal()
         "parameters: ['speed', 'use_sim_time']",
         "set: True",
         "set: False",
+        "changed: speed 4.5",
         "enabled: std_srvs.srv.SetBool_Response(success=True, message='speed 4.5')",
         "map: the attic",
         "fibonacci: 4 [0, 1, 1, 2, 3, 5]",

@@ -2,7 +2,7 @@
 
 import rclpy
 from example_interfaces.action import Fibonacci
-from rcl_interfaces.msg import Parameter, ParameterType, ParameterValue
+from rcl_interfaces.msg import Parameter, ParameterEvent, ParameterType, ParameterValue
 from rcl_interfaces.srv import ListParameters, SetParameters
 from rclpy.action import ActionClient
 from rclpy.node import Node
@@ -18,9 +18,15 @@ class Client(Node):
         self.map = rclpy.task.Future()
         self.create_subscription(String, "map_name", self.map.set_result, latched)
         self.create_subscription(String, "noise", self.hear_noise, 10)
+        self.changed = rclpy.task.Future()
+        self.create_subscription(ParameterEvent, "/parameter_events", self.hear_change, 10)
 
     def hear_noise(self, message):
         self.get_logger().error("the noise was heard")
+
+    def hear_change(self, event):
+        if event.node == "/server" and event.changed_parameters and not self.changed.done():
+            self.changed.set_result(event.changed_parameters[0])
 
     def ask(self, kind, name, request):
         client = self.create_client(kind, name)
@@ -45,6 +51,8 @@ for name, value in (
     change = SetParameters.Request(parameters=[Parameter(name=name, value=value)])
     answer = node.ask(SetParameters, "/server/set_parameters", change)
     say(f"set: {answer.results[0].successful}")
+change = node.wait(node.changed)
+say(f"changed: {change.name} {change.value.double_value}")
 say(f"enabled: {node.ask(SetBool, 'enable', SetBool.Request(data=True))}")
 say(f"map: {node.wait(node.map).data}")
 

@@ -1,7 +1,6 @@
 """rclpy's Node."""
 
 from collections.abc import Callable, Iterator, Sequence
-from functools import partial
 from typing import TYPE_CHECKING, Any, TypeVar
 
 from tftool.interfaces.classes import Message
@@ -68,7 +67,7 @@ class Node(NodeGraph, NodeParameters):
             parameter_overrides or (),
             allow_undeclared_parameters,
             automatically_declare_parameters_from_overrides,
-            partial(parameter_events.tell, self._tftool),
+            parameter_events.teller(self._tftool),
         )
         if start_parameter_services:
             serve_own(self, ParameterService(self).services())

@@ -9,29 +9,37 @@ from tftool.ros import names, values
 from tftool.ros.client.member import Member
 from tftool.ros.client.parameters import Parameter
 from tftool.ros.client.qos import QoSProfile, qos_profile_parameter_events
+from tftool.ros.client.topics import Publisher
 
 TOPIC = "parameter_events"
 
 
-def tell(
-    member: Member,
-    *,
-    new: Sequence[Parameter] = (),
-    changed: Sequence[Parameter] = (),
-    deleted: Sequence[Parameter] = (),
-) -> None:
-    """Publish what happened to a node's parameters, if anybody listens."""
-    topic = member.world.topics().get(TOPIC)
-    if topic is None:
-        return
-    event: Any = INTERFACES.message("rcl_interfaces/ParameterEvent")(
-        stamp=values.time_message(member.now()),
-        node=f"/{names.join(member.namespace, member.name)}",
-        new_parameters=[one.to_parameter_msg() for one in new],
-        changed_parameters=[one.to_parameter_msg() for one in changed],
-        deleted_parameters=[one.to_parameter_msg() for one in deleted],
+def teller(member: Member) -> Callable[..., None]:
+    """What tells everybody of a node's parameters; it is one of the topic's publishers at once."""
+    kind: Any = INTERFACES.message("rcl_interfaces/ParameterEvent")
+    publisher: Publisher = member.keep(
+        lambda: Publisher(member, kind, f"/{TOPIC}", TOPIC, qos_profile_parameter_events)
     )
-    member.program.ask(lambda: topic.publish(event))
+
+    def tell(
+        *,
+        new: Sequence[Parameter] = (),
+        changed: Sequence[Parameter] = (),
+        deleted: Sequence[Parameter] = (),
+    ) -> None:
+        # Parameters change far more often than somebody listens.
+        if not publisher.get_subscription_count():
+            return
+        event = kind(
+            stamp=values.time_message(member.now()),
+            node=f"/{names.join(member.namespace, member.name)}",
+            new_parameters=[one.to_parameter_msg() for one in new],
+            changed_parameters=[one.to_parameter_msg() for one in changed],
+            deleted_parameters=[one.to_parameter_msg() for one in deleted],
+        )
+        publisher.publish(event)
+
+    return tell
 
 
 @dataclass(eq=False, slots=True)
