@@ -199,6 +199,28 @@ def test_a_topic_is_known_to_all_and_travels_to_who_listens():
     play(send())
 
 
+def test_a_topic_that_others_had_goes_with_them_unless_somebody_here_asked_for_it():
+    async def leave():
+        two = Two()
+        names = {f"turtle{number}/pose" for number in range(1, 4)}
+        for name in names:
+            two.here.topic(name, Pose2D).publish(Pose2D(1.0, 2.0, 0.0))
+        await until(lambda: names <= two.there.topics().keys())
+        stop = two.there.topics()["turtle1/pose"].subscribe(lambda pose: None)
+        held = two.there.topic("turtle2/pose", Pose2D)
+        two.host.close()
+        await until(lambda: "turtle3/pose" not in two.there.topics())
+
+        assert two.there.topics()["turtle2/pose"] is held
+        assert "turtle1/pose" in two.there.topics()
+        stop()
+        two.there.topic("something", Pose2D)
+        await until(lambda: "turtle1/pose" not in two.there.topics())
+        two.guest.close()
+
+    play(leave())
+
+
 def test_colours_are_asked_for_only_while_somebody_far_away_wants_them():
     async def send():
         async with Two() as two:

@@ -188,12 +188,19 @@ class Link(Membership):
             self._endpoints[entity] = endpoint, self.world.endpoints.add(endpoint)
 
     def _name_topics(self) -> None:
-        """Name others' topics, so that whoever looks through the world's topics sees them."""
+        """Name others' topics, so that whoever looks through the world's topics sees them.
+
+        Those that nobody has any more, here or there, are forgotten again.
+        """
         values = {ros_type: value for value, ros_type in VALUES.items()}
         for entity in self.graph.entities(keys.PUBLISHER):
             value = values.get(entity.ros_type)
             if value and entity.name not in self.world.topics() and is_plain(entity.name):
-                self.world.topic(entity.name, value)
+                self.world.topic(entity.name, value).is_far = True
+        for topic in tuple(self.world.topics().values()):
+            others = self.graph.entities(keys.PUBLISHER, keys.SUBSCRIBER, name=topic.name)
+            if topic.is_far and not topic.near_subscribers and not others:
+                self.world.remove_topic(topic.name)
 
     def _refresh_topics(self) -> None:
         for bridge in self._bridges.values():

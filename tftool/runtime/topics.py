@@ -29,12 +29,15 @@ class Topic(Generic[T]):
         sender: Who publishes the value that is being delivered; None when nobody says.
         relay: What carries values to other processes, told last; None without a link.
         far_subscribers: How many listen in other processes.
+        is_far: Whether it is here only to be seen: other processes have it, and nobody here
+            has asked for it by its name.
     """
 
     __slots__ = (
         "_subscribers",
         "count",
         "far_subscribers",
+        "is_far",
         "kind",
         "latest",
         "name",
@@ -52,6 +55,7 @@ class Topic(Generic[T]):
         self.sender: Endpoint | None = None
         self.relay: Callable[[T], object] | None = None
         self.far_subscribers = 0
+        self.is_far = False
         self._subscribers: tuple[Callable[[T], object], ...] = ()
 
     def publish(self, value: T, sender: Endpoint | None = None) -> None:

@@ -82,6 +82,7 @@ class World:
             self._changed()
         elif topic.kind is not kind:
             raise TftoolError(f"topic '{name}' carries {topic.kind.__name__}, not {kind.__name__}")
+        topic.is_far = False
         return cast("Topic[T]", topic)
 
     def topics(self) -> Mapping[str, Topic[Any]]:
