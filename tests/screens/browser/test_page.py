@@ -271,11 +271,12 @@ def test_a_pairs_numbers_are_those_of_lookup_transform(chromium, stage, moment):
         stage.put(-second / 3, 7 / 9, at=second, child="other", rotation=(0, 0, 0.6, 0.8))
     page = Page(chromium, stage)
     page.until(lambda: "other" in page.drawn())
-    if moment is not None:
-        page.scrub(moment)
 
     Select(page.find("#source")).select_by_visible_text("turtle")
     Select(page.find("#target")).select_by_visible_text("other")
+    page.until(lambda: page.text("#sentence") == "turtle in other")
+    if moment is not None:
+        page.scrub(moment)
     at = 0 if moment is None else stage.do(lambda world: world.clock.epoch) + seconds(moment)
     found = stage.do(lambda world: world.buffer.lookup_transform("other", "turtle", at))
     page.until(lambda: f"{display(found.stamp)} s" in page.texts("#numbers dd"))
