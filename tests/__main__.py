@@ -10,7 +10,7 @@ from pathlib import Path
 
 PYTHON = [sys.executable, "-m"]
 # Many tests wait for other processes; two at a time take little more than half as long.
-WHOLE = ["-n2", "--dist=loadfile", "--cov", "--cov-report=term", "--cov-fail-under=90"]
+WHOLE = ["-n2", "--dist=worksteal", "--cov", "--cov-report=term", "--cov-fail-under=90"]
 
 CHECKS = [
     [*PYTHON, "ruff", "format", "--check", "."],

@@ -16,6 +16,16 @@ settings.load_profile("ci" if os.environ.get("CI") else "desk")
 pytest_plugins = ["pytester", "tftool.ros.pytest_plugin"]
 
 
+def pytest_collection_modifyitems(items):
+    """Leave random tests out of the coverage: what they run, tests of one case each run too.
+
+    Following every line makes them three times slower, and they are most of what is computed.
+    """
+    for item in items:
+        if item.get_closest_marker("hypothesis"):
+            item.add_marker(pytest.mark.no_cover)
+
+
 @pytest.fixture(scope="session", autouse=True)
 def own_sessions():
     """A session folder of our own: no test's process meets anybody else's."""

@@ -20,7 +20,8 @@ class Terminal:
         command = shlex.join([sys.executable, *words])
         # exec, so that the number in the file is the command's own.
         line = f"sh -c {shlex.quote(f'echo $$ > {self.pid_file}; exec {command}')}"
-        line += '; echo "ended with $?"; exec cat'
+        # Ctrl-C is a signal for everything in the window; what waits for the command outlives it.
+        line = f'trap : INT; {line}; echo "ended with $?"; exec cat'
         kept = {
             key: os.environ[key]
             for key in ("PATH", "HOME", "TFTOOL_SESSION_DIR")

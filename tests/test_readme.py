@@ -13,7 +13,7 @@ import tftool
 from tftool.cli import app
 from tftool.cli.app import main
 from tftool.interfaces.schema import Schema
-from tftool.ros import faces
+from tftool.ros.host import import_table
 
 ROOT = Path(__file__).parents[1]
 TEXT = (ROOT / "README.md").read_text(encoding="utf-8")
@@ -93,7 +93,7 @@ def test_what_is_covered_names_every_package_and_no_other():
     section = TEXT.partition("### What is covered\n")[2].partition("\n###")[0]
     table = "\n".join(line for line in section.splitlines() if line.startswith("| `"))
     last = next(line for line in section.splitlines() if line.startswith("| interfaces"))
-    packages = {name.partition(".")[0] for name in faces.table()}
+    packages = {name.partition(".")[0] for name in import_table.table()}
 
     assert packages <= set(re.findall(r"`(\w+)`", table)) <= packages | {"wait_for_message"}
     assert set(re.findall(r"`(\w+)`", last)) - {"src"} == set(Schema().packages())

@@ -5,6 +5,9 @@
 TYPE_CHECKING = False
 
 if TYPE_CHECKING:
+    from tftool.diagnostics.asking import diagnose, explain
+    from tftool.diagnostics.explanation import Explanation
+    from tftool.diagnostics.findings import Finding
     from tftool.errors import (
         BackwardExtrapolationException,
         ConnectivityException,
@@ -20,7 +23,7 @@ if TYPE_CHECKING:
         TransformException,
         UsageError,
     )
-    from tftool.frames.arrays import TransformArray
+    from tftool.frames.batch.arrays import TransformArray
     from tftool.frames.buffer import Buffer
     from tftool.frames.sample import FrameInfo, Snapshot, TransformStamped
     from tftool.geometry.conversions import quaternion_from_rpy, rpy_from_quaternion
@@ -29,6 +32,8 @@ if TYPE_CHECKING:
     from tftool.runtime.node import Node
     from tftool.runtime.supervisor import live
     from tftool.runtime.world import World
+    from tftool.sources.recording import Recording, open_recording
+    from tftool.sources.robot import Robot, load_urdf
     from tftool.stamps import LATEST, as_seconds, seconds
 
 __version__ = "0.1.0"
@@ -39,7 +44,9 @@ __all__ = [
     "Buffer",
     "Clock",
     "ConnectivityException",
+    "Explanation",
     "ExtrapolationException",
+    "Finding",
     "ForwardExtrapolationException",
     "FrameInfo",
     "InputError",
@@ -50,6 +57,8 @@ __all__ = [
     "NodeFailed",
     "Phase",
     "Quaternion",
+    "Recording",
+    "Robot",
     "SimClock",
     "Snapshot",
     "TftoolError",
@@ -63,7 +72,11 @@ __all__ = [
     "WallClock",
     "World",
     "as_seconds",
+    "diagnose",
+    "explain",
     "live",
+    "load_urdf",
+    "open_recording",
     "quaternion_from_rpy",
     "rpy_from_quaternion",
     "run",
@@ -88,7 +101,7 @@ _HOMES = {
         "TransformException",
         "UsageError",
     ),
-    "tftool.frames.arrays": ("TransformArray",),
+    "tftool.frames.batch.arrays": ("TransformArray",),
     "tftool.frames.buffer": ("Buffer",),
     "tftool.frames.sample": ("FrameInfo", "Snapshot", "TransformStamped"),
     "tftool.geometry.conversions": ("quaternion_from_rpy", "rpy_from_quaternion"),
@@ -97,6 +110,11 @@ _HOMES = {
     "tftool.runtime.node": ("Node",),
     "tftool.runtime.supervisor": ("live",),
     "tftool.runtime.world": ("World",),
+    "tftool.diagnostics.asking": ("diagnose", "explain"),
+    "tftool.diagnostics.explanation": ("Explanation",),
+    "tftool.diagnostics.findings": ("Finding",),
+    "tftool.sources.recording": ("Recording", "open_recording"),
+    "tftool.sources.robot": ("Robot", "load_urdf"),
     "tftool.stamps": ("LATEST", "as_seconds", "seconds"),
 }
 _HOME_OF = {name: home for home, names in _HOMES.items() for name in names}

@@ -5,14 +5,34 @@ carries its facts as fields. `cli.app` turns them into exit statuses and is the
 only place that does.
 """
 
-from collections.abc import Iterable, Sequence
+import os
+import unicodedata
+from collections.abc import Collection, Sequence
 from dataclasses import dataclass
+from itertools import islice
+from typing import Any
 
 from tftool.stamps import Duration, Stamp
 
 
 class TftoolError(Exception):
-    """Something a user can act on; its text is a sentence that says what and what to do."""
+    """Something a user can act on; its text is a sentence that says what and what to do.
+
+    Its text, and its remedy where it has one, are settled when it is made. It can be pickled
+    and copied with all its facts, whatever arguments its class takes.
+    """
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        return _made_again, (type(self), self.args), self._facts()
+
+    def _facts(self) -> dict[str, object]:
+        """The attributes, as they are pickled."""
+        return dict(self.__dict__)
+
+
+def _made_again(kind: type[TftoolError], args: tuple[object, ...]) -> TftoolError:
+    # Not by its `__init__`, which takes other arguments: the text is in `args` already.
+    return kind.__new__(kind, *args)
 
 
 class UsageError(TftoolError):
@@ -61,9 +81,45 @@ class Mistake:
             return head
         return f"{head}\n  {self.line:>4} | {self.shown}\n       | {self.marks}"
 
+    @classmethod
+    def at(
+        cls, file: str, lines: Sequence[str], line: int, column: int, text: str, *, width: int = 1
+    ) -> "Mistake":
+        """A mistake with the line it stands in, cut to fit a terminal, and carets under it.
 
-class ScenarioError(InputError):
-    """A scenario has mistakes, all told at once (exit status 3).
+        Args:
+            file: Name of the file.
+            lines: All lines of the file.
+            line: Line, from 0.
+            column: Column, from 0.
+            text: What is wrong.
+            width: How many characters to mark.
+        """
+        whole = lines[line] if line < len(lines) else ""
+        start = max(0, column - 60)
+        shown = whole[start : start + 120]
+        before = sum(_cells(char) for char in whole[start:column])
+        inside = whole[column : min(column + width, start + 120)].rstrip()
+        marks = " " * before + "^" * max(1, sum(_cells(char) for char in inside))
+        return cls(file, line + 1, column + 1, text, showable(shown), marks)
+
+
+def showable(text: str) -> str:
+    """Replace what a terminal might obey, one character for one."""
+    return "".join(
+        char if char.isprintable() else (" " if char == "\t" else "\ufffd") for char in text
+    )
+
+
+def _cells(char: str) -> int:
+    """How many columns of a terminal a character takes."""
+    if unicodedata.combining(char):
+        return 0
+    return 2 if unicodedata.east_asian_width(char) in "WF" else 1
+
+
+class DocumentError(InputError):
+    """A text file has mistakes, all reported at once (exit status 3).
 
     Attributes:
         name: The file, as it was given.
@@ -84,6 +140,51 @@ class ScenarioError(InputError):
         super().__init__("\n".join(lines))
 
 
+class ScenarioError(DocumentError):
+    """A scenario has mistakes."""
+
+
+class DescriptionError(DocumentError):
+    """A robot description has mistakes."""
+
+
+def failure_text(error: BaseException) -> str:
+    """An exception in one line: its type, its text, and the file and line it comes from.
+
+    That is the innermost line of a user's code. Where there is none, the innermost line of
+    all: but not for an exception of ours, which says what is wrong by itself.
+    """
+    kind, text = type(error).__name__, str(error)
+    line = line_of(error, users_only=isinstance(error, TftoolError))
+    return kind + (f": {text}" if text else "") + (f" ({line})" if line else "")
+
+
+def line_of(error: BaseException, *, users_only: bool = False) -> str:
+    """The innermost line of a user's code that led to an exception, as "busy.py:10".
+
+    Where there is none the innermost line of all, or "" for `users_only`.
+    """
+    users = innermost = ""
+    trace = error.__traceback__
+    while trace is not None:
+        file = trace.tb_frame.f_code.co_filename
+        innermost = f"{os.path.basename(file)}:{trace.tb_lineno}"
+        users = innermost if is_users_file(file) else users
+        trace = trace.tb_next
+    return users or ("" if users_only else innermost)
+
+
+def is_users_file(file: str) -> bool:
+    """Whether code is neither of this package nor of Python's own library."""
+    if file.startswith((_PACKAGE, "<frozen")):
+        return False
+    return "site-packages" in file or not file.startswith(_LIBRARY)
+
+
+_PACKAGE = os.path.dirname(os.path.realpath(__file__))
+_LIBRARY = os.path.dirname(os.path.realpath(os.__file__))
+
+
 class NodeFailed(TftoolError):
     """A node raised; the run is over. The original error is the cause.
 
@@ -91,8 +192,9 @@ class NodeFailed(TftoolError):
         node: Name of the node that raised.
     """
 
-    def __init__(self, node: str, error: BaseException) -> None:
-        super().__init__(f"node '{node}' failed: {type(error).__name__}: {error}")
+    def __init__(self, node: str, error: BaseException, what: str = "") -> None:
+        """Say that a node failed by `error`; `what` says it in other words."""
+        super().__init__(f"node '{node}' {what or f'failed: {failure_text(error)}'}")
         self.node = node
 
 
@@ -134,13 +236,24 @@ class LookupException(TransformException):
         frame: str | None = None,
         target: str | None = None,
         source: str | None = None,
-        known: Iterable[str] = (),
+        known: Collection[str] = (),
         looped: bool = False,
     ) -> None:
+        """Say that a frame is unknown.
+
+        Args:
+            message: tf2's sentence.
+            frame: The unknown frame.
+            target: The frame asked for.
+            source: The frame asked about.
+            known: The names that are known, in a fixed order; it may grow at its end.
+            looped: Whether the reason is a loop.
+        """
         super().__init__(message, target=target, source=source)
         self.frame = frame
         self.looped = looped
         self._known = known
+        self._count = len(known)
 
     @property
     def remedy(self) -> str:
@@ -152,7 +265,7 @@ class LookupException(TransformException):
         # Only for a person who reads it: a wait that is refused ten thousand times is not slowed.
         import difflib
 
-        known = list(self._known)
+        known = self._names()
         near = difflib.get_close_matches(self.frame, known, n=3, cutoff=0.6)
         if near:
             names = " or ".join(f"'{name}'" for name in near)
@@ -160,6 +273,13 @@ class LookupException(TransformException):
         if not known:
             return f"Nobody has sent '{self.frame}' yet, nor any other frame."
         return f"Nobody has sent '{self.frame}' yet; {len(known)} other frames are known."
+
+    def _names(self) -> list[str]:
+        """The names that were known when this was made."""
+        return list(islice(self._known, self._count))
+
+    def _facts(self) -> dict[str, object]:
+        return {**super()._facts(), "_known": self._names()}
 
 
 class ConnectivityException(TransformException):
@@ -200,13 +320,27 @@ class InvalidArgumentException(TransformException):
 
 
 class TimeoutException(TransformException):
-    """Waiting for a transform took longer than allowed; the last refusal is the cause."""
+    """Waiting for a transform took longer than allowed; the last refusal is the cause.
+
+    Attributes:
+        refusal: The last refusal, where there was one.
+    """
+
+    def __init__(
+        self,
+        message: str,
+        *,
+        target: str | None = None,
+        source: str | None = None,
+        refusal: TransformException | None = None,
+    ) -> None:
+        super().__init__(message, target=target, source=source)
+        self.refusal = self.__cause__ = refusal
 
     @property
     def remedy(self) -> str:
         """What the last refusal has to say."""
-        cause = self.__cause__
-        return cause.remedy if isinstance(cause, TransformException) else ""
+        return "" if self.refusal is None else self.refusal.remedy
 
 
 class ExtrapolationException(TransformException):

@@ -1,9 +1,11 @@
 """Frozen values that travel on topics, in services and in actions.
 
-Metres, radians, seconds. `turtlesim`'s own message fields under their own names.
+Metres, radians, seconds. `turtlesim`'s own message fields under their own names. What travels on
+topics names its ROS type, as the classes of messages do: `interface__`.
 """
 
 from dataclasses import dataclass
+from typing import ClassVar
 
 from tftool.stamps import Stamp
 
@@ -11,6 +13,8 @@ from tftool.stamps import Stamp
 @dataclass(frozen=True, slots=True)
 class Pose2D:
     """Where a turtle is and how fast it moves (turtlesim/Pose; it carries no stamp)."""
+
+    interface__: ClassVar[str] = "turtlesim/msg/Pose"
 
     x: float
     y: float
@@ -23,6 +27,8 @@ class Pose2D:
 class Twist2D:
     """A velocity command in the plane (the three fields of Twist that turtlesim reads)."""
 
+    interface__: ClassVar[str] = "geometry_msgs/msg/Twist"
+
     linear_x: float = 0.0
     angular_z: float = 0.0
     linear_y: float = 0.0
@@ -31,6 +37,8 @@ class Twist2D:
 @dataclass(frozen=True, slots=True)
 class Color:
     """A colour, each channel from 0 to 255."""
+
+    interface__: ClassVar[str] = "turtlesim/msg/Color"
 
     r: int
     g: int
@@ -47,6 +55,8 @@ class KeyPress:
 @dataclass(frozen=True, slots=True)
 class PointStamped:
     """A point seen in a frame at a moment (geometry_msgs/PointStamped)."""
+
+    interface__: ClassVar[str] = "geometry_msgs/msg/PointStamped"
 
     stamp: Stamp
     frame_id: str
@@ -149,7 +159,7 @@ class Rotated:
 
 
 @dataclass(frozen=True, slots=True)
-class Finding:
+class Judgement:
     """One thing that was looked at, and what came of it.
 
     Attributes:
@@ -176,18 +186,18 @@ class Report:
     Attributes:
         name: What was looked at: a scenario's name.
         file: The file behind it, as it was given.
-        findings: One for each thing, in order.
+        judgements: One for each thing, in order.
         lasted: Seconds it took, on its own clock.
         failure: Why it could not be looked at to the end; empty when it could.
     """
 
     name: str
     file: str
-    findings: tuple[Finding, ...]
+    judgements: tuple[Judgement, ...]
     lasted: float = 0.0
     failure: str = ""
 
     @property
     def ok(self) -> bool:
         """Whether everything is as it should be."""
-        return not self.failure and all(finding.ok for finding in self.findings)
+        return not self.failure and all(judgement.ok for judgement in self.judgements)

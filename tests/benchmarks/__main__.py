@@ -3,7 +3,17 @@
 import argparse
 import platform
 
-from tests.benchmarks import batch, demo, link, scalar, start_up, turtle_world, waits
+from tests.benchmarks import (
+    batch,
+    demo,
+    link,
+    recordings,
+    scalar,
+    start_up,
+    turtle_world,
+    waits,
+    wire,
+)
 
 REPORTS = {
     "scalar": scalar.report,
@@ -13,6 +23,8 @@ REPORTS = {
     "turtle_world": turtle_world.report,
     "demo": demo.report,
     "link": link.report,
+    "recordings": recordings.report,
+    "wire": wire.report,
 }
 """What is measured; add yours."""
 

@@ -16,7 +16,7 @@ import numpy as np
 
 from tests.benchmarks import noetic
 from tests.benchmarks.batch_peers import PEERS
-from tftool.frames.arrays import TransformArray
+from tftool.frames.batch.arrays import TransformArray
 from tftool.frames.buffer import Buffer
 from tftool.frames.sample import TransformStamped
 from tftool.geometry.rigid import Transform

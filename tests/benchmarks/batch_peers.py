@@ -5,7 +5,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from tftool.frames.arrays import TransformArray
+from tftool.frames.batch.arrays import TransformArray
 
 Work = Callable[[], object]
 

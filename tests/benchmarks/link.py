@@ -19,12 +19,12 @@ from tftool.frames.buffer import Buffer
 from tftool.frames.sample import TransformStamped
 from tftool.geometry.rigid import Transform
 from tftool.link.graph import Role
-from tftool.link.membership import Options
+from tftool.link.options import Options
 from tftool.link.session import Link
-from tftool.link.transforms import decode_columns, decode_transforms, encode_transforms
 from tftool.runtime.clock import WallClock, run
 from tftool.runtime.world import World
 from tftool.stamps import seconds
+from tftool.wire.transforms import decode_columns, decode_transforms, encode_transforms
 
 STEADY = 5.0
 """Seconds of the steady stream."""
@@ -63,7 +63,7 @@ async def _read(messages):
             before = len(arrived)
             await clock.sleep(seconds(0.05))
             silent = silent + 1 if len(arrived) == before else 0
-        lost = link.wire.lost
+        lost = link.middleware.lost
     used = os.times()
     json.dump(
         {
@@ -79,7 +79,7 @@ async def _read(messages):
 
 
 async def _send(link, world, size, count, period):
-    while len(link.graph.entities("MS", name="tf")) < _send.readers:
+    while len(link.graph.entities("subscription", name="tf")) < _send.readers:
         await world.clock.sleep(seconds(0.01))
     due = world.clock.now()
     for _ in range(count):
@@ -142,11 +142,13 @@ def paths(size=20_000):
 
 ALONE = """
 import sys
-from tftool.cli import session
 from tftool.cli.app import main
-if sys.argv[1] == "alone":
-    session._open_link = lambda choice: (None, "")
-sys.exit(main(["static", "--frame-id", "A", "--child-frame-id", "B", "--once"]))
+from tftool.cli.connection import Providers
+class Alone(Providers):
+    def link(self, options):
+        return None
+providers = Alone() if sys.argv[1] == "alone" else None
+sys.exit(main(["static", "--frame-id", "A", "--child-frame-id", "B", "--once"], providers))
 """
 
 

@@ -54,7 +54,7 @@ def rounds(*, square: bool, color: bool = False, count: int = 7) -> list[float]:
 
 def scenario(count: int = 7) -> list[float]:
     """Play the scenario `turtles`, its script and expectations too; each round's ratio."""
-    turtles = load.load(builtin.find("turtles"))
+    turtles = load.load(builtin.path_of("turtles"))
     ratios = []
     for _ in range(count):
         started = time.process_time()

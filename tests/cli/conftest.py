@@ -3,6 +3,7 @@ from dataclasses import dataclass
 import pytest
 
 from tftool.cli.app import main
+from tftool.cli.connection import Connection, Providers
 from tftool.runtime.clock import SimClock
 
 
@@ -13,27 +14,38 @@ class Result:
     err: str
 
 
+class Simulated(Providers):
+    """Worlds live on simulated time, from the end of their head start on, and unshared."""
+
+    def wall_clock(self, rate=1.0, *, epoch=None, head_start=0):
+        return SimClock() if epoch is None else SimClock(epoch)
+
+    def link(self, options):
+        return None
+
+
 @pytest.fixture
-def tftool(capsys, monkeypatch):
+def outside():
+    """Where the commands of a test have their clocks and links from: "providers"."""
+    return {"providers": None}
+
+
+@pytest.fixture
+def simulated(outside):
+    """Hosted worlds live on simulated time and unshared; a connection that sees to it."""
+    outside["providers"] = Simulated()
+    return Connection(providers=outside["providers"])
+
+
+@pytest.fixture
+def tftool(outside, capsys, monkeypatch):
     """The command: its words in, status, stdout and stderr out."""
     monkeypatch.setenv("COLUMNS", "100")
     monkeypatch.delenv("NO_COLOR", raising=False)
 
     def run(*words):
-        status = main([str(word) for word in words])
+        status = main([str(word) for word in words], outside["providers"])
         captured = capsys.readouterr()
         return Result(status, captured.out, captured.err)
 
     return run
-
-
-@pytest.fixture
-def simulated(monkeypatch):
-    """Hosted worlds live on simulated time, from the end of their head start on, unshared."""
-
-    class Simulated(SimClock):
-        def __init__(self, rate=1.0, *, head_start=0):
-            super().__init__()
-
-    monkeypatch.setattr("tftool.cli.session.WallClock", Simulated)
-    monkeypatch.setattr("tftool.cli.session._open_link", lambda chosen: (None, ""))

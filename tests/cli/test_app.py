@@ -12,6 +12,7 @@ import pytest
 
 import tftool as package
 from tftool.cli import app
+from tftool.cli.help import GROUPS
 from tftool.errors import (
     InputError,
     LookupException,
@@ -19,7 +20,7 @@ from tftool.errors import (
     TftoolError,
     UsageError,
 )
-from tftool.frames import chains
+from tftool.frames import path
 
 ROOT = Path(__file__).parents[2]
 COMMANDS = app.COMMANDS
@@ -49,12 +50,56 @@ def test_without_a_word_it_shows_its_help(tftool):
     assert "Start with 'tftool demo'" in result.out
 
 
+def test_help_is_a_command_too(tftool):
+    assert tftool("help").out == tftool("--help").out
+    assert tftool("help", "tree").out == tftool("tree", "--help").out
+    assert "Did you mean 'echo'?" in tftool("help", "ech").err
+
+
+def test_every_command_is_listed_under_what_one_wants():
+    listed = [name for names in GROUPS.values() for name in names]
+
+    assert len(listed) == len(set(listed))
+    assert set(COMMANDS) <= set(listed)
+
+
+def test_the_options_of_sessions_are_shown_when_asked(tftool):
+    brief, full = tftool("echo", "--help").out, tftool("echo", "--help-session").out
+
+    assert "--connect" not in brief
+    assert "--help-session" in brief
+    assert "Session and network:\n  --join " in full
+    assert "--help-session" not in tftool("check", "--help").out
+
+
+def test_the_nearest_option_is_named_first(tftool):
+    assert "Did you mean --format" in tftool("tree", "--formt", "x").err
+
+
+def test_one_option_is_spelt_alike_in_all_commands():
+    from typer.main import get_command
+
+    # A frequency where something is printed or drawn; where time runs, how fast.
+    other = {("demo", "--rate")}
+    spelt = {}
+    for command in get_command(app.build(COMMANDS)).commands.values():
+        for param in command.params:
+            for name in param.opts:
+                if name.startswith("--") and (command.name, name) not in other:
+                    alike = (tuple(sorted(param.opts)), param.metavar, getattr(param, "is_flag", 0))
+                    spelt.setdefault(name, {}).setdefault(alike, []).append(command.name)
+
+    assert {name: ways for name, ways in spelt.items() if len(ways) > 1} == {}
+
+
 def test_the_list_of_commands_cuts_no_sentence_short(tftool, monkeypatch):
     monkeypatch.setenv("COLUMNS", "80")
 
-    listed = tftool("--help").out.partition("Commands:\n")[2]
+    listed = tftool("--help").out.partition("Learn:\n")[2]
 
-    assert all(line.endswith(".") and "..." not in line for line in listed.splitlines())
+    lines = [line for line in listed.splitlines() if line.startswith("  ")]
+    assert len(lines) == len(COMMANDS)
+    assert all(line.endswith(".") and "..." not in line for line in lines)
 
 
 @pytest.mark.parametrize("command", COMMANDS)
@@ -67,7 +112,7 @@ def test_the_list_says_of_a_command_what_its_own_help_begins_with(tftool, comman
 
 
 def test_the_version_says_which_build_runs(tftool):
-    build = "interpreted" if inspect.isfunction(chains.chained) else "compiled"
+    build = "interpreted" if inspect.isfunction(path.chain) else "compiled"
 
     assert tftool("--version").out == f"tftool {package.__version__} ({build})\n"
 
@@ -116,6 +161,7 @@ def test_wrong_usage_is_one_sentence_that_says_where_help_is(tftool, words, sent
         (LookupException('"\x1b[2J" is not here. '), 4),
         (NodeFailed("follower", ValueError("no")), 1),
         (TftoolError("something else."), 1),
+        (TimeoutError("The arm did not answer"), 1),
     ],
 )
 def test_every_error_has_its_exit_status_and_nothing_in_it_acts_on_the_terminal(
@@ -129,7 +175,21 @@ def test_every_error_has_its_exit_status_and_nothing_in_it_acts_on_the_terminal(
     result = tftool("static")
 
     assert result.status == status
-    assert result.err == f"tftool: {str(error).rstrip()}\n".replace("\x1b", "␛")
+    assert result.err.rstrip("\n") == f"tftool: {str(error).rstrip()}".replace("\x1b", "␛") + (
+        "." if isinstance(error, TimeoutError) else ""
+    )
+
+
+def test_an_interrupted_run_says_what_failed_on_its_way_out(tftool, monkeypatch):
+    def fail(*_):
+        raise KeyboardInterrupt from NodeFailed("arm", OSError("disk full"))
+
+    monkeypatch.setattr("tftool.nodes.static_arguments.parse", fail)
+
+    result = tftool("static")
+
+    assert result.status == 130
+    assert result.err == "tftool: node 'arm' failed: OSError: disk full\n"
 
 
 @pytest.mark.parametrize("command", COMMANDS)

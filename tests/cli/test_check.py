@@ -70,7 +70,7 @@ def test_what_cannot_be_read_ends_with_3_and_the_rest_is_judged(tftool, scenario
         "wrong.yaml:2:9: there is no node 'turtlsim'; did you mean 'turtlesim'?\n"
         "     2 | nodes: [turtlsim]\n"
         "       |         ^^^^^^^^\n"
-        "tftool: cannot read 'gone.yaml': No such file or directory\n"
+        "tftool: There is no file or folder 'gone.yaml'.\n"
     )
     assert "good   ok      1 of 1 expectation held\n" in result.out
     assert result.out.endswith("\n3 scenarios, 2 failed (wrong, gone): 1 of 1 expectation held\n")

@@ -138,7 +138,7 @@ def test_a_launched_node_that_dies_is_named_by_its_label(tftool, tmp_path, monke
 
 def test_a_launched_command_that_does_not_end_is_killed_and_named(tftool, tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
-    monkeypatch.setattr("tftool.ros.launching.commands.LONGEST_RUN", 0.5)
+    monkeypatch.setattr("tftool.ros.launch.commands.LONGEST_RUN", 0.5)
     Path("a.launch.yaml").write_text("launch:\n- executable: {cmd: sleep 1000}\n")
 
     result = tftool("check", "two_trees", "--launch", "a.launch.yaml")

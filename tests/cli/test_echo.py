@@ -3,7 +3,7 @@ import json
 import pytest
 
 from tests.cli.test_app import start
-from tftool.cli.session import HOME
+from tftool.cli.hosting import HOME
 
 HOSTING = f"No session is running here: hosting scenario '{HOME}'.\n"
 

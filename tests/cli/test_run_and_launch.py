@@ -203,7 +203,7 @@ def test_what_goes_wrong_in_a_node_is_told_with_its_own_line(tmp_path, capsys, c
 
 
 def test_an_endless_loop_is_named_by_node_and_line(tmp_path, capsys, monkeypatch):
-    from tftool.ros import fibers
+    from tftool.ros.host import fibers
 
     monkeypatch.setattr(fibers, "PATIENCE", 0.05)
     monkeypatch.setattr(fibers, "GIVE_UP", 0.1)
@@ -396,3 +396,12 @@ def test_who_seems_to_mean_tftool_by_a_word_for_the_node_is_told(tmp_path, capsy
     assert told in said
     assert ("to the node" in said) is bool(told)
     assert f"[mine]: {words}" in said
+
+
+def test_ros2s_words_ask_the_session_and_are_refused_with_a_sentence(capsys):
+    assert main(["ros2", "interface", "show", "std_srvs/srv/Trigger"]) == 0
+    assert capsys.readouterr().out.splitlines()[0] == "---"
+    assert main(["ros2", "topik", "list"]) == 2
+    assert "invalid choice: 'topik'" in capsys.readouterr().err
+    assert main(["ros2", "run", "turtlesim", "turtlesim_node"]) == 2
+    assert "'ros2 run' is 'tftool run' here" in capsys.readouterr().err

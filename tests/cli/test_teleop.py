@@ -3,7 +3,7 @@ from functools import partial
 import pytest
 
 from tftool.cli import onscreen
-from tftool.cli.pressing import _press_there
+from tftool.cli.scripted_keys import _press_there
 from tftool.errors import UsageError
 from tftool.messages import Pose2D
 from tftool.nodes.teleop import BANNER

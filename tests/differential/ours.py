@@ -24,7 +24,7 @@ from tftool.errors import (
 )
 from tftool.frames.buffer import Buffer
 from tftool.frames.sample import TransformStamped
-from tftool.geometry.rigid import Transform
+from tftool.geometry import rigid
 
 AGES_AGO = -(10**18)
 
@@ -42,7 +42,9 @@ def live(world: World) -> list[list[Any]]:
             static = static_children.get(name, static)
             if not static and stamp in stamps.get(name, ()):
                 stamp = AGES_AGO
-            sample = TransformStamped(stamp, parent, child, Transform(numbers[:3], numbers[3:]))
+            sample = TransformStamped(
+                stamp, parent, child, rigid.transform(tuple(numbers[:3]), tuple(numbers[3:]))
+            )
             set_ = buffer.set_transform_static if static else buffer.set_transform
             if set_(sample, "differential"):
                 static_children.setdefault(name, static)

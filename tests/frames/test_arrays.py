@@ -9,7 +9,7 @@ from hypothesis import strategies as st
 
 from tests.strategies import transforms
 from tftool.errors import UsageError
-from tftool.frames.arrays import TransformArray
+from tftool.frames.batch.arrays import TransformArray
 from tftool.frames.buffer import Buffer
 from tftool.frames.sample import TransformStamped
 from tftool.geometry import rigid
@@ -211,3 +211,14 @@ def test_without_scipy_the_remedy_is_told(monkeypatch):
 
     with pytest.raises(UsageError, match=r"pip install 'scipy>=1.16'"):
         many([Transform()]).to_scipy()
+
+
+def test_a_rotation_of_all_zeros_makes_no_valid_row():
+    nothing = rigid.transform((1.0, 2.0, 3.0), (0.0, 0.0, 0.0, 0.0))
+    path, other = many([Transform()] * 3), many([Transform()] * 3, "b", "c")
+    other.rotations[1] = 0.0
+
+    for chained, valid in ((path @ nothing, [False] * 3), (path @ other, [True, False, True])):
+        assert chained.valid.tolist() == valid
+        assert np.isnan(chained.translations[~chained.valid]).all()
+        assert np.isnan(chained.rotations[~chained.valid]).all()

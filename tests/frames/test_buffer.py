@@ -13,9 +13,8 @@ from tftool.errors import (
     NoDataForExtrapolationException,
     TransformException,
 )
-from tftool.frames.buffer import Buffer
+from tftool.frames.buffer import MAX_FRAMES, Buffer
 from tftool.frames.sample import TransformStamped
-from tftool.frames.store import MAX_FRAMES
 from tftool.geometry.rigid import Transform
 from tftool.stamps import seconds
 
@@ -310,16 +309,17 @@ def test_a_callback_that_fails_keeps_nobody_else_from_being_told(buffer, said):
         heard.append("failing")
         raise RuntimeError(f"mistake {len(heard)}")
 
-    buffer.listen(failing)
+    buffer.listen(failing, "drawer")
     buffer.listen(lambda *told: heard.append("listener"))
     buffer.request(failing, "world", "turtle1", seconds(1))
     buffer.request(lambda *told: heard.append("waiter"), "world", "turtle1", seconds(1))
 
-    with pytest.raises(RuntimeError, match="mistake 1"):
-        put(buffer, 1)
+    put(buffer, 1)
 
     assert heard == ["failing", "listener", "failing", "waiter"]
-    assert said == [("ERROR", "callbacks failed, 1 more, first RuntimeError: mistake 3")]
+    assert [level for level, _ in said] == ["ERROR", "ERROR"]
+    assert "a listener of 'drawer' failed: RuntimeError: mistake 1 (test_buffer.py:" in said[0][1]
+    assert "a listener failed: RuntimeError: mistake 3 (test_buffer.py:" in said[1][1]
     assert buffer.can_transform("world", "turtle1")
 
 
@@ -353,6 +353,21 @@ def test_a_cache_time_that_looks_like_seconds_is_warned_of_with_the_remedy(said)
     assert [level for level, _ in said] == ["WARN"]
     assert "a cache_time of 10 ns forgets nearly everything at once" in said[0][1]
     assert "seconds(10) makes one of 10 s" in said[0][1]
+
+
+def test_one_callback_registered_twice_is_called_until_both_are_stopped(buffer):
+    heard = []
+
+    def hear(*_):
+        heard.append("sample")
+
+    stop = buffer.listen(hear)
+    buffer.listen(hear)
+    stop()
+    stop()
+    put(buffer, 1)
+
+    assert heard == ["sample"]
 
 
 def test_a_listener_may_stop_itself_and_others(buffer):
@@ -406,7 +421,7 @@ def test_a_run_of_statics_counts_as_one_link(buffer):
 
 
 def test_more_pairs_may_be_asked_for_than_are_remembered(buffer, monkeypatch):
-    monkeypatch.setattr("tftool.frames.lookups.MOST_PLANS", 3)
+    monkeypatch.setattr("tftool.frames.solver.MOST_PATHS", 3)
     for n in range(6):
         put(buffer, 1, child=f"t{n}", x=float(n))
 

@@ -15,7 +15,7 @@ from tftool.errors import (
     LookupException,
     TransformException,
 )
-from tftool.frames import bulk, kernel
+from tftool.frames.batch import kernel, lookup
 from tftool.frames.buffer import Buffer
 from tftool.frames.sample import TransformStamped
 from tftool.geometry import quaternions
@@ -178,7 +178,7 @@ def test_turns_of_any_size_between_two_samples_agree(turn, samples):
 def test_a_long_batch_is_split_and_comes_out_in_order(monkeypatch, most):
     # Where histories are longer than that, moments are sorted first, a section at a time.
     monkeypatch.setattr(kernel, "MOST_INTERVALS", most)
-    monkeypatch.setattr(bulk, "SECTION", 1 << 16)
+    monkeypatch.setattr(lookup, "SECTION", 1 << 16)
     buffer, first, last = chain(2, 300)
     times = np.random.default_rng(3).integers(first, last, 200_001)
 

@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 from tests.frames.test_bulk import assert_same, one_by_one
-from tftool.frames import bulk, kernel
+from tftool.frames.batch import kernel, lookup
 from tftool.frames.buffer import Buffer
 from tftool.frames.sample import TransformStamped
 from tftool.geometry.rigid import Transform
@@ -179,7 +179,7 @@ def test_as_many_threads_run_as_there_are_cores_we_may_use(monkeypatch, allowed,
             super().__init__(workers)
 
     monkeypatch.setattr(os, "sched_getaffinity", lambda _: allowed, raising=False)
-    monkeypatch.setattr(bulk, "ThreadPoolExecutor", Pool)
+    monkeypatch.setattr(lookup, "ThreadPoolExecutor", Pool)
     found = buffer.lookup_transforms("world", "turtle1", np.arange(200_000) % 1000 + 1)
 
     assert found.valid.all()

@@ -10,6 +10,7 @@ from hypothesis import strategies as st
 from tests.strategies import transforms
 from tftool.frames.buffer import Buffer
 from tftool.frames.sample import TransformStamped
+from tftool.geometry import rigid
 from tftool.geometry.rigid import Transform
 from tftool.stamps import seconds
 
@@ -17,7 +18,7 @@ odd = st.sampled_from(
     [
         Transform((math.nan, 0.0, 0.0)),
         Transform((math.inf, 0.0, 0.0)),
-        Transform(rotation=(0.0, 0.0, 0.0, 0.0)),
+        rigid.transform((0.0, 0.0, 0.0), (0.0, 0.0, 0.0, 0.0)),
         Transform(rotation=(0.0, 0.0, math.nan, 1.0)),
         Transform(rotation=(0.0, 0.0, 3e200, 4e200)),
         Transform(rotation=(0.0, 0.0, 0.6, -0.8)),
@@ -54,12 +55,14 @@ def together(buffer, parent, child, rows, authority="me"):
 
 
 def remembered(buffer, child):
-    number = buffer._forest.numbers.get(child)
-    link = None if number is None else buffer._forest.frames[number].link
-    if link is None:
+    if not buffer.frame_exists(child):
         return None
-    authority = buffer.snapshot(0).frame(child).authority
-    return link.items(), link.parent, link.oldest_stamp, link.newest_stamp, authority
+    held = buffer.samples(child)
+    info = buffer.snapshot(0).frame(child)
+    columns = [
+        column.tolist() for column in (held.stamps, held.parents, held.poses, held.authorities)
+    ]
+    return columns, info.parent, info.oldest, info.newest, info.authority
 
 
 @given(groups, st.integers(0, 12))
@@ -260,3 +263,30 @@ def test_strided_and_read_only_arrays_are_taken():
 
     assert buffer.set_transforms("world", "turtle1", stamps, translations, rotations)
     assert buffer.snapshot(0).frame("turtle1").samples == 3
+
+
+def records_of(rows):
+    records = np.empty((len(rows), 8), dtype=np.int64)
+    numbers = records.view(np.float64)
+    for record, number, (stamp, pose) in zip(records, numbers, rows, strict=True):
+        record[0] = stamp
+        number[1:] = (*pose.translation, *pose.rotation)
+    return records
+
+
+@given(groups)
+@settings(max_examples=200)
+def test_records_leave_what_columns_leave(drawn):
+    columns, borrowed = (
+        Buffer(seconds(1000), log=lambda level, text: None, max_frames=100) for _ in range(2)
+    )
+    newest = 0
+    for number, (parent, rows, how) in enumerate(drawn):
+        rows = arranged(rows, how, newest)
+        newest = max([newest, *(stamp for stamp, _ in rows)])
+        child = f"child{number % 2}"
+        report = together(columns, parent, child, rows)
+        same = borrowed.set_records(parent, child, records_of(rows), "me")
+        assert report if same is None else report.accepted.tolist() == same.accepted.tolist()
+        assert remembered(borrowed, child) == remembered(columns, child)
+    assert sorted(borrowed.frames()) == sorted(columns.frames())

@@ -1,9 +1,9 @@
 import pytest
 
 from tftool.frames.buffer import NEVER, Buffer
-from tftool.frames.lookups import Lookups
 from tftool.frames.requests import AVAILABLE, EXPIRED, NOW, PENDING, Requests
 from tftool.frames.sample import TransformStamped
+from tftool.frames.solver import Solver
 from tftool.geometry.rigid import Transform
 from tftool.stamps import seconds
 
@@ -42,14 +42,14 @@ def test_requests_fire_in_the_order_they_were_made(buffer, told):
 
 
 def test_a_new_child_wakes_nobody_who_waits_for_its_sisters(told, monkeypatch):
-    examine = Lookups.examine
+    examine = Solver.examine
     asked = []
 
-    def counted(lookups, question, first):
-        asked.append(question)
-        return examine(lookups, question, first)
+    def counted(solver, lookup, first):
+        asked.append(lookup)
+        return examine(solver, lookup, first)
 
-    monkeypatch.setattr(Lookups, "examine", counted)
+    monkeypatch.setattr(Solver, "examine", counted)
     buffer = Buffer()
     put(buffer, "world", "sister", 1)
     asker(buffer, told)("world", "sister", 2)
@@ -77,9 +77,9 @@ def test_a_name_that_comes_up_in_a_refused_sample_is_news_to_who_waits_for_it(bu
 def test_waits_on_other_frames_are_not_asked_again():
     asked = []
 
-    def examine(question, first):
-        asked.append(question)
-        return PENDING, (question[1],)
+    def examine(lookup, first):
+        asked.append(lookup)
+        return PENDING, (lookup[1],)
 
     requests = Requests(examine)
     for number in range(10_000):

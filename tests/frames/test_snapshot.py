@@ -1,9 +1,6 @@
-import json
-
 import pytest
 import yaml
 
-from tftool.frames import export
 from tftool.frames.buffer import Buffer
 from tftool.frames.sample import TransformStamped
 from tftool.geometry.rigid import IDENTITY, Transform
@@ -114,19 +111,6 @@ def test_a_child_shows_the_parent_it_had_at_the_moment(buffer):
     assert buffer.snapshot(0, seconds(2.5)).frame("base").parent == "odom"
     assert buffer.snapshot(0, seconds(3)).frame("base").parent == "map"
     assert buffer.snapshot(0).frame("base").parent == "map"
-
-
-def test_rows_are_ready_for_json(buffer):
-    rows = export.as_rows(buffer.snapshot(now=seconds(10), at=seconds(7)))
-
-    said = {row["frame"]: row for row in json.loads(json.dumps(rows))}
-    assert said["thing"]["transform"] == {
-        "translation": [1.0, 0.0, 0.0],
-        "rotation": [0.0, 0.0, 0.0, 1.0],
-    }
-    assert said["odom"]["transform"] is None
-    assert said["laser"]["static"] is True
-    assert said["odom"]["newest"] == seconds(3)
 
 
 def test_yaml_can_be_read_again(buffer):

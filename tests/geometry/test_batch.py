@@ -7,7 +7,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from tests.strategies import fractions, rotations, vectors
+from tests.strategies import rotations, vectors
 from tftool.geometry import batch, quaternions
 
 several = st.lists(rotations, min_size=1, max_size=5)
@@ -46,19 +46,6 @@ def test_products_and_turns_are_the_single_ones(given_rows, other, vector):
         assert tuple(batch.conjugate(rows)[row]) == quaternions.conjugate(quad)
 
 
-@given(several, rotations, fractions)
-def test_slerp_is_the_single_one(given_rows, end, fraction):
-    rows = np.array(given_rows)
-
-    found = batch.slerp(rows, np.array(end), np.full(len(rows), fraction))
-
-    for row, quad in enumerate(given_rows):
-        wanted = quaternions.slerp(quad, tuple(end), fraction)
-        # Where both ways are equally short, the last bit decides which is taken.
-        if abs(np.dot(quad, end)) > 1e-9:
-            assert tuple(found[row]) == pytest.approx(wanted, abs=1e-7)
-
-
 @given(several)
 def test_rotation_vectors_turn_as_far_and_about_the_same_axis(given_rows):
     rows = np.array(given_rows)
@@ -73,3 +60,14 @@ def test_rotation_vectors_turn_as_far_and_about_the_same_axis(given_rows):
         half = math.sin(angle / 2.0)
         again = (*(vector / angle * half if angle > 0.0 else vector), math.cos(angle / 2.0))
         assert quaternions.angle_between(tuple(again), quad) < 1e-7
+
+
+@given(several, rotations)
+def test_angles_between_are_the_single_ones(given_rows, other):
+    rows = batch.unit(np.array(given_rows))
+    one = quaternions.unit(tuple(other))
+
+    found = batch.angles_between(rows, np.array(one))
+
+    wanted = [quaternions.angle_between(tuple(row), one) for row in rows.tolist()]
+    np.testing.assert_allclose(found, wanted, rtol=1e-12, atol=1e-12)

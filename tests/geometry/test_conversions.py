@@ -3,6 +3,7 @@ import math
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
+from scipy.spatial.transform import Rotation
 
 from tests.strategies import angles, rotations
 from tftool.geometry import conversions, quaternions
@@ -115,8 +116,28 @@ def test_transforms3d_agrees_about_roll_pitch_yaw(roll, pitch, yaw):
     assert [math.remainder(a - b, math.tau) for a, b in apart] == pytest.approx([0, 0, 0], abs=1e-6)
 
 
-def test_an_order_of_axes_that_is_none_is_refused():
-    with pytest.raises(ValueError, match="'xyz' names no order of axes"):
-        conversions.quaternion_from_euler((0, 0, 0), "xyz")
-    with pytest.raises(ValueError, match="'wxyz' names no order of axes"):
-        conversions.euler_from_quaternion((0, 0, 0, 1), "wxyz")
+@given(angles, pitches, angles, st.sampled_from(conversions.AXES))
+def test_every_order_of_axes_means_three_turns_one_after_the_other(first, second, third, axes):
+    turned = conversions.quaternion_from_euler((first, second, third), axes)
+
+    by_scipy = Rotation.from_euler(
+        axes[1:] if axes[0] == "s" else axes[1:].upper(), [first, second, third]
+    )
+    assert quaternions.angle_between(turned, tuple(by_scipy.as_quat())) < 1e-7
+    for found in (
+        conversions.euler_from_quaternion(turned, axes),
+        conversions.euler_from_matrix(conversions.matrix_from_quaternion(turned), axes),
+    ):
+        again = conversions.quaternion_from_euler(found, axes)
+        assert quaternions.angle_between(again, turned) < NEAR_A_POLE
+
+
+def test_there_are_24_orders_of_axes_and_what_is_none_is_refused():
+    assert len(set(conversions.AXES)) == 24
+    for axes in ("xyz", "sxxz", "qxyz", "", None):
+        with pytest.raises(ValueError, match="names no order of axes: that is 's'"):
+            conversions.quaternion_from_euler((0, 0, 0), axes)
+        with pytest.raises(ValueError, match="names no order of axes"):
+            conversions.euler_from_quaternion((0, 0, 0, 1), axes)
+        with pytest.raises(ValueError, match="such as 'sxyz'"):
+            conversions.euler_from_matrix(((1, 0, 0), (0, 1, 0), (0, 0, 1)), axes)

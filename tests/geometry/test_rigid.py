@@ -4,10 +4,12 @@ import pickle
 import subprocess
 import sys
 
+import numpy as np
 import pytest
 from hypothesis import given
 
-from tests.strategies import fractions, transforms, vectors
+from tests.strategies import transforms, vectors
+from tftool.frames.sample import TransformStamped
 from tftool.geometry import quaternions, rigid
 from tftool.geometry.rigid import IDENTITY, Quaternion, Transform, Vector3
 
@@ -55,21 +57,6 @@ def test_rotate_is_apply_without_the_translation(a_from_b, vector):
     assert a_from_b.rotate(vector) == pytest.approx(moved, abs=1e-9)
 
 
-@given(transforms, transforms, fractions)
-def test_interpolation_meets_both_ends(start, end, fraction):
-    assert same(rigid.interpolate(start, end, 0.0), start, 1e-7)
-    assert same(rigid.interpolate(start, end, 1.0), end, 1e-7)
-    way = rigid.interpolate(start, end, fraction)
-    expected = math.dist(start.translation, end.translation) * fraction
-    assert math.dist(start.translation, way.translation) == pytest.approx(expected, abs=1e-9)
-
-
-@pytest.mark.parametrize("fraction", [-0.1, 1.1, math.nan, math.inf])
-def test_extrapolation_is_refused(fraction):
-    with pytest.raises(ValueError, match=r"must lie in \[0, 1\]"):
-        rigid.interpolate(IDENTITY, IDENTITY, fraction)
-
-
 def test_a_transform_is_a_value():
     one = Transform((1, 2, 3), [0, 0, 0, 1])
 
@@ -92,6 +79,7 @@ def test_a_transform_is_a_value():
         ((1, 2, 3), (0, 0, 1), "a rotation is 4 numbers, not 3"),
         (("x", 2, 3), (0, 0, 0, 1), "a translation is 3 numbers, not"),
         (None, (0, 0, 0, 1), "a translation is 3 numbers, not None"),
+        ((1, 2, 3), (0, 0, 0, 0), r"no turn at all is \(0, 0, 0, 1\)"),
     ],
 )
 def test_what_is_no_transform_is_refused_with_a_sentence(translation, rotation, told):
@@ -109,7 +97,7 @@ def test_the_quaternion_is_kept_but_its_length_does_not_matter():
 
 
 def test_a_zero_quaternion_makes_results_nan_and_nothing_worse():
-    nothing = Transform((1, 0, 0), (0, 0, 0, 0))
+    nothing = rigid.transform((1.0, 0.0, 0.0), (0.0, 0.0, 0.0, 0.0))
 
     assert math.isnan(nothing.apply((1, 2, 3)).x)
     assert math.isnan(nothing.matrix()[0][0])
@@ -127,8 +115,53 @@ def test_distance_is_between_the_origins():
     assert rigid.distance(Transform((3, 4, 12))) == 13.0
 
 
-def test_slerp_takes_the_shorter_arc():
-    assert rigid.slerp((0, 0, 0, 1), (0, 0, 0, -1), 0.5) == (0, 0, 0, 1)
+def test_vectors_add_subtract_and_scale():
+    a, b = Vector3(1.0, 2.0, 3.0), Vector3(0.5, 0.0, -1.0)
+
+    assert a + b == Vector3(1.5, 2.0, 2.0)
+    assert a - b == Vector3(0.5, 2.0, 4.0)
+    assert 2 * a == a * 2.0 == Vector3(2.0, 4.0, 6.0)
+    assert a / 2.0 == Vector3(0.5, 1.0, 1.5)
+    assert -a == Vector3(-1.0, -2.0, -3.0)
+    assert a.cross(b) == Vector3(-2.0, 2.5, -1.0)
+    ones = (1, 1, 1)
+    assert a + ones == ones + a == Vector3(2.0, 3.0, 4.0)
+    assert ones - a == Vector3(0.0, -1.0, -2.0)
+    assert sum([a, b], Vector3(0.0, 0.0, 0.0)) == a + b
+    assert isinstance(a + b, Vector3)
+    assert (np.array([1.0, 0.0, 0.0]) + a).tolist() == [2.0, 2.0, 3.0]
+    assert (a + np.array([1.0, 0.0, 0.0])).tolist() == [2.0, 2.0, 3.0]
+    assert (a * np.array([1.0, 0.0, 2.0])).tolist() == [1.0, 0.0, 6.0]
+
+
+@pytest.mark.parametrize("other", [(1, 2), "abc", [1, 2, 3], None, Quaternion(0, 0, 0, 1)])
+def test_a_vector_adds_to_nothing_but_vectors(other):
+    with pytest.raises(TypeError):
+        Vector3(1.0, 2.0, 3.0) + other
+    with pytest.raises(TypeError):
+        other - Vector3(1.0, 2.0, 3.0)
+    with pytest.raises(TypeError):
+        Vector3(1.0, 2.0, 3.0) * other
+
+
+@pytest.mark.parametrize(
+    "value",
+    [
+        Quaternion(0.0, 0.0, 0.0, 1.0),
+        Transform(),
+        TransformStamped(1, "a", "b", Transform()),
+    ],
+)
+def test_other_values_are_neither_put_together_nor_repeated(value):
+    name, plain = type(value).__name__, (1, 2)
+    for compute in (
+        lambda: value + value,
+        lambda: value * 2,
+        lambda: 2 * value,
+        lambda: plain + value,
+    ):
+        with pytest.raises(TypeError, match=f"a {name} is no list"):
+            compute()
 
 
 @pytest.mark.parametrize("module", ["geometry.rigid", "geometry.conversions", "frames.buffer"])

@@ -2,7 +2,7 @@
 
 import pytest
 
-from tests.link import definitions
+from tests.wire import definitions
 from tftool.errors import InputError
 from tftool.interfaces.classes import INTERFACES, Interfaces
 from tftool.interfaces.hashes import type_hash

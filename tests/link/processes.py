@@ -13,7 +13,7 @@ from pathlib import Path
 from tftool.cli.app import main
 
 ROOT = Path(__file__).parents[2]
-TRIES, PAUSE = 800, 0.025
+PATIENCE = 20  # seconds
 
 
 class Process:
@@ -21,6 +21,8 @@ class Process:
 
     def __init__(self, *words, prefix=(), cwd=ROOT):
         self.lines = []
+        self._heard = threading.Condition()
+        self._silent = False  # it has closed its output
         self.started = subprocess.Popen(
             [*prefix, sys.executable, "-u", "-m", "tftool", *map(str, words)],
             stdin=subprocess.DEVNULL,
@@ -35,7 +37,12 @@ class Process:
 
     def _read(self):
         for line in self.started.stdout:
-            self.lines.append(line.rstrip("\n"))
+            with self._heard:
+                self.lines.append(line.rstrip("\n"))
+                self._heard.notify_all()
+        with self._heard:
+            self._silent = True
+            self._heard.notify_all()
 
     @property
     def pid(self):
@@ -45,19 +52,24 @@ class Process:
     def text(self):
         return "\n".join(self.lines)
 
-    def says(self, words, *, after=0, tries=TRIES):
+    def says(self, words, *, after=0):
         """Wait until a line with `words` comes; give the number of lines up to it."""
-        for _ in range(tries):
-            for number, line in enumerate(self.lines[after:], after):
-                if words in line:
-                    return number + 1
-            if self.started.poll() is not None:
-                self._reader.join(5)
-                if not any(words in line for line in self.lines[after:]):
-                    break
-            threading.Event().wait(PAUSE)
+
+        def found():
+            lines = enumerate(self.lines[after:], after + 1)
+            return next((number for number, line in lines if words in line), None)
+
+        return self.until(found, repr(words))
+
+    def until(self, condition, what):
+        """Look at every line that comes until `condition()` holds; return what it gave."""
+        with self._heard:
+            self._heard.wait_for(lambda: condition() or self._silent, PATIENCE)
+            met = condition()
+        if met:
+            return met
         raise AssertionError(
-            f"{self.started.args[3:]} never said {words!r} (status {self.started.poll()}); "
+            f"{self.started.args[3:]} never said {what} (status {self.started.poll()}); "
             f"it said:\n{self.text}"
         )
 

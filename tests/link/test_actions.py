@@ -8,13 +8,13 @@ from tests.link.conftest import new_world, until
 from tftool.interfaces.classes import INTERFACES
 from tftool.link import actions
 from tftool.link.actions import ActionServer
-from tftool.link.codec import codec
 from tftool.link.graph import Role
-from tftool.link.membership import Options
+from tftool.link.options import Options
 from tftool.link.session import Link
 from tftool.link.types import action_type
 from tftool.messages import RotateAbsolute, Rotated
 from tftool.runtime.clock import WallClock, run
+from tftool.wire.codec import codec
 
 ROTATE = "turtlesim/action/RotateAbsolute"
 CANCEL = "action_msgs/srv/CancelGoal"

@@ -1,59 +1,52 @@
-"""Who is there, from tokens alone."""
+"""Who is there, from what is shown alone."""
 
-from tftool.link import graph, keys
-from tftool.link.graph import Graph, Process, Role, parse_process
-from tftool.link.keys import Entity
-from tftool.link.membership import Membership, Options
+from tftool.link import graph
+from tftool.link.context import LinkContext
+from tftool.link.graph import Graph, GraphEntity, Process, Role
+from tftool.link.options import Options
 
 
 def talker(session="ab", number=1, name="tf"):
-    return Entity(0, session, number, number, "MP", f"node{number}", name, "t/msg/T", "h", "q")
+    gid = f"{session}{number}{name}".encode()
+    return GraphEntity("publisher", 0, session, f"node{number}", name, "t/msg/T", gid=gid)
 
 
-def test_a_process_comes_back_from_its_token_and_names_are_made_plain():
-    process = Process(3, "ab12", 1_700_000_000_000_000_000, 42, Role.HOST, "demo")
-
-    assert parse_process(process.token()) == process
-    assert parse_process(process.token().replace("/host/", "/ghost/")) is None
-    assert parse_process("@tftool/3/ab12") is None
-    odd = Process(0, "ab", 1, 2, Role.SOURCE, "de mo/../x")
-    assert parse_process(odd.token()).command == "de_mo____x"
+def enter(there, *found):
+    for one in found:
+        there.add(str(one), one)
 
 
-def test_ones_own_tokens_and_what_is_no_token_are_passed_over():
+def test_ones_own_entries_are_passed_over():
     there = Graph("me", 0)
 
-    assert there.add(talker("me").token()) is None
-    assert there.add("@ros2_lv/nonsense") is None
+    assert there.add("key", talker("me")) is None
     assert there.is_empty
-    assert there.remove("@ros2_lv/nonsense") is None
+    assert there.remove("key") is None
 
 
-def test_a_token_counts_once_and_goes_when_it_is_withdrawn():
+def test_an_entry_counts_once_and_goes_when_it_is_withdrawn():
     there = Graph("me", 0)
-    token = talker().token()
 
-    assert there.add(token) == talker()
-    assert there.add(token) is None
-    assert there.entities("MP", name="tf") == [talker()]
-    assert there.entities("MS") == []
-    assert there.remove(token) == talker()
+    assert there.add("key", talker()) == talker()
+    assert there.add("key", talker()) is None
+    assert there.entities("publisher", name="tf") == [talker()]
+    assert there.entities("subscription") == []
+    assert there.remove("key") == talker()
     assert there.is_empty
 
 
 def test_other_domains_are_heard_of_and_kept_out():
     there = Graph("me", 0)
-    there.add(Entity(5, "ab", 0, 0, "NN", "far").token())
+    enter(there, GraphEntity("node", 5, "ab", "far"))
 
     assert there.foreign_domains == {5}
     assert there.is_empty
 
 
-def test_a_flood_of_tokens_is_kept_within_bounds(monkeypatch):
+def test_a_flood_of_entries_is_kept_within_bounds(monkeypatch):
     monkeypatch.setattr(graph, "MOST", 10)
     there = Graph("me", 0)
-    for number in range(100):
-        there.add(talker(number=number).token())
+    enter(there, *(talker(number=number) for number in range(100)))
 
     assert len(there.entities()) == 10
 
@@ -61,29 +54,35 @@ def test_a_flood_of_tokens_is_kept_within_bounds(monkeypatch):
 def test_so_many_other_domains_are_remembered_and_no_more(monkeypatch):
     monkeypatch.setattr(graph, "MOST_DOMAINS", 3)
     there = Graph("me", 0)
-    for number in range(1, 10):
-        there.add(Entity(number, "ab", 0, 0, "NN", "far").token())
+    enter(there, *(GraphEntity("node", number, "ab", "far") for number in range(1, 10)))
 
     assert there.foreign_domains == {1, 2, 3}
 
 
+class Nothing:
+    """A middleware that carries nothing."""
+
+    def __init__(self, graph, unanswering=()):
+        self.graph = graph
+        self.unanswering = unanswering
+
+
 def test_a_message_that_names_no_sender_is_the_only_ones_that_publishes_there():
     there = Graph("me", 0)
-    for number, topic in enumerate(("tf", "tf_static")):
-        there.add(talker(number=number, name=topic).token())
-    membership = Membership(Options(), None, there)
-    nobody = bytes(16)
+    enter(there, *(talker(number=n, name=topic) for n, topic in enumerate(("tf", "tf_static"))))
+    context = LinkContext(Options(), Nothing(there))
 
-    assert membership.authority(nobody, "tf") == "node0"
-    assert membership.authority(nobody, "tf_static") == "node1"
+    assert context.authority(b"", "tf") == "node0"
+    assert context.authority(b"", "tf_static") == "node1"
+    assert context.authority(b"", "other") == "publisher_unknown"
+    assert context.authority(b"\x01\x02\x03\x04\x05", "other") == "publisher_01020304"
 
 
 def test_processes_stand_in_the_order_in_which_they_joined():
     there = Graph("me", 0)
     late = Process(0, "aa", 20, 1, Role.GUEST, "echo")
     early = Process(0, "bb", 10, 2, Role.HOST, "demo")
-    for one in (late, early):
-        there.add(one.token())
+    enter(there, late, early)
 
     assert there.processes() == [early, late]
     assert there.process("bb") == early
@@ -94,11 +93,21 @@ def test_processes_stand_in_the_order_in_which_they_joined():
 def test_a_publisher_is_known_by_its_gid_or_by_being_the_only_one_it_can_be():
     there = Graph("me", 0)
     ours, ros = talker("aa", 1), talker("bb", 2)
-    there.add(Process(0, "aa", 1, 1, Role.HOST, "demo").token())
-    there.add(ours.token())
-    there.add(ros.token())
+    enter(there, Process(0, "aa", 1, 1, Role.HOST, "demo"), ours, ros)
 
-    assert there.publisher(keys.gid_of(ours.token()), "tf").node == "node1"
+    assert there.publisher(ours.gid, "tf").node == "node1"
     assert there.publisher(bytes(range(16)), "tf").node == "node2"
-    there.add(talker("cc", 3).token())
+    enter(there, talker("cc", 3))
     assert there.publisher(bytes(range(16)), "tf") is None
+
+
+def test_processes_that_do_not_answer_are_named_with_what_to_do():
+    there = Graph("me", 0)
+
+    assert LinkContext(Options(), Nothing(there)).unanswering == ""
+    assert LinkContext(Options(), Nothing(there, (7,))).unanswering == (
+        "Process 7 of this machine does not answer (stopped with Ctrl-Z?): let it go on "
+        "(fg, or kill -CONT 7), or end it (kill -9 7)."
+    )
+    several = LinkContext(Options(), Nothing(there, (7, 8))).unanswering
+    assert several.startswith("Processes 7, 8 of this machine do not answer")

@@ -7,7 +7,7 @@ import pytest
 from tftool.errors import LinkError
 from tftool.link import outbox
 from tftool.link.outbox import Outbox
-from tftool.link.transport import Outlet
+from tftool.link.zenoh.transport import KeyPublisher
 
 
 @pytest.fixture
@@ -64,7 +64,7 @@ def test_a_message_goes_out_by_a_reader_that_takes_nothing_without_waiting_for_i
             self.calls.append("undeclared")
 
     publisher = Publisher()
-    outlet = Outlet(publisher, out, keeps=False)
+    outlet = KeyPublisher(publisher, out, keeps=False)
     outlet.put(b"one", b"1")
     outlet.put(b"two", b"2")
     outlet.close()
@@ -104,6 +104,21 @@ def test_there_is_an_end_to_what_waits(out, monkeypatch, bound, most, size):
     assert sent == list(range(60))
 
 
+def test_a_sender_that_never_returns_holds_up_the_loop_once_and_not_for_ever(out, monkeypatch):
+    monkeypatch.setattr(outbox, "MOST_WAITING", 50)
+    monkeypatch.setattr(outbox, "LONGEST_WAIT", 0.02)
+    stuck, sent = Stuck(), []
+    out.put(stuck)
+    assert stuck.begun.wait(20)
+    for number in range(1000):
+        out.put(lambda number=number: sent.append(number))
+    assert out.dropped > 900
+    stuck.let_go.set()
+    out.close()
+
+    assert sent == list(range(1000 - out.dropped))
+
+
 def test_the_bytes_of_a_message_count_until_it_is_sent(out, monkeypatch):
     monkeypatch.setattr(outbox, "MOST_BYTES", 100)
     stuck = Stuck()
@@ -112,7 +127,7 @@ def test_the_bytes_of_a_message_count_until_it_is_sent(out, monkeypatch):
         def put(self, payload, *, attachment):
             stuck()
 
-    outlet = Outlet(Publisher(), out, keeps=False)
+    outlet = KeyPublisher(Publisher(), out, keeps=False)
     publishing = threading.Thread(target=outlet.put, args=(bytes(101), b""))
     publishing.start()
     assert stuck.begun.wait(20)

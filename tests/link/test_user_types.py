@@ -11,7 +11,7 @@ from tftool.errors import LinkError
 from tftool.interfaces.classes import INTERFACES
 from tftool.link import services
 from tftool.link.graph import Role
-from tftool.link.membership import Options
+from tftool.link.options import Options
 from tftool.link.session import Link
 from tftool.messages import Clear, RotateAbsolute, Twist2D
 from tftool.runtime.endpoints import PUBLISHER, SUBSCRIPTION, Endpoint, Quality
@@ -57,7 +57,7 @@ def test_a_message_of_any_type_arrives_with_who_sent_it():
             heard = []
             publish = publisher(two.here, "odom", ODOMETRY, "base", depth=3, is_reliable=False)
             subscription(two.there, heard, "odom", ODOMETRY, is_reliable=False)
-            await until(lambda: two.host.graph.entities("MS", name="odom"))
+            await until(lambda: two.host.graph.entities("subscription", name="odom"))
             message = ODOMETRY(child_frame_id="base_link")
             message.header.frame_id = "odom"
             message.pose.covariance[7] = 0.5
@@ -68,7 +68,7 @@ def test_a_message_of_any_type_arrives_with_who_sent_it():
             ((found, sender),) = heard
             assert found == message
             assert (sender.node, sender.quality) == ("base", Quality(3, is_reliable=False))
-            (entity,) = two.guest.graph.entities("MP", name="odom")
+            (entity,) = two.guest.graph.entities("publisher", name="odom")
             assert (entity.node, entity.ros_type) == ("base", "nav_msgs/msg/Odometry")
             assert two.guest.refused == two.host.refused == 0
 
@@ -81,19 +81,23 @@ def test_every_publisher_and_subscription_is_shown_under_its_node_and_goes_with_
             publisher(two.here, node="one")
             publisher(two.here, node="two", is_latched=True, depth=2)
             stop = subscription(two.here, [], node="three")
-            await until(lambda: len(two.guest.graph.entities("MP", "MS", name="chatter")) == 3)
+            await until(
+                lambda: (
+                    len(two.guest.graph.entities("publisher", "subscription", name="chatter")) == 3
+                )
+            )
             shown = {
                 (one.node, one.kind, one.quality)
-                for one in two.guest.graph.entities("MP", "MS", name="chatter")
+                for one in two.guest.graph.entities("publisher", "subscription", name="chatter")
             }
             assert shown == {
-                ("one", "MP", "::,10:,:,:,,"),
-                ("two", "MP", ":1:,2:,:,:,,"),
-                ("three", "MS", "::,10:,:,:,,"),
+                ("one", "publisher", Quality(depth=10)),
+                ("two", "publisher", Quality(depth=2, is_latched=True)),
+                ("three", "subscription", Quality(depth=10)),
             }
 
             stop()
-            await until(lambda: not two.guest.graph.entities("MS", name="chatter"))
+            await until(lambda: not two.guest.graph.entities("subscription", name="chatter"))
 
     play(send())
 
@@ -120,7 +124,7 @@ def test_nothing_is_turned_into_bytes_while_nobody_else_listens(monkeypatch):
             publish = publisher(two.here)
             heard = []
             subscription(two.here, heard)
-            await until(lambda: two.guest.graph.entities("MP", name="chatter"))
+            await until(lambda: two.guest.graph.entities("publisher", name="chatter"))
 
             # A lone surrogate has no bytes: writing it would be refused, and counted.
             publish(STRING(data="\ud800"))
@@ -128,7 +132,7 @@ def test_nothing_is_turned_into_bytes_while_nobody_else_listens(monkeypatch):
             assert two.host.refused == 0
 
             subscription(two.there, [])
-            await until(lambda: two.host.graph.entities("MS", name="chatter"))
+            await until(lambda: two.host.graph.entities("subscription", name="chatter"))
             publish(STRING(data="\ud800"))
             assert two.host.refused == 1
 
@@ -141,7 +145,7 @@ def test_a_latched_subscription_gets_what_was_sent_before_and_others_hear_all_on
             publish = publisher(two.here, is_latched=True, depth=2)
             early, late, plain = [], [], []
             subscription(two.there, plain)
-            await until(lambda: two.host.graph.entities("MS", name="chatter"))
+            await until(lambda: two.host.graph.entities("subscription", name="chatter"))
             for word in ("one", "two", "three"):
                 publish(STRING(data=word))
             await until(lambda: len(plain) == 3)
@@ -149,7 +153,7 @@ def test_a_latched_subscription_gets_what_was_sent_before_and_others_hear_all_on
             await until(lambda: len(early) == 2)
             subscription(two.there, late, node="late", is_latched=True)
             await until(lambda: len(late) == 2)
-            await until(lambda: len(two.host.graph.entities("MS", name="chatter")) == 3)
+            await until(lambda: len(two.host.graph.entities("subscription", name="chatter")) == 3)
             publish(STRING(data="four"))
             await until(lambda: len(plain) == 4 and len(early) == 3 and len(late) == 3)
 
@@ -166,7 +170,7 @@ def test_a_publisher_that_keeps_all_keeps_it_for_other_processes_too():
             publish = publisher(two.here, is_latched=True, depth=1, keeps_all=True)
             early, late = [], []
             subscription(two.there, early)
-            await until(lambda: two.host.graph.entities("MS", name="chatter"))
+            await until(lambda: two.host.graph.entities("subscription", name="chatter"))
             for word in ("one", "two", "three"):
                 publish(STRING(data=word))
             await until(lambda: len(early) == 3)
@@ -226,7 +230,7 @@ def test_a_topic_of_two_types_is_two_topics():
             heard = []
             publish = publisher(two.here)
             subscription(two.there, heard, kind=ODOMETRY)
-            await until(lambda: two.host.graph.entities("MS", name="chatter"))
+            await until(lambda: two.host.graph.entities("subscription", name="chatter"))
 
             publish(STRING(data="hello"))
             two.here.serve("done", lambda request: TRIGGER.Response(), TRIGGER)
@@ -255,9 +259,9 @@ def test_a_service_of_any_type_is_answered_and_shown_under_its_node():
 
             assert answer == SET_BOOL.Response(success=True, message="on")
             assert asked == [SET_BOOL.Request(data=True)]
-            (entity,) = two.guest.graph.entities("SS", name="enable")
+            (entity,) = two.guest.graph.entities("server", name="enable")
             assert (entity.node, entity.ros_type) == ("motors", "std_srvs/srv/SetBool")
-            assert two.host.graph.entities("SC", name="enable")
+            assert two.host.graph.entities("client", name="enable")
 
     play(ask())
 
@@ -291,7 +295,7 @@ def test_a_users_node_waits_for_an_answer_longer_than_nodes_of_ours(monkeypatch)
             await until(lambda: two.there.has_service("work") and two.there.has_service("clear"))
             working = asyncio.ensure_future(two.there.call("work", TRIGGER.Request()))
 
-            with pytest.raises(LinkError, match=r"'clear': nobody answered within 0\.1 s"):
+            with pytest.raises(LinkError, match=r"'clear': no server answered within 0\.1 s"):
                 await two.there.call("clear", Clear())
             ready.set()
 
@@ -357,7 +361,9 @@ def test_a_goal_of_any_type_is_taken_or_refused_fed_back_and_ended():
             assert await refused.decided is False
             taken = await two.there.send_goal("fibonacci", FIBONACCI.Goal(order=3), fed.append)
             assert await taken.decided is True
-            await until(lambda: two.guest.graph.entities("MP", name="fibonacci/_action/feedback"))
+            await until(
+                lambda: two.guest.graph.entities("publisher", name="fibonacci/_action/feedback")
+            )
             goals[1].publish_feedback(FIBONACCI.Feedback(sequence=[0, 1]))
             await until(lambda: fed)
             goals[1].finish("succeeded", FIBONACCI.Result(sequence=[0, 1, 1]))
@@ -410,7 +416,7 @@ def test_a_goal_of_another_type_is_refused_before_it_is_sent(goal):
 
 
 def test_a_twist_that_says_more_than_a_turtle_reads_arrives_whole():
-    from tftool.ros.values import converter
+    from tftool.ros.host.values import converter
 
     async def send():
         async with Two() as two:
@@ -418,7 +424,7 @@ def test_a_twist_that_says_more_than_a_turtle_reads_arrives_whole():
             twist.linear.z, twist.angular.x = 3.0, -1.0
             heard = []
             two.there.topic("cmd_vel", Twist2D).subscribe(heard.append)
-            await until(lambda: two.host.graph.entities("MS", name="cmd_vel"))
+            await until(lambda: two.host.graph.entities("subscription", name="cmd_vel"))
             travels = converter(type(twist), "cmd_vel")
 
             two.here.topic("cmd_vel", Twist2D).publish(travels.pack(twist))

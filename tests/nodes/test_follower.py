@@ -11,6 +11,7 @@ from tftool.motion.pid import Gains
 from tftool.nodes.broadcasters import Broadcaster, StaticBroadcaster
 from tftool.nodes.follower import Follower
 from tftool.nodes.turtlesim import Turtlesim
+from tftool.runtime.endpoints import PUBLISHER, SUBSCRIPTION
 from tftool.stamps import seconds
 
 
@@ -213,3 +214,31 @@ def test_two_runs_of_the_demo_are_equal_to_the_last_bit():
         return commands, list(world.log.records), list(sim.trail.segments)
 
     assert lived() == lived()
+
+
+def test_who_drives_a_turtle_and_who_hears_it_is_known_by_name():
+    world = new_world()
+    Turtlesim(world, "sim")
+    Broadcaster(world, "broadcaster1", turtle="turtle1")
+    Broadcaster(world, "broadcaster2", turtle="turtle2")
+    Follower(world, "listener")
+    ends = {}
+
+    def look():
+        for topic in ("turtle2/cmd_vel", "turtle1/pose", "tf"):
+            ends[topic] = [
+                sorted((end.node, end.interface) for end in world.endpoints.of(topic, role))
+                for role in (PUBLISHER, SUBSCRIPTION)
+            ]
+
+    At(world, (5.0, look))
+    play(world, 6.0)
+
+    twist, pose, tf = "geometry_msgs/msg/Twist", "turtlesim/msg/Pose", "tf2_msgs/msg/TFMessage"
+    assert ends == {
+        "turtle2/cmd_vel": [[("listener", twist)], [("sim", twist)]],
+        "turtle1/pose": [[("sim", pose)], [("broadcaster1", pose)]],
+        "tf": [[("broadcaster1", tf), ("broadcaster2", tf)], []],
+    }
+    # What has ended publishes and hears nothing any more.
+    assert world.endpoints.topics() == []

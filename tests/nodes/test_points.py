@@ -78,3 +78,16 @@ def test_a_demo_that_ends_while_it_starts_up_waits_for_nothing():
     play(world, 2.5)
 
     assert log_texts(world) == ["Service is not ready"] * 2
+
+
+def test_the_drawer_names_the_turtle_and_the_frame_it_was_given():
+    world = new_world()
+    Turtlesim(world)
+    Broadcaster(world, "broadcaster1", turtle="turtle1")
+    PointDrawer(world, turtle="robot", target_frame="turtle1")
+    points = world.topic("robot/turtle_point_stamped", PointStamped)
+    At(world, (1.0, lambda: points.publish(point(0))))
+    play(world, 2.0)
+
+    [said] = log_texts(world, "turtle_tf2_pose_drawer")
+    assert said.startswith("Point of robot in frame of turtle1: ")

@@ -22,6 +22,7 @@ from tftool.messages import (
 )
 from tftool.motion.unicycle import CENTRE, FIELD, Placement, float32
 from tftool.nodes import turtlesim as turtlesim_module
+from tftool.nodes.tick_queue import MOST_WAITING
 from tftool.nodes.trail import BLANK
 from tftool.nodes.turtle import PEN_COLOR, Turtle
 from tftool.nodes.turtlesim import BACKGROUND, Turtlesim
@@ -573,3 +574,26 @@ def test_on_the_wall_clock_a_late_tick_takes_all_that_came():
 
 def _when(step):
     return step[0]
+
+
+def test_commands_of_a_publisher_that_never_pauses_are_bounded_until_the_next_tick():
+    world = new_world()
+    sim = Turtlesim(world)
+    commands = world.topic("turtle1/cmd_vel", Twist2D)
+
+    async def flood():
+        for _ in range(MOST_WAITING + 5):
+            commands.publish(Twist2D(1.0, 0.0))
+        try:
+            await world.call("clear", Clear())
+        except TftoolError as refusal:
+            return str(refusal)
+
+    hands = At(world, (0.5, flood))
+    play(world, 1.0)
+
+    assert hands.answers == [f"{MOST_WAITING} requests wait for the next tick"]
+    assert [text for text in log_texts(world) if "Ignoring" in text] == [
+        f"Ignoring a velocity command for [turtle1]: {MOST_WAITING} wait for the next tick already"
+    ]
+    assert sim.turtles["turtle1"].place.x > 5.544445

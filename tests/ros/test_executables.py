@@ -154,8 +154,8 @@ def test_wrong_arguments_are_refused_with_what_is_wanted(
 
 def test_where_packages_are_can_be_asked():
     from tests.ros.tutorial import TUTORIAL
-    from tftool.ros.launching import packages
-    from tftool.ros.workspace import Workspace
+    from tftool.ros.host.workspace import Workspace
+    from tftool.ros.launch import packages
 
     packages.use(Workspace(TUTORIAL))
 
@@ -200,7 +200,7 @@ def test_launched_commands_run_beside_the_nodes_on_the_wall_clock(tmp_path, caps
 def test_a_commands_lines_may_be_of_any_length(monkeypatch):
     import asyncio
 
-    from tftool.ros.launching import commands
+    from tftool.ros.launch import commands
 
     monkeypatch.setattr(commands, "LONGEST_LINE", 300_000)
 
@@ -218,7 +218,7 @@ def test_a_commands_lines_may_be_of_any_length(monkeypatch):
 
 def test_a_command_that_will_not_end_is_made_to(tmp_path, capsys, monkeypatch):
     from tftool.cli.app import main
-    from tftool.ros.launching import ending
+    from tftool.ros.launch import ending
 
     monkeypatch.delenv("ROS_DISTRO", raising=False)
     monkeypatch.setenv("TFTOOL_SESSION_DIR", str(tmp_path / "session"))

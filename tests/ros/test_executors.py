@@ -49,7 +49,7 @@ def test_a_task_runs_on_the_executor_and_keeps_its_result(node):
 
 
 def test_a_future_tells_and_can_be_given_up():
-    from tftool.ros.client.futures import Future
+    from tftool.ros.rclpy.futures import Future
 
     told = []
     future = Future()
@@ -164,7 +164,7 @@ def test_a_loop_that_only_polls_sees_time_pass(node, ros_runtime):
 
 
 def test_a_task_can_be_given_up(ros_runtime):
-    from tftool.ros.client.futures import Future, Task
+    from tftool.ros.rclpy.futures import Future, Task
 
     waited = Future()
 
@@ -189,3 +189,57 @@ def test_a_node_may_be_given_an_executor_or_taken_from_it(node):
     assert (first.get_nodes(), second.get_nodes()) == ([], [node])
     node.executor = None
     assert (second.get_nodes(), node.executor) == ([], None)
+
+
+def test_a_future_that_is_set_while_the_executor_looks_wakes_it(node, ros_runtime):
+    import rclpy
+    from rclpy.callback_groups import ReentrantCallbackGroup
+    from rclpy.task import Future
+
+    future = Future()
+
+    class Late(ReentrantCallbackGroup):
+        """Sets the future between the executor's look at it and its wait."""
+
+        def can_execute(self, entity):
+            if not future.done():
+                future.set_result("set")
+            return True
+
+    node.create_timer(10.0, lambda: None, callback_group=Late())
+    rclpy.spin_until_future_complete(node, future)
+
+    assert future.result() == "set"
+    assert ros_runtime.elapsed() == 0.0
+
+
+@pytest.mark.parametrize("line", range(1, 7))
+def test_a_callback_that_is_added_while_another_thread_answers_is_called(line):
+    import sys
+    import threading
+
+    from tftool.ros.rclpy.futures import Future
+
+    future, called, lines = Future(), [], []
+    answering = threading.Thread(target=future.set_result, args=(None,))
+
+    def trace(frame, event, argument):
+        if frame.f_code is not Future.add_done_callback.__code__:
+            return None
+        if event == "line":
+            lines.append(frame.f_lineno)
+            if len(lines) == line:
+                answering.start()
+                answering.join(timeout=0.1)
+        return trace
+
+    sys.settrace(trace)
+    try:
+        future.add_done_callback(called.append)
+    finally:
+        sys.settrace(None)
+    if answering.ident is None:
+        answering.start()
+    answering.join()
+
+    assert called == [future]

@@ -4,8 +4,8 @@ import threading
 import pytest
 
 from tftool.errors import TftoolError
-from tftool.ros import fibers
-from tftool.ros.fibers import Fiber, StuckError
+from tftool.ros.host import fibers
+from tftool.ros.host.fibers import Fiber, StuckError
 from tftool.runtime.clock import SimClock, WallClock, run
 from tftool.stamps import seconds
 

@@ -4,17 +4,19 @@ import pytest
 
 from tests.ros.tutorial import TUTORIAL, Launched, launch
 from tftool.errors import InputError, NodeFailed, UsageError
-from tftool.ros.hosting import show_arguments
-from tftool.ros.importing import ros_free
-from tftool.ros.workspace import Workspace
+from tftool.ros.host.hosting import show_arguments
+from tftool.ros.host.importing import ros_free
+from tftool.ros.host.workspace import Workspace
 
 HEAD = """
 import launch, launch.actions, launch.conditions, launch.event_handlers, launch.events
 import launch.substitutions, launch_ros.actions, launch_ros.parameter_descriptions
-import launch_ros.substitutions
+import launch_ros.substitutions, launch_ros.events, launch_ros.events.lifecycle
+import launch_ros.event_handlers, launch.events.process
 for module in (launch, launch.actions, launch.conditions, launch.event_handlers,
                launch.substitutions, launch_ros.actions, launch_ros.parameter_descriptions,
-               launch_ros.substitutions):
+               launch_ros.substitutions, launch_ros.event_handlers, launch_ros.events,
+               launch_ros.events.lifecycle):
     globals().update({k: v for k, v in vars(module).items() if not k.startswith('_')})
 """
 
@@ -584,8 +586,8 @@ def test_the_tutorial_runs_live_too():
     import asyncio
 
     from tftool.messages import Twist2D
-    from tftool.ros.launching import packages
-    from tftool.ros.launching.engine import Launch
+    from tftool.ros.launch import packages
+    from tftool.ros.launch.engine import Launch
     from tftool.runtime.clock import WallClock, run
     from tftool.runtime.supervisor import live
     from tftool.runtime.world import World
@@ -611,3 +613,9 @@ def test_the_tutorial_runs_live_too():
     # The first command is the tutorial's, from where both turtles stand at the start.
     assert first.linear_x == pytest.approx(1.933157795, abs=1e-6)
     assert first.angular_z == pytest.approx(1.159866862, abs=1e-4)
+
+
+def test_a_command_for_a_text_has_a_time_limit(tmp_path, monkeypatch):
+    monkeypatch.setattr("tftool.ros.launch.commands.LONGEST_RUN", 0.3)
+    with pytest.raises(NodeFailed, match=r"'sleep', '30'\] had not ended after 0.3 s"):
+        described(tmp_path, "LogInfo(msg=Command('sleep 30'))")

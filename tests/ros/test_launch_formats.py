@@ -8,9 +8,9 @@ import pytest
 from tests.ros.test_launch import described
 from tests.ros.tutorial import TUTORIAL, launch
 from tftool.errors import InputError, NodeFailed, TftoolError
-from tftool.ros.hosting import show_arguments
-from tftool.ros.importing import ros_free
-from tftool.ros.workspace import Workspace
+from tftool.ros.host.hosting import show_arguments
+from tftool.ros.host.importing import ros_free
+from tftool.ros.host.workspace import Workspace
 
 FILES = Path(__file__).parent / "launch_files"
 FORMATS = ["py", "xml", "yaml"]
@@ -237,11 +237,10 @@ def test_a_mistake_in_xml_is_told_with_its_line_and_the_nearest_word(tmp_path, t
     ("line", "told"),
     [
         ("from launch_ros.actions import ComposableNodeContainer", "of launch_ros.actions is not"),
-        ("from launch.event_handlers import OnProcessIO", "of launch.event_handlers is not"),
         ("from launch.actions import GroupActon", "is not covered; did you mean 'GroupAction'?"),
         (
-            "import launch_ros.events",
-            "launch_ros.events is not covered: launch_ros has",
+            "import launch_ros.remap_rules",
+            "launch_ros.remap_rules is not covered",
         ),
     ],
 )
@@ -255,3 +254,20 @@ def test_what_is_not_covered_is_named_with_where_to_look(tmp_path, line, told):
     assert told in str(refused.value)
     assert "section 'What is covered' of tftool's README" in str(refused.value)
     assert f"a.launch.py:1, in <module>: {line}" in str(refused.value)
+
+
+def test_an_encoding_that_does_not_exist_is_named(tmp_path):
+    file = tmp_path / "a.launch.xml"
+    file.write_text('<?xml version="1.0" encoding="klingon"?><launch/>')
+
+    with pytest.raises(InputError, match=r"a\.launch\.xml:1: unknown encoding: klingon; save"):
+        launch(file, seconds=1)
+
+
+def test_a_launch_file_that_is_run_as_a_node_names_the_command_for_it(tmp_path):
+    from tftool.errors import UsageError
+    from tftool.ros.host.hosting import check_program
+    from tftool.ros.host.workspace import Workspace
+
+    with pytest.raises(UsageError, match=r"x\.launch\.py' is a launch file: 'tftool launch x"):
+        check_program(Workspace(tmp_path), "x.launch.py", [])

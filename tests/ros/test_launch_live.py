@@ -3,10 +3,10 @@
 import asyncio
 
 from tests.ros.tutorial import Launched
-from tftool.ros.importing import ros_free
-from tftool.ros.launching import packages
-from tftool.ros.launching.engine import Launch
-from tftool.ros.workspace import Workspace
+from tftool.ros.host.importing import ros_free
+from tftool.ros.host.workspace import Workspace
+from tftool.ros.launch import packages
+from tftool.ros.launch.engine import Launch
 from tftool.runtime.clock import WallClock, run
 from tftool.runtime.supervisor import live
 from tftool.runtime.world import World

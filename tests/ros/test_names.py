@@ -1,7 +1,7 @@
 import pytest
 
 from tftool.errors import InputError, UsageError
-from tftool.ros import names
+from tftool.ros.host import names
 
 
 @pytest.mark.parametrize(

@@ -227,3 +227,28 @@ def test_an_import_of_rclpy_that_fails_names_the_option_it_needs(pytester):
 
     result.assert_outcomes(errors=1)
     result.stdout.fnmatch_lines("*pytest --ros-free lets test files import rclpy at their top*")
+
+
+def test_tests_know_the_workspaces_own_interfaces_with_ros_free(pytester):
+    from tftool.interfaces.classes import INTERFACES
+
+    shapes = pytester.mkdir("my_balls")
+    (shapes / "package.xml").write_text("<package><name>my_balls</name></package>")
+    (shapes / "msg").mkdir()
+    (shapes / "msg" / "Ball.msg").write_text("float64 radius 2.5\n")
+    pytester.makepyfile(
+        """
+        from ament_index_python.packages import get_package_share_directory
+        from my_balls.msg import Ball
+
+        def test_it():
+            assert Ball().radius == 2.5
+            assert get_package_share_directory("my_balls").endswith("my_balls")
+        """
+    )
+    try:
+        result = pytester.runpytest("--ros-free", "-p", "tftool.ros.pytest_plugin")
+    finally:
+        INTERFACES.add("my_balls", {})
+
+    result.assert_outcomes(passed=1)

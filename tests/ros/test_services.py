@@ -29,6 +29,43 @@ def test_a_service_answers_a_client(node):
     assert not client.wait_for_service(timeout_sec=0.5)
 
 
+def test_requests_wait_for_a_node_that_does_not_spin_up_to_a_bound(node):
+    import rclpy
+    from std_srvs.srv import Trigger
+
+    node.create_service(Trigger, "busy", lambda request, response: response)
+    asker = rclpy.create_node("asker")
+    client = asker.create_client(Trigger, "busy")
+    futures = [client.call_async(Trigger.Request()) for _ in range(1003)]
+    executor = rclpy.get_global_executor()
+    executor.add_node(asker)
+    executor.spin_until_future_complete(futures[-1], timeout_sec=1.0)
+
+    refused = [future for future in futures if future.done()]
+    assert refused == futures[-3:]
+    with pytest.raises(Exception, match=r"'busy' has 1000 requests waiting.*does it spin"):
+        refused[0].result()
+
+
+def test_goals_wait_for_a_node_that_does_not_spin_up_to_a_bound(node):
+    import rclpy
+    from example_interfaces.action import Fibonacci
+    from rclpy.action import ActionClient, ActionServer
+
+    server = ActionServer(node, Fibonacci, "fibonacci", lambda handle: Fibonacci.Result())
+    asker = rclpy.create_node("asker")
+    client = ActionClient(asker, Fibonacci, "fibonacci")
+    futures = [client.send_goal_async(Fibonacci.Goal(order=1)) for _ in range(1003)]
+    executor = rclpy.get_global_executor()
+    executor.add_node(asker)
+    executor.spin_until_future_complete(futures[-1], timeout_sec=1.0)
+
+    refused = [future for future in futures if future.done()]
+    assert refused == futures[-3:]
+    assert not refused[0].result().accepted
+    server.destroy()
+
+
 def test_a_request_nobody_serves_stays_unanswered(node):
     import rclpy
     from std_srvs.srv import Trigger

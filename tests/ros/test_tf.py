@@ -40,6 +40,32 @@ def test_what_a_node_sends_another_looks_up_at_once(node, ros_runtime):
     assert buffer.get_latest_common_time("world", "a").nanoseconds == now.nanoseconds
 
 
+def test_a_clock_that_falls_back_clears_what_a_listener_heard(node, ros_runtime, monkeypatch):
+    from rclpy.time import Time
+    from tf2_ros import Buffer, StaticTransformBroadcaster, TransformBroadcaster, TransformListener
+
+    buffer = Buffer()
+    TransformListener(buffer, node)
+    sender, clock = TransformBroadcaster(node), ros_runtime.world.clock
+    began = clock.now()
+
+    def send(child, at):
+        monkeypatch.setattr(clock, "now", lambda: began + at)
+        sender.sendTransform([transform("world", child, Time(nanoseconds=began + at))])
+
+    StaticTransformBroadcaster(node).sendTransform(transform("a", "lens"))
+    send("a", 9 * 10**9)
+    send("b", 8 * 10**9 + 1)
+    assert buffer.can_transform("world", "a", Time())
+
+    send("b", 7 * 10**9)
+    assert not buffer.can_transform("world", "a", Time())
+    assert buffer.can_transform("world", "b", Time())
+    assert buffer.can_transform("a", "lens", Time())
+    said = [record.text for record in ros_runtime.world.log.records]
+    assert said.count("Detected jump back in time. Clearing tf buffer.") == 1
+
+
 def test_a_late_listener_has_all_statics_and_ends_when_told(node):
     from rclpy.time import Time
     from tf2_ros import Buffer, StaticTransformBroadcaster, StaticTransformListener
@@ -365,7 +391,7 @@ def test_quaternions_of_the_tutorial(ros_runtime):
 )
 @pytest.mark.parametrize("angles", [(0.3, 0.6, -1.1), (-2.0, 1.2, 2.5), (0.4, 0.0, 0.7)])
 def test_every_order_of_axes_undoes_itself(frame, letters, angles):
-    from tftool.ros.tf import euler
+    from tftool.ros.tf2 import euler
 
     matrix = euler.euler_matrix(*angles, frame + letters)
     again = euler.euler_matrix(*euler.euler_from_matrix(matrix, frame + letters), frame + letters)
@@ -375,7 +401,7 @@ def test_every_order_of_axes_undoes_itself(frame, letters, angles):
 
 @pytest.mark.parametrize("pitch", [math.pi / 2, -math.pi / 2])
 def test_where_the_turns_are_not_unique_the_last_is_zero(pitch):
-    from tftool.ros.tf import euler
+    from tftool.ros.tf2 import euler
 
     found = euler.euler_from_matrix(euler.euler_matrix(0.5, pitch, 0.2))
 
@@ -453,3 +479,36 @@ def test_a_buffer_of_ones_own_transforms_what_it_can_look_up(node):
     ):
         with pytest.raises(tf2_ros.NotImplementedException):
             ask(tf2_ros.BufferInterface())
+
+
+def test_spin_once_ends_when_transforms_arrive_and_spin_is_not_woken(node, ros_runtime):
+    import rclpy
+    from tf2_ros import Buffer, TransformListener
+
+    buffer = Buffer()
+    TransformListener(buffer, node)
+
+    def sender():
+        from tf2_ros import TransformBroadcaster
+
+        rclpy.init()
+        other = rclpy.create_node("sender")
+        broadcaster = TransformBroadcaster(other)
+        other.create_timer(
+            2.0,
+            lambda: broadcaster.sendTransform(transform("world", "a", other.get_clock().now())),
+        )
+        rclpy.spin(other)
+
+    ros_runtime.start(sender)
+    tries = 0
+    while not buffer.can_transform("world", "a", rclpy.time.Time()):
+        rclpy.spin_once(node)
+        tries += 1
+
+    assert tries == 1
+    assert ros_runtime.elapsed() == 2.0
+    rclpy.spin_once(node)
+    assert ros_runtime.elapsed() == 4.0
+    rclpy.spin_once(node, timeout_sec=0.5)
+    assert ros_runtime.elapsed() == 4.5

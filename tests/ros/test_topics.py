@@ -111,7 +111,7 @@ def test_a_topic_carries_one_type(node):
     ("make", "told"),
     [
         (lambda node: node.create_publisher(int, "a", 1), "expected a message class"),
-        (lambda node: node.create_timer(1.0, None), "a callback must be callable"),
+        (lambda node: node.create_timer(1.0, 3), "a callback must be callable"),
         (lambda node: node.create_client(int, "a"), "expected a service class"),
     ],
 )

@@ -189,7 +189,7 @@ rclpy.spin(node)
 
 
 def test_the_package_is_found_with_all_its_scripts():
-    from tftool.ros.workspace import Workspace
+    from tftool.ros.host.workspace import Workspace
 
     package = Workspace(TUTORIAL / "pkg_tf").package("pkg_tf")
 

@@ -11,10 +11,10 @@ from tests.ros.tutorial import TUTORIAL, start
 from tftool.messages import Kill, Spawn, TeleportAbsolute, Twist2D
 from tftool.nodes.squares import DrawSquare
 from tftool.nodes.turtlesim import Turtlesim
-from tftool.ros.importing import ros_free
-from tftool.ros.launching import packages
-from tftool.ros.launching.engine import Launch
-from tftool.ros.workspace import Workspace
+from tftool.ros.host.importing import ros_free
+from tftool.ros.host.workspace import Workspace
+from tftool.ros.launch import packages
+from tftool.ros.launch.engine import Launch
 from tftool.runtime.world import TransformMessage
 
 HEAD_START = 8.0

@@ -1,9 +1,9 @@
 import pytest
 
-from tftool.errors import InputError, UsageError
+from tftool.errors import UsageError
 from tftool.interfaces.classes import INTERFACES
+from tftool.ros.host.workspace import Workspace
 from tftool.ros.testing import RosRuntime
-from tftool.ros.workspace import Workspace
 
 
 def package(folder, **files):
@@ -89,13 +89,58 @@ def test_a_node_installed_as_a_script_is_found_by_its_name(tmp_path):
     assert found.script_file("gone") is None
 
 
-@pytest.mark.parametrize("text", [b"\xff", b"[broken"])
-def test_a_package_that_cannot_be_read_says_so(tmp_path, text):
-    package(tmp_path / "pkg")
-    (tmp_path / "pkg" / "setup.cfg").write_bytes(text)
+@pytest.mark.parametrize(
+    ("file", "text"),
+    [
+        ("setup.cfg", b"\xff"),
+        ("setup.cfg", b"[broken"),
+        ("setup.cfg", b"name = x"),
+        ("package.xml", b"<name>\xff</name>"),
+        ("setup.py", b"\0"),
+        ("msg/Bad.msg", b"\xff"),
+    ],
+)
+def test_a_package_that_cannot_be_read_does_not_stop_the_others(tmp_path, file, text):
+    package(tmp_path / "good", package__xml="<package><name>good</name></package>")
+    package(tmp_path / "odd", pyproject__toml="")
+    (tmp_path / "odd" / file).parent.mkdir(exist_ok=True)
+    (tmp_path / "odd" / file).write_bytes(text)
 
-    with pytest.raises(InputError, match=r"setup\.cfg"):
-        Workspace(tmp_path)
+    found = Workspace(tmp_path)
+
+    assert "good" in found.packages
+    if file != "setup.py":
+        (skipped,) = found.skipped
+        assert file.rpartition("/")[2] in skipped
+        with pytest.raises(UsageError, match=r"(?s)no package 'zz'.*odd' is skipped: "):
+            found.package("zz")
+
+
+def test_a_setup_file_nested_too_deep_names_no_scripts(tmp_path):
+    package(tmp_path / "deep", setup__py=f"setup(name={'-' * 100_000}1)")
+
+    assert Workspace(tmp_path).packages["deep"].scripts == {}
+
+
+def test_interfaces_of_a_package_named_as_a_module_of_python_are_left_out(tmp_path):
+    import sys
+
+    odd = package(tmp_path / "sys", package__xml="<package><name>sys</name></package>")
+    package(odd / "msg", Ball__msg="float64 radius\n")
+    found = Workspace(tmp_path)
+
+    assert "cannot be named 'sys'" in found.skipped[0]
+    with RosRuntime():
+        import sys as again
+
+        assert again is sys
+
+
+def test_a_folder_without_package_xml_is_named(tmp_path):
+    package(tmp_path / "src" / "robot", node__py="")
+
+    with pytest.raises(UsageError, match=r"robot' has no package\.xml"):
+        Workspace(tmp_path).package("robot")
 
 
 def test_a_packages_own_interfaces_can_be_imported(tmp_path):
@@ -116,7 +161,7 @@ def test_a_packages_own_interfaces_can_be_imported(tmp_path):
 
 
 def test_two_programs_of_one_module_share_no_globals(tmp_path):
-    from tftool.ros import users
+    from tftool.ros.host import user_code
 
     folder = package(tmp_path / "pkg", node__py="import aside\ncount = []\n")
     (folder / "aside.py").write_text("seen = []\n")
@@ -127,21 +172,21 @@ def test_two_programs_of_one_module_share_no_globals(tmp_path):
     )
     with RosRuntime() as runtime:
         for _ in range(2):
-            runtime.start(users.entry_point_body("node", "main", root=folder))
+            runtime.start(user_code.entry_point_body("node", "main", root=folder))
             runtime.sleep(0.1)
 
         assert runtime.log() == ["1 1", "1 1"]
 
 
 def test_a_console_script_that_names_nothing_says_so(tmp_path):
-    from tftool.ros import users
+    from tftool.ros.host import user_code
 
     folder = package(tmp_path / "pkg", node__py="")
     ended = []
     with RosRuntime() as runtime:
-        from tftool.ros.program import Program
+        from tftool.ros.host.program import Program
 
-        body = users.whole(users.entry_point_body("node", "main", root=folder))
+        body = user_code.whole(user_code.entry_point_body("node", "main", root=folder))
         runtime.ask(lambda: Program(runtime.world, "it", body, on_exit=ended.append))
         runtime.sleep(0.1)
 
@@ -162,7 +207,7 @@ def test_a_package_linked_into_the_workspace_is_found_and_other_links_are_not_fo
 def test_what_tests_lie_around_is_theirs_but_for_tftool_itself(tmp_path, monkeypatch):
     import sys
 
-    from tftool.ros import importing
+    from tftool.ros.host import importing
 
     (tmp_path / "tftool").mkdir()
     (tmp_path / "tftool" / "late.py").write_text("")

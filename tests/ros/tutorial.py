@@ -4,12 +4,12 @@ from dataclasses import dataclass, field
 from pathlib import Path
 
 from tftool.nodes.turtlesim import Turtlesim
-from tftool.ros import executables, names
-from tftool.ros.hosting import until
-from tftool.ros.importing import ros_free
-from tftool.ros.launching import packages
-from tftool.ros.launching.engine import Launch
-from tftool.ros.workspace import Workspace
+from tftool.ros.host import executables, names
+from tftool.ros.host.hosting import until
+from tftool.ros.host.importing import ros_free
+from tftool.ros.host.workspace import Workspace
+from tftool.ros.launch import packages
+from tftool.ros.launch.engine import Launch
 from tftool.runtime.clock import SimClock, run
 from tftool.runtime.supervisor import live
 from tftool.runtime.world import World

@@ -324,3 +324,136 @@ def test_a_callback_that_fails_while_nobody_runs_the_world_raises_where_it_is():
     node.subscribe("pose", Pose2D, lambda _: 1 / 0)
     with pytest.raises(ZeroDivisionError):
         node.publish("pose", Pose2D(0, 0, 0))
+
+
+def test_what_a_node_started_beside_its_run_fails_as_the_node_with_its_line():
+    world = World(SimClock())
+
+    class Careless(Node):
+        async def run(self):
+            self.start_soon(self.help())
+            await self.clock.sleep(seconds(5))
+
+        async def help(self):
+            await self.clock.sleep(seconds(1))
+            raise ValueError("no such arm")
+
+    Careless(world, "careless")
+    with pytest.raises(
+        NodeFailed,
+        match=r"node 'careless' failed: ValueError: no such arm \(test_nodes_and_worlds.py:\d+\)",
+    ):
+        lived(world, seconds(10))
+    assert world.clock.elapsed() == seconds(1)
+
+
+def test_what_a_node_started_outlasts_its_run_and_ends_with_the_node():
+    world = World(SimClock())
+    seen = []
+
+    class Helped(Node):
+        async def run(self):
+            self.start_soon(self.help())
+
+        async def help(self):
+            try:
+                async for now in self.every(seconds(1)):
+                    seen.append(now - self.clock.epoch)  # noqa: PERF401
+            finally:
+                seen.append("ended")
+
+    node = Helped(world, "helped")
+    Script(world, "bouncer", seconds(2.5), lambda: world.remove(node))
+    lived(world)
+
+    assert seen == [seconds(1), seconds(2), "ended"]
+    assert world.clock.elapsed() == seconds(2.5)
+
+
+def test_work_for_a_node_of_a_world_that_does_not_run_is_refused():
+    world = World(SimClock())
+    node = Node(world, "early")
+
+    async def work():
+        raise AssertionError("never begun")
+
+    with pytest.raises(TftoolError, match="node 'early' can start no work"):
+        node.start_soon(work())
+
+
+def test_a_node_that_awaits_what_another_one_cancelled_has_failed():
+    world = World(SimClock())
+
+    class Deceived(Node):
+        async def run(self):
+            timer = self.clock.timer(self.clock.now() + seconds(1))
+            timer.cancel()
+            await timer
+
+    Deceived(world, "deceived")
+    with pytest.raises(NodeFailed, match=r"'deceived' failed: .* was cancelled"):
+        lived(world, seconds(1))
+
+
+def test_an_observer_that_raises_is_told_of_under_its_own_name_and_harms_no_node():
+    world = World(SimClock())
+    node = Node(world, "talker")
+    world.topic("pose", Pose2D).subscribe(lambda _: 1 / 0, "plotter")
+    heard = []
+    world.topic("pose", Pose2D).subscribe(heard.append)
+    Script(world, "hands", seconds(1), lambda: node.publish("pose", Pose2D(0, 0, 0)))
+
+    lived(world)
+
+    assert len(heard) == 1
+    [said] = [record for record in world.log.records if record.level == "ERROR"]
+    assert said.node == "plotter"
+    assert "ZeroDivisionError: division by zero (test_nodes_and_worlds.py:" in said.text
+
+
+def test_a_listener_of_the_log_that_always_fails_harms_neither_nodes_nor_other_listeners():
+    world = World(SimClock())
+    node = Node(world, "talker")
+    heard = []
+    world.log.listen(lambda _: 1 / 0, "console")
+    world.log.listen(heard.append)
+
+    node.info("one")
+
+    assert [(one.node, one.level) for one in heard] == [("talker", "INFO"), ("console", "ERROR")]
+
+
+@pytest.mark.parametrize("place", ["topic", "log", "watch", "buffer"])
+def test_each_registration_of_one_callback_stands_alone(place):
+    world = World(SimClock())
+    node = Node(world, "talker")
+    called = []
+
+    def callback(*_):
+        called.append(place)
+
+    register, act = {
+        "topic": (
+            world.topic("pose", Pose2D).subscribe,
+            lambda: node.publish("pose", Pose2D(0, 0, 0)),
+        ),
+        "log": (world.log.listen, lambda: node.info("said")),
+        "watch": (world.watch, lambda: world.topic("new", Pose2D)),
+        "buffer": (world.buffer.listen, lambda: node.broadcast(transform("turtle1"))),
+    }[place]
+    first = register(callback)
+    register(callback)
+    first()
+    first()
+    act()
+
+    assert called == [place]
+
+
+def test_a_static_that_is_refused_publishes_nothing():
+    world = World(SimClock())
+    node = Node(world, "sender")
+
+    assert not node.broadcast_static(transform("world"))
+
+    assert world.tf_static.count == 0

@@ -228,6 +228,11 @@ def test_a_verdict_becomes_a_report():
     report = run_scenario(scenario).report()
 
     assert (report.name, report.file, report.ok, report.lasted) == ("s", "folder/s.yaml", False, 10)
-    (finding,) = report.findings
-    assert finding.subject == "at 3 s: number of trees is 1"
-    assert (finding.expected, finding.found, finding.at, finding.line) == ("is 1", "2", 3.0, 11)
+    (judgement,) = report.judgements
+    assert judgement.subject == "at 3 s: number of trees is 1"
+    assert (judgement.expected, judgement.found, judgement.at, judgement.line) == (
+        "is 1",
+        "2",
+        3.0,
+        11,
+    )

@@ -8,9 +8,9 @@ from hypothesis import strategies as st
 
 from tftool.errors import InputError, ScenarioError
 from tftool.scenario import builtin, load
-from tftool.scenario.expectations import SUBJECTS
+from tftool.scenario.actions import ACTIONS
 from tftool.scenario.kinds import KINDS
-from tftool.scenario.script import ACTIONS
+from tftool.scenario.questions import SUBJECTS
 from tftool.views.escaping import visible
 
 TEXTS = [path.read_text(encoding="utf-8") for path in sorted(builtin.folder().glob("*.yaml"))]

@@ -309,7 +309,8 @@ def test_an_alias_bomb_is_refused():
 
 
 def test_an_alias_to_what_holds_it_is_refused():
-    assert told("nodes: &n [*n]") == ["*n names no anchor that ends before it"]
+    assert told("nodes: &n [*n]") == ["*n stands inside what it stands for"]
+    assert told("nodes: [*n, &n x]") == ["*n names no anchor that ends before it"]
 
 
 def test_deep_nesting_is_refused():

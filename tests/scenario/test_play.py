@@ -35,7 +35,7 @@ def logged(played):
 def history(name):
     """Everything a scenario broadcasts, publishes and says, to the last bit."""
     clock = SimClock()
-    played = build(load(builtin.find(name)), clock)
+    played = build(load(builtin.path_of(name)), clock)
     heard = []
     listened = set()
 
@@ -123,7 +123,7 @@ def test_a_node_that_fails_ends_the_play_with_its_name():
 
 
 def test_arguments_change_the_world():
-    scenario = load(builtin.find("turtles"))
+    scenario = load(builtin.path_of("turtles"))
 
     played = build(scenario, SimClock(), {"source_frame": "carrot1"})
 
@@ -132,7 +132,7 @@ def test_arguments_change_the_world():
 
 
 def test_arguments_that_do_not_fit_are_refused():
-    scenario = load(builtin.find("turtles"))
+    scenario = load(builtin.path_of("turtles"))
 
     with pytest.raises(UsageError, match="has no argument 'source'; did you mean 'source_frame'"):
         build(scenario, SimClock(), {"source": "carrot1"})
@@ -229,7 +229,7 @@ def test_services_are_called():
         ("kill: bob", "there is no turtle 'bob'"),
         ("teleport: {turtle: bob, x: 1, y: 1}", "no node serves 'bob/teleport_absolute'"),
         ("rotate: {turtle: bob, theta: 1}", "no node serves the action 'bob/rotate_absolute'"),
-        ("drive: {turtle: bob, linear: 1}, for: 1 s", "nobody listens to 'bob/cmd_vel'"),
+        ("drive: {turtle: bob, linear: 1}, for: 1 s", "nothing subscribes to 'bob/cmd_vel'"),
         ("broadcast: {parent: a, child: a}", "the buffer refused it; the log says why"),
         ("static: {parent: a, child: a}", "the buffer refused it; the log says why"),
     ],

@@ -160,3 +160,19 @@ def test_teleop_says_its_banner_and_drives(terminal):
 
     teleop.press("q")
     assert "Reading from keyboard" in teleop.ended(0)
+
+
+def test_bytes_that_are_no_text_are_dropped_and_the_keys_go_on(terminal):
+    demo = terminal(100, 30, *DEMO)
+    demo.until(lambda text: apart(text) is not None, "a distance")
+
+    demo.tmux("send-keys", "-H", "ff")
+    demo.tmux("send-keys", "-H", "c3", "28")
+    demo.press("?")
+    demo.shows("quit")
+    demo.press("q")
+    demo.press("q")
+
+    screen = demo.shows("ended with 0")
+    assert "Traceback" not in screen
+    assert "UnicodeDecodeError" not in screen

@@ -10,7 +10,7 @@ from tests.tf2.loader import CACHE, VELOCITY, Unknown, close, fields
 from tftool.errors import ExtrapolationException, TransformException
 from tftool.frames.buffer import NEVER, Buffer
 from tftool.frames.sample import TransformStamped
-from tftool.geometry.rigid import Transform
+from tftool.geometry.rigid import Transform, transform
 
 Step = Mapping[str, Any]
 
@@ -18,7 +18,8 @@ NO_TURN = (0.0, 0.0, 0.0, 1.0)
 
 
 def sample(step: Step) -> TransformStamped:
-    pose = Transform(step.get("xyz", (0.0, 0.0, 0.0)), step.get("q", NO_TURN))
+    # Unchecked, as a message brings it.
+    pose = transform(tuple(step.get("xyz", (0.0, 0.0, 0.0))), tuple(step.get("q", NO_TURN)))
     return TransformStamped(step["stamp"], step["parent"], step["child"], pose)
 
 

@@ -1,4 +1,8 @@
-"""Cases of kind `do_transform`: what becomes of points, poses and the rest."""
+"""Cases of kind `do_transform`: what becomes of points, poses and the rest.
+
+They run on what nodes import as tf2_geometry_msgs and tf2_sensor_msgs. For a bare
+quaternion these have nothing in Python: there it is our own product.
+"""
 
 from collections.abc import Callable, Mapping
 from typing import Any
@@ -6,70 +10,162 @@ from typing import Any
 import numpy as np
 
 from tests.tf2.loader import Unknown, close, fields, negated
-from tftool.frames.do_transform import Cloud, Point, Polygon, Stamped, do_transform
-from tftool.frames.sample import TransformStamped
-from tftool.geometry.carry import PoseWithCovariance, Wrench
-from tftool.geometry.rigid import Quaternion, Transform, Vector3
+from tftool.geometry import quaternions
+from tftool.interfaces.classes import INTERFACES
+from tftool.ros.host import values
+from tftool.ros.tf2 import do_transform as tf2
 
 Step = Mapping[str, Any]
 
 
-def pose(given: Step) -> Transform:
-    return Transform(given["xyz"], given["q"])
+def geometry(name: str, **parts: Any) -> Any:
+    return INTERFACES.message(f"geometry_msgs/{name}")(**parts)
 
 
-def corners(points: list[list[float]]) -> tuple[Vector3, ...]:
-    return tuple(Vector3(*point) for point in points)
+def vector(numbers: Any, kind: str = "Vector3") -> Any:
+    x, y, z = numbers
+    return geometry(kind, x=x, y=y, z=z)
 
 
-def flat(found: Any) -> list[float]:
-    """All numbers of a datum, in order."""
-    if isinstance(found, Cloud):
-        return [float(number) for number in found.points.ravel()]
-    if isinstance(found, Polygon):
-        return [number for point in found.points for number in point]
-    if isinstance(found, Transform | PoseWithCovariance | Wrench):
-        return [number for part in found for number in flat(part)]
-    return list(found)
+def quaternion(numbers: Any) -> Any:
+    x, y, z, w = numbers
+    return geometry("Quaternion", x=x, y=y, z=z, w=w)
 
 
-BUILD: dict[str, Callable[[Step], Any]] = {
-    "point": lambda given: Point(*given["xyz"]),
-    "vector": lambda given: Vector3(*given["xyz"]),
-    "pose": pose,
-    "transform": pose,
-    "pose_with_covariance": lambda given: PoseWithCovariance(pose(given), tuple(given["cov"])),
-    "quaternion": lambda given: Quaternion(*given["q"]),
-    "wrench": lambda given: Wrench(Vector3(*given["force"]), Vector3(*given["torque"])),
-    "points": lambda given: Cloud(np.array(given["points"])),
-    "polygon": lambda given: Polygon(corners(given["points"])),
+def pose(given: Step) -> Any:
+    return geometry(
+        "Pose", position=vector(given["xyz"], "Point"), orientation=quaternion(given["q"])
+    )
+
+
+def cloud(points: Any) -> Any:
+    field = INTERFACES.message("sensor_msgs/PointField")
+    made = INTERFACES.message("sensor_msgs/PointCloud2")(
+        height=1, width=len(points), point_step=24, row_step=24 * len(points)
+    )
+    made.fields = [
+        field(name=name, offset=8 * index, datatype=8, count=1) for index, name in enumerate("xyz")
+    ]
+    made.data = np.array(points, dtype="<f8").tobytes()
+    return made
+
+
+def headed(message: Any, given: Step) -> Any:
+    message.header.frame_id = given["frame"]
+    message.header.stamp = values.time_message(given["stamp"])
+    return message
+
+
+def xyz(part: Any) -> list[float]:
+    return [part.x, part.y, part.z]
+
+
+def moved_point(given: Step, by: Any) -> list[float]:
+    point = geometry("PointStamped", point=vector(given["xyz"], "Point"))
+    return xyz(tf2.do_transform_point(point, by).point)
+
+
+def moved_vector(given: Step, by: Any) -> list[float]:
+    message = geometry("Vector3Stamped", vector=vector(given["xyz"]))
+    return xyz(tf2.do_transform_vector3(message, by).vector)
+
+
+def numbers_of(found: Any) -> list[float]:
+    return [*xyz(found.position), *xyz(found.orientation), found.orientation.w]
+
+
+def moved_pose(given: Step, by: Any) -> list[float]:
+    found = tf2.do_transform_pose_stamped(geometry("PoseStamped", pose=pose(given)), by).pose
+    assert tf2.do_transform_pose(pose(given), by) == found
+    return numbers_of(found)
+
+
+def moved_pose_with_covariance(given: Step, by: Any) -> list[float]:
+    message = geometry("PoseWithCovarianceStamped")
+    message.pose.pose = pose(given)
+    message.pose.covariance = given["cov"]
+    found = tf2.do_transform_pose_with_covariance_stamped(message, by).pose
+    return [*numbers_of(found.pose), *found.covariance]
+
+
+def moved_wrench(given: Step, by: Any) -> list[float]:
+    wrench = geometry("Wrench", force=vector(given["force"]), torque=vector(given["torque"]))
+    found = tf2.do_transform_wrench_stamped(geometry("WrenchStamped", wrench=wrench), by).wrench
+    return [*xyz(found.force), *xyz(found.torque)]
+
+
+def moved_polygon(given: Step, by: Any) -> list[float]:
+    message = geometry("PolygonStamped")
+    message.polygon.points = [vector(point, "Point32") for point in given["points"]]
+    points = tf2.do_transform_polygon_stamped(message, by).polygon.points
+    return [number for point in points for number in xyz(point)]
+
+
+def moved_cloud(given: Step, by: Any) -> list[float]:
+    data = tf2.do_transform_cloud(cloud(given["points"]), by).data.tobytes()
+    return [float(number) for number in np.frombuffer(data, dtype="<f8")]
+
+
+def moved_quaternion(given: Step, by: Any) -> list[float]:
+    turn = values.pack_transform(by).transform.rotation
+    return [*quaternions.multiply(turn, tuple(given["q"]))]
+
+
+MOVE: dict[str, Callable[[Step, Any], list[float]]] = {
+    "point": moved_point,
+    "vector": moved_vector,
+    "pose": moved_pose,
+    "pose_with_covariance": moved_pose_with_covariance,
+    "wrench": moved_wrench,
+    "polygon": moved_polygon,
+    "points": moved_cloud,
+    # A pose by another name.
+    "transform": moved_pose,
+    "quaternion": moved_quaternion,
 }
 
-HEADERS: dict[str, Any] = {
-    "point_header": Point(0.0, 0.0, 0.0),
-    "points_header": Cloud(np.zeros((1, 3))),
+HEADERS: dict[str, Callable[[Step, Any], Any]] = {
+    "point_header": lambda given, by: tf2.do_transform_point(
+        headed(geometry("PointStamped"), given), by
+    ),
+    "points_header": lambda given, by: tf2.do_transform_cloud(
+        headed(cloud([[0.0, 0.0, 0.0]]), given), by
+    ),
 }
+
+ORDER = ("xyz", "q", "cov", "force", "torque", "points")
+"""The fields of a datum, in the order in which its numbers are compared."""
+
+
+def flat(wanted: Step) -> list[float]:
+    return [float(x) for key in ORDER if key in wanted for x in np.ravel(wanted[key])]
 
 
 def run(case: Step) -> None:
     said = case["transform"]
-    transform = TransformStamped(said["stamp"], said["parent"], said["child"], pose(said))
+    by = geometry(
+        "TransformStamped",
+        child_frame_id=said["child"],
+        transform=geometry(
+            "Transform", translation=vector(said["xyz"]), rotation=quaternion(said["q"])
+        ),
+    )
+    headed(by, {"frame": said["parent"], "stamp": said["stamp"]})
+    before = str(by)
     for step in case["steps"]:
-        if step["op"] not in BUILD and step["op"] not in HEADERS:
+        if step["op"] not in MOVE and step["op"] not in HEADERS:
             raise Unknown(f"operation {step['op']}")
         fields(step, "input", "want", "up_to_sign")
         given, want = step["input"], step["want"]
         if step["op"] in HEADERS:
-            moved = do_transform(
-                Stamped(given["stamp"], given["frame"], HEADERS[step["op"]]), transform
+            header = HEADERS[step["op"]](given, by).header
+            assert (header.frame_id, values.stamp_of(header.stamp)) == (
+                want["frame"],
+                want["stamp"],
             )
-            assert (moved.frame_id, moved.stamp) == (want["frame"], want["stamp"])
             continue
-        datum = BUILD[step["op"]](given)
-        before = flat(datum)
-        found = flat(do_transform(Stamped(0, said["child"], datum), transform).datum)
-        wanted = flat(BUILD[step["op"]](want))
+        found, wanted = MOVE[step["op"]](given, by), flat(want)
         assert close(found, wanted) or (step.get("up_to_sign") and close(found, negated(wanted))), (
             step
         )
-        assert flat(datum) == before
+        assert str(by) == before

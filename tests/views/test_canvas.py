@@ -10,7 +10,16 @@ from rich.console import Console
 
 from tftool.messages import Color
 from tftool.views import canvas, sprites, theme
-from tftool.views.canvas import EDGE, Canvas, Field, Mark, Picture, Turtle, fit, framed
+from tftool.views.canvas import (
+    EDGE,
+    Canvas,
+    DrawnTurtle,
+    FieldPicture,
+    FieldView,
+    Mark,
+    fit,
+    framed,
+)
 
 PEN = theme.PEN
 CENTRE = EDGE / 2
@@ -71,9 +80,9 @@ def test_the_field_is_square_on_cells_twice_as_high_as_wide(width, height):
 def test_whatever_there_is_every_line_is_exactly_as_wide_as_asked(
     columns, rows, turtles, trail, ascii_only
 ):
-    picture = Picture(
+    picture = FieldPicture(
         turtles=tuple(
-            Turtle(name, x, y, theta if math.isfinite(theta) else 0.0)
+            DrawnTurtle(name, x, y, theta if math.isfinite(theta) else 0.0)
             for name, x, y, theta in turtles
         ),
         strokes=tuple(stroke(*ends) for ends in trail),
@@ -88,7 +97,7 @@ def test_whatever_there_is_every_line_is_exactly_as_wide_as_asked(
 
 
 def test_an_empty_field_is_turtlesims_blue():
-    lines = draw(Picture())
+    lines = draw(FieldPicture())
 
     assert set("".join(words(lines))) == {" "}
     assert style_at(lines, 5, 5).bgcolor.name == "#4556ff"
@@ -99,16 +108,18 @@ def test_an_empty_field_is_turtlesims_blue():
     [(0, "→"), (45, "↗"), (90, "↑"), (135, "↖"), (180, "←"), (-135, "↙"), (-90, "↓"), (-45, "↘")],
 )
 def test_a_small_turtle_is_an_arrow_that_points_where_it_heads(theta, arrow):
-    text = words(draw(Picture(turtles=(Turtle("turtle1", CENTRE, CENTRE, math.radians(theta)),))))
+    text = words(
+        draw(FieldPicture(turtles=(DrawnTurtle("turtle1", CENTRE, CENTRE, math.radians(theta)),)))
+    )
 
     assert text[8][16] == arrow
 
 
 @pytest.mark.parametrize(("theta", "letter"), [*zip(range(0, 360, 45), ">7^F<LvJ", strict=True)])
 def test_without_unicode_the_arrow_is_a_letter(theta, letter):
-    turtle = Turtle("turtle1", CENTRE, CENTRE, math.radians(theta))
+    turtle = DrawnTurtle("turtle1", CENTRE, CENTRE, math.radians(theta))
 
-    text = words(draw(Picture(turtles=(turtle,)), ascii_only=True))
+    text = words(draw(FieldPicture(turtles=(turtle,)), ascii_only=True))
 
     assert text[8][16] == letter
 
@@ -116,7 +127,9 @@ def test_without_unicode_the_arrow_is_a_letter(theta, letter):
 @pytest.mark.parametrize("theta", [0.0, 0.7, 1.6, 2.4, 3.1, -2.2, -1.5, -0.8])
 def test_a_big_turtle_is_drawn_with_its_head_where_it_heads(theta):
     rows = 60
-    lines = Canvas(2 * rows, rows).lines(Picture(turtles=(Turtle("t1", CENTRE, CENTRE, theta),)))
+    lines = Canvas(2 * rows, rows).lines(
+        FieldPicture(turtles=(DrawnTurtle("t1", CENTRE, CENTRE, theta),))
+    )
     head = theme.hexadecimal(theme.of_name("t1"))
 
     cells = [
@@ -134,7 +147,9 @@ def test_a_big_turtle_is_drawn_with_its_head_where_it_heads(theta):
 
 
 def test_up_is_up_and_right_is_right():
-    picture = Picture(turtles=(Turtle("a", 1.0, 10.0, 0.0), Turtle("b", 10.0, 1.0, 0.0)))
+    picture = FieldPicture(
+        turtles=(DrawnTurtle("a", 1.0, 10.0, 0.0), DrawnTurtle("b", 10.0, 1.0, 0.0))
+    )
 
     text = words(draw(picture, ascii_only=True))
 
@@ -144,7 +159,9 @@ def test_up_is_up_and_right_is_right():
 
 def test_the_edges_of_the_field_are_inside():
     corners = [(0.0, 0.0), (EDGE, 0.0), (0.0, EDGE), (EDGE, EDGE)]
-    picture = Picture(turtles=tuple(Turtle(f"t{n}", x, y, 0.0) for n, (x, y) in enumerate(corners)))
+    picture = FieldPicture(
+        turtles=tuple(DrawnTurtle(f"t{n}", x, y, 0.0) for n, (x, y) in enumerate(corners))
+    )
 
     text = words(draw(picture, rows=10, ascii_only=True))
 
@@ -152,16 +169,16 @@ def test_the_edges_of_the_field_are_inside():
 
 
 def test_a_turtle_that_is_nowhere_is_left_out():
-    nowhere = (Turtle("a", math.nan, 1.0, 0.0), Turtle("b", 1e30, 1.0, 0.0))
+    nowhere = (DrawnTurtle("a", math.nan, 1.0, 0.0), DrawnTurtle("b", 1e30, 1.0, 0.0))
 
-    assert words(draw(Picture(turtles=nowhere))) == words(draw(Picture()))
+    assert words(draw(FieldPicture(turtles=nowhere))) == words(draw(FieldPicture()))
 
 
 def test_a_trail_is_continuous_however_the_pen_moved():
     corners = [(1.0, 1.0), (10.0, 9.0), (10.0, 2.0), (2.0, 8.0)]
     strokes = tuple(stroke(*a, *b) for a, b in pairwise(corners))
 
-    cells = dotted(draw(Picture(strokes=strokes)))
+    cells = dotted(draw(FieldPicture(strokes=strokes)))
 
     start = min(cells)
     reached, waiting = {start}, [start]
@@ -179,15 +196,15 @@ def test_a_trail_has_the_colour_of_its_pen():
     red = stroke(1.0, 1.0, 10.0, 1.0, Color(255, 0, 0))
     green = stroke(1.0, 9.0, 10.0, 9.0, Color(0, 255, 0))
 
-    lines = draw(Picture(strokes=(red, green)))
+    lines = draw(FieldPicture(strokes=(red, green)))
 
     rows = {row: style_at(lines, column, row).color.name for column, row in dotted(lines)}
     assert rows == {14: "#ff0000", 3: "#00ff00"}
 
 
 def test_a_wide_pen_draws_a_wide_trail():
-    thin = dotted(draw(Picture(strokes=(stroke(1, 5, 10, 5, width=3),)), rows=50))
-    wide = dotted(draw(Picture(strokes=(stroke(1, 5, 10, 5, width=40),)), rows=50))
+    thin = dotted(draw(FieldPicture(strokes=(stroke(1, 5, 10, 5, width=3),)), rows=50))
+    wide = dotted(draw(FieldPicture(strokes=(stroke(1, 5, 10, 5, width=40),)), rows=50))
 
     assert len({row for _, row in wide}) >= 4
     assert len({row for _, row in thin}) <= 2
@@ -197,7 +214,7 @@ def test_what_lies_outside_of_the_field_is_cut_off():
     through = stroke(-1e12, CENTRE, 1e12, CENTRE)
     beside = stroke(-5.0, 20.0, -1.0, 30.0)
 
-    cells = dotted(draw(Picture(strokes=(through, beside, stroke(0.0, -2.0, 11.0, -2.0)))))
+    cells = dotted(draw(FieldPicture(strokes=(through, beside, stroke(0.0, -2.0, 11.0, -2.0)))))
 
     assert cells == {(column, 8) for column in range(32)}
 
@@ -207,62 +224,64 @@ def test_a_trail_that_grew_looks_as_if_drawn_at_once():
     grown = Canvas(32, 16)
 
     for length in (0, 10, 11, 60, 100):
-        grown.lines(Picture(strokes=strokes[:length]))
+        grown.lines(FieldPicture(strokes=strokes[:length]))
 
-    assert grown.lines(Picture(strokes=strokes)) == draw(Picture(strokes=strokes))
+    assert grown.lines(FieldPicture(strokes=strokes)) == draw(FieldPicture(strokes=strokes))
 
 
 def test_a_trail_whose_beginning_was_forgotten_stays_drawn():
     strokes = tuple(stroke(n, 5.0, n + 1, 5.0) for n in range(10))
     kept = Canvas(32, 16)
-    kept.lines(Picture(strokes=strokes[:6]))
+    kept.lines(FieldPicture(strokes=strokes[:6]))
 
-    lines = kept.lines(Picture(strokes=strokes[4:], forgotten=4))
+    lines = kept.lines(FieldPicture(strokes=strokes[4:], forgotten=4))
 
-    assert dotted(lines) == dotted(draw(Picture(strokes=strokes)))
+    assert dotted(lines) == dotted(draw(FieldPicture(strokes=strokes)))
 
 
 def test_a_wiped_trail_is_gone_and_an_earlier_one_comes_back():
     first, second = stroke(1, 1, 9, 1), stroke(1, 9, 9, 9)
     board = Canvas(32, 16)
-    board.lines(Picture(strokes=(first,)))
+    board.lines(FieldPicture(strokes=(first,)))
 
-    after = dotted(board.lines(Picture(strokes=(second,), wipes=1)))
-    back = dotted(board.lines(Picture(strokes=(first,), wipes=0)))
+    after = dotted(board.lines(FieldPicture(strokes=(second,), wipes=1)))
+    back = dotted(board.lines(FieldPicture(strokes=(first,), wipes=0)))
 
-    assert after == dotted(draw(Picture(strokes=(second,))))
-    assert back == dotted(draw(Picture(strokes=(first,))))
+    assert after == dotted(draw(FieldPicture(strokes=(second,))))
+    assert back == dotted(draw(FieldPicture(strokes=(first,))))
 
 
 def test_going_back_in_time_shortens_the_trail():
     strokes = (stroke(1, 1, 9, 1), stroke(9, 1, 9, 9))
     board = Canvas(32, 16)
-    board.lines(Picture(strokes=strokes))
+    board.lines(FieldPicture(strokes=strokes))
 
-    assert dotted(board.lines(Picture(strokes=strokes[:1]))) == dotted(
-        draw(Picture(strokes=strokes[:1]))
+    assert dotted(board.lines(FieldPicture(strokes=strokes[:1]))) == dotted(
+        draw(FieldPicture(strokes=strokes[:1]))
     )
 
 
 def test_another_background_is_painted_everywhere():
     board = Canvas(8, 4)
-    board.lines(Picture())
+    board.lines(FieldPicture())
 
-    lines = board.lines(Picture(background=Color(1, 2, 3)))
+    lines = board.lines(FieldPicture(background=Color(1, 2, 3)))
 
     assert {segment.style.bgcolor.name for line in lines for segment in line} == {"#010203"}
 
 
 def test_names_stand_beside_turtles_and_do_not_hide_each_other():
-    pair = (Turtle("turtle1", 5.0, 5.0, 0.0), Turtle("turtle2", 5.3, 5.0, 0.0))
+    pair = (DrawnTurtle("turtle1", 5.0, 5.0, 0.0), DrawnTurtle("turtle2", 5.3, 5.0, 0.0))
 
-    text = "\n".join(words(draw(Picture(turtles=pair))))
+    text = "\n".join(words(draw(FieldPicture(turtles=pair))))
 
     assert text.count("turtle1") == text.count("turtle2") == 1
 
 
 def test_a_name_at_the_right_edge_stands_to_the_left():
-    text = words(draw(Picture(turtles=(Turtle("turtle1", 10.8, 5.0, 0.0),)), ascii_only=True))
+    text = words(
+        draw(FieldPicture(turtles=(DrawnTurtle("turtle1", 10.8, 5.0, 0.0),)), ascii_only=True)
+    )
 
     assert text[8].rstrip().endswith(">")
     assert "turtle1" in text[8]
@@ -282,7 +301,7 @@ def test_a_name_at_the_right_edge_stands_to_the_left():
     ],
 )
 def test_no_name_acts_or_breaks_a_line(name):
-    lines = draw(Picture(turtles=(Turtle(name, CENTRE, CENTRE, 0.0),)))
+    lines = draw(FieldPicture(turtles=(DrawnTurtle(name, CENTRE, CENTRE, 0.0),)))
 
     text = "".join(words(lines))
     assert all(sign.isprintable() for sign in text)
@@ -290,7 +309,9 @@ def test_no_name_acts_or_breaks_a_line(name):
 
 
 def test_a_long_name_is_cut_with_an_ellipsis():
-    text = "".join(words(draw(Picture(turtles=(Turtle("long" * 99, CENTRE, CENTRE, 0.0),)))))
+    text = "".join(
+        words(draw(FieldPicture(turtles=(DrawnTurtle("long" * 99, CENTRE, CENTRE, 0.0),))))
+    )
 
     assert "longlongl…" in text
 
@@ -305,7 +326,7 @@ def test_a_long_name_is_cut_with_an_ellipsis():
     ],
 )
 def test_a_wall_that_was_hit_lights_up(side, cells):
-    lines = Canvas(8, 4).lines(Picture(walls=frozenset({side})))
+    lines = Canvas(8, 4).lines(FieldPicture(walls=frozenset({side})))
 
     lit = {
         (column, row)
@@ -317,14 +338,14 @@ def test_a_wall_that_was_hit_lights_up(side, cells):
 
 
 def test_another_frame_is_a_bare_arrow_with_its_name():
-    text = "\n".join(words(draw(Picture(marks=(Mark("carrot1", 3.0, 3.0, math.pi / 2),)))))
+    text = "\n".join(words(draw(FieldPicture(marks=(Mark("carrot1", 3.0, 3.0, math.pi / 2),)))))
 
     assert " ↑ carrot1" in text
 
 
 def test_a_frame_nobody_hears_of_fades_and_is_gone():
     def ink(age):
-        lines = draw(Picture(marks=(Mark("carrot1", 3.0, 3.0, 0.0, age),)))
+        lines = draw(FieldPicture(marks=(Mark("carrot1", 3.0, 3.0, 0.0, age),)))
         row = words(lines)[11]
         return style_at(lines, row.index("→"), 11).color.name if "→" in row else None
 
@@ -334,7 +355,7 @@ def test_a_frame_nobody_hears_of_fades_and_is_gone():
 
 
 def test_the_view_may_be_another_square_of_the_world():
-    picture = Picture(marks=(Mark("m", -3.5, 11.5),), left=-5.0, bottom=3.0, size=10.0)
+    picture = FieldPicture(marks=(Mark("m", -3.5, 11.5),), left=-5.0, bottom=3.0, size=10.0)
 
     text = words(draw(picture, rows=10, ascii_only=True))
 
@@ -342,7 +363,7 @@ def test_the_view_may_be_another_square_of_the_world():
 
 
 def test_a_frame_goes_round_a_field_without_colour():
-    lines = framed(Canvas(4, 2).lines(Picture()))
+    lines = framed(Canvas(4, 2).lines(FieldPicture()))
 
     assert words(lines) == ["┌────┐", "│    │", "│    │", "└────┘"]
     assert words(framed([], ascii_only=True)) == ["++", "++"]
@@ -353,7 +374,7 @@ def test_the_field_is_a_renderable_of_whatever_size_there_is():
         width=30, height=40, file=io.StringIO(), color_system=None, legacy_windows=False
     )
 
-    console.print(Field(Picture(turtles=(Turtle("turtle1", CENTRE, CENTRE, 0.0),))))
+    console.print(FieldView(FieldPicture(turtles=(DrawnTurtle("turtle1", CENTRE, CENTRE, 0.0),))))
 
     lines = console.file.getvalue().splitlines()
     assert len(lines) == 15
@@ -362,15 +383,15 @@ def test_the_field_is_a_renderable_of_whatever_size_there_is():
 
 @pytest.mark.parametrize("rows", [1, 2, 3, 5])
 def test_a_tiny_field_still_shows_its_turtle(rows):
-    turtle = Turtle("turtle1", CENTRE, CENTRE, math.pi / 2)
+    turtle = DrawnTurtle("turtle1", CENTRE, CENTRE, math.pi / 2)
 
-    assert "↑" in "".join(words(draw(Picture(turtles=(turtle,)), rows=rows)))
+    assert "↑" in "".join(words(draw(FieldPicture(turtles=(turtle,)), rows=rows)))
 
 
 def test_with_arrows_asked_for_a_big_turtle_is_one():
-    turtle = Turtle("turtle1", CENTRE, CENTRE, math.pi)
+    turtle = DrawnTurtle("turtle1", CENTRE, CENTRE, math.pi)
 
-    assert "▐←▌" in "".join(words(draw(Picture(turtles=(turtle,)), rows=60, arrows=True)))
+    assert "▐←▌" in "".join(words(draw(FieldPicture(turtles=(turtle,)), rows=60, arrows=True)))
 
 
 def test_the_edge_is_the_simulators_own():

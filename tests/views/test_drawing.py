@@ -232,6 +232,30 @@ def test_svg_tells_the_five_facts_of_every_link_and_when_it_was_recorded():
     ]
 
 
+def test_svg_tells_of_a_static_link_who_broadcasts_it_and_no_rate_nor_age():
+    told = words(svg(snapshot(root("A"), link("B", "A", static=True))))
+
+    assert told[:4] == ["A", "B", "static", "Broadcaster: default_authority"]
+    assert not any(" Hz" in line or " s" in line for line in told[4:])
+
+
+def test_svg_keeps_the_widest_line_of_a_card_inside_whatever_font_is_there():
+    tree = svg(snapshot(root("world"), base(), link("arm_of_the_robot", "base", static=True)))
+
+    kept = [text.text for text in tree.iter(f"{SVG}text") if text.get("textLength")]
+    assert "Most recent transform: 3.0 s" in kept
+    assert "arm_of_the_robot" in kept
+
+
+@pytest.mark.parametrize("many", [2, 30])
+def test_svg_draws_lower_cards_where_all_are_static(many):
+    def height(**facts):
+        links = [link(f"f{number}", "A", **facts) for number in range(many)]
+        return float(svg(snapshot(root("A"), *links)).get("height"))
+
+    assert height(static=True) < height()
+
+
 def test_svg_draws_a_parent_over_its_child_and_joins_them():
     tree = svg(snapshot(root("world"), base()))
 

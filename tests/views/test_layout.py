@@ -3,7 +3,7 @@
 from hypothesis import given
 from hypothesis import strategies as st
 
-from tftool.views.layout import Item, Place, tidy
+from tftool.views.layout import Item, Spot, tidy
 
 GAP = 10.0
 TREE_GAP = 40.0
@@ -14,16 +14,16 @@ def test_a_parent_stands_over_the_middle_of_its_children():
 
     # 20 + gap 10 + 60 wide; the children's middles are 10 and 60, the parent's between.
     assert tidy(items, [0], gap=GAP, tree_gap=TREE_GAP) == [
-        Place(35, 0),
-        Place(10, 1),
-        Place(60, 1),
+        Spot(35, 0),
+        Spot(10, 1),
+        Spot(60, 1),
     ]
 
 
 def test_trees_stand_side_by_side_and_clear_of_each_other():
     items = [Item(20), Item(30)]
 
-    assert tidy(items, [0, 1], gap=GAP, tree_gap=TREE_GAP) == [Place(10, 0), Place(75, 0)]
+    assert tidy(items, [0, 1], gap=GAP, tree_gap=TREE_GAP) == [Spot(10, 0), Spot(75, 0)]
 
 
 def test_small_subtrees_between_large_ones_are_spread_evenly():
@@ -61,7 +61,7 @@ def test_a_chain_of_thousands_does_not_exhaust_the_stack():
 
     places = tidy(items, [0], gap=GAP, tree_gap=TREE_GAP)
 
-    assert places[-1] == Place(5, deep - 1)
+    assert places[-1] == Spot(5, deep - 1)
 
 
 @given(st.data())

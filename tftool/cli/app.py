@@ -3,6 +3,7 @@
 import gc
 import os
 import sys
+from enum import IntEnum
 
 # Nothing slow is imported up here: an interrupt before `main` has begun would be a traceback.
 TYPE_CHECKING = False
@@ -13,6 +14,8 @@ if TYPE_CHECKING:
     from typing import Any
 
     import typer
+
+    from tftool.cli.connection import Providers
 
 # In the order of the help, with what the help says of each: reading that from the commands
 # themselves would import them all. Each is a function of its own name in a module of that name.
@@ -25,10 +28,15 @@ COMMANDS = {
     "follow": "Let FOLLOWER follow LEADER (the tutorial's turtle_following).",
     "monitor": "Show how often and how late transforms arrive (tf2_monitor).",
     "view": "Show the frames in 3-D, in a browser (rviz2 with its TF display).",
+    "doctor": "Say what is wrong with the frames, and what mends it.",
+    "explain": "Say why a lookup refuses: which link, by how much.",
     "session": "Show who shares the session that runs here.",
+    "info": "Show what a recording or robot description holds.",
     "check": "Play scenarios on simulated time and judge what they expect.",
     "run": "Run a node written for ROS 2, unmodified, without ROS (ros2 run).",
     "launch": "Launch what a ROS 2 launch file says, without ROS (ros2 launch).",
+    "ros2": "Ask a session in the words of ROS 2's command line, without ROS.",
+    "help": "Show the list of commands, or the help of one (man).",
 }
 
 # What differs from click's reading of a command line.
@@ -37,29 +45,47 @@ SETTINGS = {
     "static": {"ignore_unknown_options": True},
     # What follows a node's file is the node's own.
     "run": {"allow_interspersed_args": False},
+    # And what follows these words are ROS 2's own options.
+    "ros2": {"allow_interspersed_args": False},
 }
 
-DONE = 0
-FAILED = 1
-WRONG_USAGE = 2
-UNREADABLE = 3
-NO_TRANSFORM = 4
-INTERRUPTED = 130
+ALONE = ("check", "help")
+"""Commands that share no session."""
 
 
-def build(words: "Collection[str]" = COMMANDS) -> "typer.Typer":
+class ExitStatus(IntEnum):
+    """How a command ends, for who called it."""
+
+    DONE = 0
+    FAILED = 1
+    """An expectation or a node failed, or a check found something."""
+    WRONG_USAGE = 2
+    UNREADABLE = 3
+    """The input cannot be read."""
+    NO_TRANSFORM = 4
+    """The transform is not available."""
+    INTERRUPTED = 130
+
+
+def build(
+    words: "Collection[str]" = COMMANDS, providers: "Providers | None" = None
+) -> "typer.Typer":
     """Give the app; what a command needs is imported when it runs.
 
     Args:
         words: What the command line says. A command that is not among them is listed, but
             not described: that takes longer, for all of them, than to start Python twice.
+        providers: Where clocks and links come from; the real ones when None.
     """
     from typing import Annotated
 
     import typer
 
+    from tftool.cli.help import Command, Commands
+
     app = typer.Typer(
         name="tftool",
+        cls=Commands,
         # Help in plain text: rich would cost more than everything else at start-up.
         rich_markup_mode=None,
         pretty_exceptions_enable=False,
@@ -71,13 +97,17 @@ def build(words: "Collection[str]" = COMMANDS) -> "typer.Typer":
     def tftool(
         context: typer.Context,
         version: Annotated[
-            bool, typer.Option("--version", help="Say which version this is, and stop.")
+            bool, typer.Option("--version", "-V", help="Say which version this is, and stop.")
         ] = False,
     ) -> None:
         """TF2 without ROS: learn coordinate frames with two turtles, and ask the same
         tool about a real robot.
 
         Start with 'tftool demo', then 'tftool echo turtle2 turtle1'.
+
+        Exit status: 0 done; 1 an expectation or a node failed, or a check found something;
+        2 wrong usage; 3 the input cannot be read; 4 the transform is not available;
+        130 interrupted.
         """
         if version:
             from tftool import __version__
@@ -88,9 +118,10 @@ def build(words: "Collection[str]" = COMMANDS) -> "typer.Typer":
             sys.stdout.write(context.get_help() + "\n")
 
     for name, summary in COMMANDS.items():
-        command = _load(name) if name in words else _unasked
+        command = _load(name, providers) if name in words else _unasked
         app.command(
             name,
+            cls=Command,
             help=_laid_out(command),
             short_help=summary,
             context_settings=SETTINGS.get(name),
@@ -98,16 +129,14 @@ def build(words: "Collection[str]" = COMMANDS) -> "typer.Typer":
     return app
 
 
-def _load(name: str) -> "Callable[..., Any]":
+def _load(name: str, providers: "Providers | None") -> "Callable[..., Any]":
     """A command with all its options."""
     from importlib import import_module
 
-    from tftool.cli.sharing import shares
+    from tftool.cli.connection import with_connection
 
-    # The module that decides who joins and who hosts has the name already.
-    module = "members" if name == "session" else name
-    command: Callable[..., Any] = getattr(import_module(f"tftool.cli.{module}"), name)
-    return command if name == "check" else shares(command)
+    command: Callable[..., Any] = getattr(import_module(f"tftool.cli.commands.{name}"), name)
+    return command if name in ALONE else with_connection(command, providers)
 
 
 def _unasked() -> None:
@@ -118,7 +147,7 @@ def _build() -> str:
     """Which of the two builds this is: its source is the same."""
     from importlib.util import find_spec
 
-    spec = find_spec("tftool.frames.chains")
+    spec = find_spec("tftool.frames.path")
     source = "" if spec is None else spec.origin or ""
     return "interpreted" if source.endswith(".py") else "compiled"
 
@@ -132,16 +161,17 @@ def _laid_out(command: "Callable[..., Any]") -> str:
     return "\n\n".join(f"\b\n{one}" if one.startswith("tftool ") else one for one in paragraphs)
 
 
-def main(argv: "Sequence[str] | None" = None) -> int:
+def main(argv: "Sequence[str] | None" = None, providers: "Providers | None" = None) -> int:
     """Run the command and give its exit status; never raises for what a user did.
 
     Args:
         argv: The words after `tftool`; those of the process when None.
+        providers: Where clocks and links come from; the real ones when None.
 
     Returns:
-        0 done; 1 an expectation or a node failed; 2 wrong usage; 3 the input cannot
-        be read; 4 the transform is not available; 130 interrupted.
+        An `ExitStatus`, or the status of the program that `tftool run` ran.
     """
+    status: int
     try:
         if argv is None:
             # Nothing that is made while starting is garbage; looking for it takes a tenth of
@@ -150,21 +180,28 @@ def main(argv: "Sequence[str] | None" = None) -> int:
             _leave_on_signals()
             argv = sys.argv[1:]
         _prepare_output()
-        status = _run(list(argv))
+        status = _run(list(argv), providers)
         sys.stdout.flush()
-    except KeyboardInterrupt:
-        status = INTERRUPTED
+    except KeyboardInterrupt as interrupt:
+        if interrupt.__cause__ is not None:
+            # A node failed on the way out: that is said, and the run was interrupted all the same.
+            _complain("tftool", str(interrupt.__cause__))
+        status = ExitStatus.INTERRUPTED
     except BrokenPipeError:
         # The reader has seen enough (`| head -1`): that is no failure. What is still
         # buffered would be written at exit, so it goes nowhere.
         _forget_output()
-        status = DONE
+        status = ExitStatus.DONE
     except OSError as error:
-        # Whoever opens a file answers for it; what is left is mostly stdout on a full disk.
+        if isinstance(error, TimeoutError) and error.errno is None:
+            # asyncio's own: an OSError by its family alone, and no output has gone wrong.
+            _complain("tftool", f"{error or 'Something did not answer in time'}.")
+            return ExitStatus.FAILED
+        # Who opens a file answers for it; what is left is mostly stdout on a full disk.
         _forget_output()
         what = error.filename or "the output cannot be written"
         _complain("tftool", f"{what}: {error.strerror or error}.")
-        status = UNREADABLE
+        status = ExitStatus.UNREADABLE
     return status
 
 
@@ -172,7 +209,7 @@ def _prepare_output() -> None:
     """See to it that there is a stdout and a stderr, and that they take any text."""
     for name in ("stdout", "stderr"):
         stream = getattr(sys, name)
-        if stream is None:  # closed by whoever started us
+        if stream is None:  # closed by what started us
             setattr(sys, name, open(os.devnull, "w", encoding="utf-8"))  # noqa: SIM115
         elif hasattr(stream, "reconfigure"):
             # A name that the terminal cannot show is shown as an escape, not as an error.
@@ -198,14 +235,14 @@ def _leave_on_signals() -> None:
     import signal
 
     def leave(_number: int, _frame: "FrameType | None") -> None:
-        os._exit(INTERRUPTED)
+        os._exit(ExitStatus.INTERRUPTED)
 
     if sys.platform != "win32":
         for number in (signal.SIGINT, signal.SIGTERM):
             signal.signal(number, leave)
 
 
-def _run(argv: list[str]) -> int:
+def _run(argv: list[str], providers: "Providers | None") -> int:
     from typing import cast
 
     import typer
@@ -217,30 +254,30 @@ def _run(argv: list[str]) -> int:
     # exports, so that either kind is caught.
     wrong_usage = cast(type[Exception], typer.BadParameter.__mro__[1])
     try:
-        command = get_command(build(argv))
+        command = get_command(build(argv, providers))
         with command.make_context("tftool", argv) as context:
             gc.enable()
             result = command.invoke(context)
     except typer.Exit as done:
         return done.exit_code
     except typer.Abort:
-        return INTERRUPTED
+        return ExitStatus.INTERRUPTED
     except wrong_usage as error:
         _complain(*_usage_sentence(error))
-        return WRONG_USAGE
+        return ExitStatus.WRONG_USAGE
     except UsageError as error:
         _complain("tftool", str(error))
-        return WRONG_USAGE
+        return ExitStatus.WRONG_USAGE
     except InputError as error:
         _complain("tftool", str(error))
-        return UNREADABLE
+        return ExitStatus.UNREADABLE
     except TransformException as error:
         _complain("tftool", str(error))
-        return NO_TRANSFORM
+        return ExitStatus.NO_TRANSFORM
     except TftoolError as error:
         _complain("tftool", str(error))
-        return FAILED
-    return result if isinstance(result, int) else DONE
+        return ExitStatus.FAILED
+    return result if isinstance(result, int) else ExitStatus.DONE
 
 
 PLAINLY = (
@@ -248,7 +285,6 @@ PLAINLY = (
     (r"is not a valid float( range)?\b", "is not a number"),
     (r"is not in the range (\S+)<=x<=(\S+?)\.?$", r"is not between \1 and \2."),
     (r"is not in the range x>=(\S+?)\.?$", r"is less than \1."),
-    (r" \(Possible options: (.*)\)$", r". Did you mean \1?"),
     (r"(?<![.?])$", "."),
 )
 """What click says in a programmer's words, and what we say instead."""
@@ -260,6 +296,12 @@ def _usage_sentence(error: "Any") -> tuple[str, str]:
     import re
 
     sentence = error.format_message()
+    near = [one for one in getattr(error, "possibilities", None) or () if "help" not in one]
+    if hasattr(error, "possibilities"):
+        sentence = error.message
+    if near:
+        # click sorts them by the alphabet; here the nearest comes first.
+        sentence = f"{error.message.rstrip('.')}. Did you mean {' or '.join(near)}?"
     for pattern, words in PLAINLY:
         sentence = re.sub(pattern, words, sentence)
     return command, f"{sentence} Try '{command} --help'."

@@ -1,6 +1,5 @@
 """What `tftool monitor` does while it runs: listen, ask how old answers are, report."""
 
-import asyncio
 import json
 import sys
 from collections.abc import Callable
@@ -9,12 +8,13 @@ from enum import Enum, auto
 from rich.console import Console
 from rich.live import Live
 
-from tftool.cli.echoing import Echo, Printer, Question
 from tftool.cli.notices import notice
+from tftool.cli.waiting import FramePair, Waiter
 from tftool.errors import TransformException
 from tftool.frames.sample import TransformStamped
 from tftool.frames.traffic import NetDelay, Traffic
 from tftool.runtime.clock import Phase
+from tftool.runtime.supervisor import beside
 from tftool.runtime.world import TransformMessage, World
 from tftool.stamps import Duration, as_seconds, seconds
 from tftool.views import monitor as view
@@ -67,28 +67,27 @@ class Monitor:
             await self._find_chain(*self.frames, patience=duration)
         began = clock.now()
         end = None if duration is None else began + duration
+        # A node that holds up the loop would keep this from ever being over.
+        clock.limit(end)
         stops = [
-            self.world.tf.subscribe(lambda message: self._hear(message, False)),
-            self.world.tf_static.subscribe(lambda message: self._hear(message, True)),
+            self.world.tf.subscribe(lambda message: self._hear(message, False), "monitor"),
+            self.world.tf_static.subscribe(lambda message: self._hear(message, True), "monitor"),
         ]
         self._hear_statics()
         self._announce()
         console = Console()
-        asking = asyncio.ensure_future(self._ask())
         try:
             if self.style is Style.TABLE:
                 with Live(console=console, auto_refresh=False) as live:
-                    await self._report_until(
-                        end,
-                        lambda: live.update(
-                            view.table(clock.now(), began, self.traffic, self.chain), refresh=True
-                        ),
-                    )
+
+                    def show() -> None:
+                        picture = view.table(clock.now(), began, self.traffic, self.chain)
+                        live.update(picture, refresh=True)
+
+                    await beside(self._report_until(end, show), self._ask())
             else:
-                await self._report_until(end, self._write)
+                await beside(self._report_until(end, self._write), self._ask())
         finally:
-            asking.cancel()
-            await asyncio.gather(asking, return_exceptions=True)
             for stop in stops:
                 stop()
 
@@ -104,16 +103,9 @@ class Monitor:
 
     async def _find_chain(self, target: str, source: str, patience: Duration | None) -> None:
         """Wait until the two frames are connected, as tf2_monitor does."""
-        question = Question(target, source)
-        waiting = Echo(
-            self.world,
-            question,
-            Printer(),
-            period=ASK_EVERY,
-            patience=patience,
-            advice="--for SECONDS ends the wait.",
-        )
-        await waiting.wait()
+        advice = "--for SECONDS ends the wait."
+        pair = FramePair(target, source)
+        await Waiter(self.world, pair, patience=patience, advice=advice).wait()
         frames = tuple(self.world.buffer.chain(target, source)) or (target,)
         self.chain = view.Chain(target, source, frames, NetDelay())
 
@@ -138,7 +130,7 @@ class Monitor:
         )
 
     def _hear_statics(self) -> None:
-        """Take in what was published before anybody listened, as a late listener gets it."""
+        """Take in what was published before, as a late subscriber gets it."""
         now = self.world.clock.now()
         for info in self.world.buffer.snapshot(now).frames:
             if info.is_static and info.parent is not None and info.transform is not None:

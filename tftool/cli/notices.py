@@ -1,12 +1,23 @@
-"""What a command says beside its results: on stderr, a sentence at a time."""
+"""What a command says beside its results, and the log of its world: on stderr."""
 
+import os
 import sys
+from collections.abc import Mapping
 from typing import TYPE_CHECKING
 
-from tftool.views.escaping import visible
+from tftool.views.escaping import visible, visible_lines
 
 if TYPE_CHECKING:
     from tftool.runtime.log import LogRecord
+
+_COLORS = {"DEBUG": 32, "WARN": 33, "ERROR": 31, "FATAL": 31}
+"""ROS 2's: green, yellow, red; INFO keeps the terminal's own."""
+
+
+def notice(sentence: str) -> None:
+    """Tell the user something that is no result."""
+    sys.stderr.write(sentence + "\n")
+    sys.stderr.flush()
 
 
 def is_news(record: "LogRecord") -> bool:
@@ -20,7 +31,23 @@ def tell_news(record: "LogRecord") -> None:
         notice(visible(record.text))
 
 
-def notice(sentence: str) -> None:
-    """Tell the user something that is no result."""
-    sys.stderr.write(sentence + "\n")
-    sys.stderr.flush()
+def tell_record(record: "LogRecord", *, label: str = "") -> None:
+    """Show a line of the world's log, as ROS 2's console does.
+
+    Args:
+        record: The line.
+        label: The program it comes from, where there are several.
+    """
+    line = visible_lines(str(record).rstrip())
+    color = _COLORS.get(record.level)
+    if color is not None and wants_color(os.environ, is_terminal=sys.stderr.isatty()):
+        line = f"\033[{color}m{line}\033[0m"
+    notice(f"[{label}] {line}" if label else line)
+
+
+def wants_color(environment: Mapping[str, str], *, is_terminal: bool) -> bool:
+    """Whether lines are to be coloured; ROS 2's own variable decides before all others."""
+    asked = environment.get("RCUTILS_COLORIZED_OUTPUT", "")
+    if asked in ("0", "1"):
+        return asked == "1"
+    return is_terminal and not environment.get("NO_COLOR") and environment.get("TERM") != "dumb"

@@ -3,9 +3,7 @@
 import os
 import sys
 from collections.abc import Callable, Coroutine
-from typing import TYPE_CHECKING, Annotated, Any
-
-import typer
+from typing import TYPE_CHECKING, Any
 
 from tftool.errors import UsageError
 from tftool.stamps import seconds
@@ -17,20 +15,12 @@ if TYPE_CHECKING:
     from tftool.screens.scene import Scene
     from tftool.screens.setting import Setting
 
-Ascii = Annotated[
-    bool, typer.Option("--ascii", help="Draw with plain characters, for fonts that have no others.")
-]
-Light = Annotated[
-    bool, typer.Option("--light", help="For a terminal with a light ground; m changes it.")
-]
-
-
 SETTLED = seconds(1)
 """When a screen knows which turtles there are."""
 
 
 def has_terminal() -> bool:
-    """Whether somebody can see a full-screen app and press keys in it."""
+    """Whether a full-screen app can be seen, and take keys."""
     if os.environ.get("TERM") == "dumb":
         return False
     # textual draws on stderr, so that one counts too.

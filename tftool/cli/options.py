@@ -1,18 +1,34 @@
-"""Options that several commands share, and what their numbers may be."""
+"""Options that several commands share, and what their values become.
+
+Every duration and moment on a command line is read as exact decimals and reaches its
+command in whole nanoseconds.
+"""
 
 import math
+import re
 from collections.abc import Callable
+from dataclasses import dataclass
+from decimal import ROUND_HALF_UP, Decimal, InvalidOperation
 from typing import Annotated
 
 import typer
 
 from tftool.errors import UsageError
+from tftool.stamps import NANOSECONDS, Duration, Stamp, as_seconds, seconds
 
 MOST = 9e9
 """The largest number an option takes: as seconds, about what a stamp of 64 bits can hold."""
 
-LONGEST_SIMULATED = 86_400.0
-"""How many seconds of simulated time a command plays: a day, as long as a scenario may last."""
+LONGEST_SIMULATED = seconds(86_400)
+"""How much simulated time a command plays: a day, as long as a scenario may last."""
+
+FIRST_STAMP = 100_000_000
+"""From so many seconds on a moment is a stamp; below, it counts from the beginning."""
+
+_FRACTION = re.compile(r"[.,](\d+)")
+
+
+# Numbers
 
 
 def finite(value: float | None) -> float | None:
@@ -24,12 +40,6 @@ def finite(value: float | None) -> float | None:
     if value is not None and not math.isfinite(value):
         raise typer.BadParameter(f"{value} is not a finite number.")
     return _bounded(value)
-
-
-def _bounded(value: float | None) -> float | None:
-    if value is not None and abs(value) > MOST:
-        raise typer.BadParameter(f"{value:g} is too large: beyond {MOST:g}.")
-    return value
 
 
 def positive(value: float | None) -> float | None:
@@ -54,19 +64,6 @@ def not_negative(value: float | None) -> float | None:
     return _bounded(value)
 
 
-def simulated_seconds(value: float | None) -> None:
-    """Let what can be lived through on simulated time pass.
-
-    Raises:
-        UsageError: If it is more than a day.
-    """
-    if value is not None and value > LONGEST_SIMULATED:
-        raise UsageError(
-            f"--for {value:g} is too long for simulated time, of which a day is played at most: "
-            f"--for {LONGEST_SIMULATED:.0f}"
-        )
-
-
 def within(least: float, most: float) -> Callable[[float | None], float | None]:
     """Make a check that lets numbers from `least` to `most` pass; NaN is not among them."""
 
@@ -78,13 +75,174 @@ def within(least: float, most: float) -> Callable[[float | None], float | None]:
     return check
 
 
+def _bounded(value: float | None) -> float | None:
+    if value is not None and abs(value) > MOST:
+        raise typer.BadParameter(f"{value:g} is too large: beyond {MOST:g}.")
+    return value
+
+
+# Durations
+
+
+def duration(check: Callable[[float | None], float | None]) -> Callable[[str | int], Duration]:
+    """Make a parser of seconds that gives whole nanoseconds.
+
+    Args:
+        check: What number it may be, by its seconds: `positive`, `not_negative`, `finite`.
+    """
+
+    def parse(text: str | int) -> Duration:
+        if isinstance(text, int):
+            return text  # a default, in nanoseconds already
+        try:
+            check(float(text))
+            exact = Decimal(text) * NANOSECONDS
+        except (ValueError, InvalidOperation):
+            raise typer.BadParameter(f"'{text}' is not a number.") from None
+        found = int(exact.to_integral_value(ROUND_HALF_UP))
+        if exact and not found:
+            raise typer.BadParameter(f"{text} is less than a nanosecond.")
+        return found
+
+    return parse
+
+
+def refuse_long_simulation(lasting: Duration | None) -> None:
+    """Refuse more simulated time than a command plays.
+
+    Raises:
+        UsageError: If it is more than a day.
+    """
+    if lasting is not None and lasting > LONGEST_SIMULATED:
+        raise UsageError(
+            f"--for {as_seconds(lasting):g} is too long for simulated time, of which a day is "
+            f"played at most: --for {as_seconds(LONGEST_SIMULATED):.0f}"
+        )
+
+
+# Moments
+
+
+@dataclass(frozen=True, slots=True)
+class At:
+    """A moment as `--at` names it: since the beginning of what is asked, or a stamp.
+
+    Attributes:
+        nanoseconds: How much, in nanoseconds.
+        is_stamp: Whether they count from 1970 (or a recording's own zero), not from the
+            beginning.
+    """
+
+    nanoseconds: int
+    is_stamp: bool = False
+
+    def stamp(self, epoch: Stamp) -> Stamp:
+        """The stamp of it in what began at `epoch`."""
+        return self.nanoseconds if self.is_stamp else epoch + self.nanoseconds
+
+    def __str__(self) -> str:
+        whole, rest = divmod(self.nanoseconds, NANOSECONDS)
+        digits = f"{whole}.{rest:09}".rstrip("0").rstrip(".")
+        return digits if self.is_stamp else f"{digits} s"
+
+
+def moment(text: str) -> At:
+    """Read a moment: seconds since the start; from 10⁸ on, or written as a date, a stamp.
+
+    `12.5` and `+12.5` count from the start (`+` also what is larger); `1663952504.7` is a
+    stamp, and so is `2022-09-23T17:01:44.7Z`; without a time zone it is UTC.
+
+    Raises:
+        typer.BadParameter: If it is neither.
+    """
+    if re.match(r"\d{4}-?\d\d-?\d\d[T ]", text):
+        return _date(text)
+    try:
+        not_negative(float(text))
+        exact = Decimal(text)
+    except (ValueError, InvalidOperation):
+        raise typer.BadParameter(
+            f"'{text}' is no moment: give seconds since the start, such as 12.5, or a stamp, "
+            "such as 1663952504.7 or 2022-09-23T17:01:44.7Z."
+        ) from None
+    found = int((exact * NANOSECONDS).to_integral_value(ROUND_HALF_UP))
+    return At(found, exact >= FIRST_STAMP and not text.startswith("+"))
+
+
+def _date(text: str) -> At:
+    from datetime import UTC, datetime
+
+    # Its own reader drops what is less than a microsecond.
+    fraction = _FRACTION.search(text)
+    try:
+        found = datetime.fromisoformat(_FRACTION.sub("", text, count=1))
+    except ValueError as error:
+        raise typer.BadParameter(f"'{text}' is no date and time: {error}.") from None
+    if found.tzinfo is None:
+        found = found.replace(tzinfo=UTC)
+    whole = round((found - datetime(1970, 1, 1, tzinfo=UTC)).total_seconds()) * NANOSECONDS
+    digits = fraction[1][:9].ljust(9, "0") if fraction else "0"
+    if whole <= 0:
+        raise typer.BadParameter(f"'{text}' lies before 1970.")
+    return At(whole + int(digits), is_stamp=True)
+
+
+# Options
+
+WHEN = "When"
+OUTPUT = "Output"
+"""Headings of the help under which options are listed; "Options" is that of all others."""
+
+From = Annotated[
+    str | None,
+    typer.Argument(
+        metavar="[FROM]",
+        help="Whose frames: a scenario (name or file), a recording (file, folder, glob) or a robot "
+        "description; if not said, the session that runs, else the turtles.",
+        show_default=False,
+    ),
+]
+
+AtOption = Annotated[
+    At | None,
+    typer.Option(
+        "--at",
+        "-t",
+        metavar="MOMENT",
+        rich_help_panel=WHEN,
+        parser=moment,
+        help="Ask about one moment: seconds since the start of FROM, or a stamp (1e8 or more, or "
+        "an ISO date and time).",
+    ),
+]
+
 CacheTime = Annotated[
-    float | None,
+    Duration | None,
     typer.Option(
         metavar="SECONDS",
-        callback=positive,
+        parser=duration(positive),
+        rich_help_panel=WHEN,
         help="How far back the buffer remembers; 10 unless the scenario says otherwise.",
     ),
 ]
 
-ForPrograms = Annotated[bool, typer.Option("--json", help="Print JSON.")]
+RunFor = Annotated[
+    Duration | None,
+    typer.Option(
+        "--for",
+        metavar="SECONDS",
+        parser=duration(positive),
+        rich_help_panel=WHEN,
+        help="Stop after so long.",
+    ),
+]
+
+Json = Annotated[bool, typer.Option("--json", rich_help_panel=OUTPUT, help="Print JSON.")]
+
+Ascii = Annotated[
+    bool, typer.Option("--ascii", help="Draw with plain characters, for fonts that have no others.")
+]
+
+Light = Annotated[
+    bool, typer.Option("--light", help="For a terminal with a light ground; m changes it.")
+]

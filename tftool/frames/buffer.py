@@ -1,35 +1,307 @@
 """The buffer: remembers transforms over time and answers how frames lie to each other."""
 
-from typing import TYPE_CHECKING, Final, Literal
+import struct
+from collections.abc import Callable, Iterable
+from typing import TYPE_CHECKING, Final, Literal, TypeAlias
 
 from tftool.errors import TransformException
-from tftool.frames import export, names, refusals, sweep, velocity
-from tftool.frames.chains import joined
-from tftool.frames.plans import Plan
-from tftool.frames.requests import NEVER, Callback
+from tftool.frames import refusals, snapshot, tree, velocity
+from tftool.frames.history import NEEDS_CHECK, PARENT_CHANGED, STORED, TOO_OLD, Sample
+from tftool.frames.path import Path
+from tftool.frames.requests import NEVER, Callback, Requests
 from tftool.frames.sample import FrameInfo, Snapshot, TransformStamped
-from tftool.frames.store import Store
-from tftool.geometry import quaternions, rigid
+from tftool.frames.solver import Solver
+from tftool.frames.tree import FrameTree
+from tftool.geometry import poses, quaternions, rigid
 from tftool.geometry.rigid import Transform
-from tftool.stamps import Duration, Stamp, whole
+from tftool.listeners import Listeners, Report, listener_text
+from tftool.stamps import Duration, Stamp, seconds, whole
 
 if TYPE_CHECKING:
+    import numpy as np
     import numpy.typing as npt
 
-    from tftool.frames.arrays import TransformArray
+    from tftool.frames.batch.arrays import SampleColumns, TransformArray
+    from tftool.frames.batch.insert import Insertion
 
-__all__ = ["NEVER", "Buffer"]
+__all__ = ["NEVER", "NO_LIMIT", "Buffer"]
 
-_NO_PLANS: dict[str, Plan] = {}
+NO_LIMIT: Final[Duration] = 2**63 - 1
+"""A cache time with which nothing is ever pruned, as for a recording."""
+
+MAX_FRAMES = 16_384
+"""How many names a buffer takes unless `max_frames` says otherwise."""
+
+Listener: TypeAlias = Callable[[TransformStamped, bool, str], object]
+"""Is called with each accepted sample, whether it is static, and its authority."""
+
+# A memory shorter than this was hardly meant to be so many nanoseconds.
+_LIKELY_SECONDS: Final = 1_000_000
+
+# What a sample may raise that is none, is of a frame not known yet, or whose stamp is too long.
+_NOT_PLAIN: Final = (KeyError, TypeError, ValueError, AttributeError, struct.error)
+
+_NO_PATHS: dict[str, Path] = {}
 _new: Final = tuple.__new__
+_joined: Final = tuple.__add__
 
 
-class Buffer(Store):
+class Buffer:
     """Named frames over time, as tf2 keeps them.
 
     It knows no clock and waits for nothing: time comes in with the samples and with
     the questions, in nanoseconds, and 0 in a question means the latest.
+
+    Threads: a buffer belongs to one thread, as a rule the event loop's, and that one alone
+    sets, clears, listens, requests and asks for single transforms or snapshots. Meanwhile any
+    other thread may ask for many: `lookup_transforms`, `lookup_transforms_full` and `samples`
+    copy what they need of each link in one piece, and then compute on their copy. They see
+    each link as it was at some moment during the call. `clear`, and a child that changes
+    between static and moving, are no different from other changes.
     """
+
+    def __init__(
+        self,
+        cache_time: Duration = seconds(10),
+        *,
+        log: refusals.Log | None = None,
+        max_frames: int = MAX_FRAMES,
+        report: Report | None = None,
+    ) -> None:
+        """Make an empty buffer.
+
+        Args:
+            cache_time: How far each moving link remembers back from its newest sample;
+                NO_LIMIT for a buffer that prunes nothing.
+            log: Is called when a sample is refused: level ("WARN", "ERROR") and sentence.
+                Without one, Python's own `logging` is.
+            max_frames: How many names it takes, as names come from outside.
+            report: Takes what a listener or the callback of a request raises, and the name of
+                its owner; without one, that is an error in the log.
+
+        Raises:
+            TypeError: If `cache_time` is not a whole number.
+            ValueError: If `cache_time` is negative.
+        """
+        cache_time = whole(cache_time)
+        if cache_time < 0:
+            raise ValueError(f"cache_time must not be negative, but is {cache_time} ns")
+        self.cache_time = cache_time
+        self.max_frames = max_frames
+        self._log = log or refusals.log_to_logging
+        if 0 < cache_time < _LIKELY_SECONDS:
+            self._log("WARN", refusals.short_cache(cache_time))
+        self._tree = FrameTree(cache_time)
+        self._moving = self._tree.moving
+        self._solver = Solver(self._tree, cache_time)
+        self._requests = Requests(self._solver.examine)
+        self._pending = self._requests.pending
+        self._report = report or self._log_failure
+        self._listeners: Listeners[TransformStamped, bool, str] = Listeners(self._report)
+
+    # Setting
+
+    def set_transform(self, transform: TransformStamped, authority: str = "") -> bool:
+        """Remember a sample of a link that moves.
+
+        Args:
+            transform: The pose of a child in its parent. One leading slash is taken off
+                either name; any finite quaternion but zero is scaled to length one.
+            authority: Who sent it.
+
+        Returns:
+            Whether it was taken. If not, the log was told why, and nothing is lost.
+
+        Raises:
+            TypeError: If the stamp is not a whole number.
+        """
+        try:
+            stamp, parent, child, pose = transform
+            frame, history = self._moving[child]
+            outcome = NEEDS_CHECK
+            if parent == frame.parent_name and authority == frame.authority:
+                # (*translation, *rotation) would take a tenth longer.
+                numbers = _joined(pose.translation, pose.rotation)
+                outcome = history.insert(stamp, frame.origin, numbers)
+        except _NOT_PLAIN:
+            return self._set_slowly(transform, authority, False)
+        if outcome != STORED:
+            if outcome == NEEDS_CHECK:
+                return self._set_slowly(transform, authority, False)
+            if outcome == TOO_OLD:
+                self._log("WARN", refusals.old_data(child, stamp, authority))
+                return False
+            if outcome == PARENT_CHANGED:
+                self._solver.drop_paths()
+        if self._listeners.registered:
+            kept = TransformStamped(stamp, parent, child, rigid.canonical(pose))
+            self._tell((kept,), False, authority, (child,))
+        elif self._pending:
+            self._tell((), False, authority, (child,))
+        return True
+
+    def set_transform_static(self, transform: TransformStamped, authority: str = "") -> bool:
+        """Set a link that holds at all times; it takes the place of all the child had before.
+
+        Returns:
+            Whether it was taken. If not, the log was told why, and nothing is lost.
+
+        Raises:
+            TypeError: If the stamp is not a whole number.
+        """
+        return self._set_slowly(transform, authority, True)
+
+    def _set_slowly(self, transform: TransformStamped, authority: str, static: bool) -> bool:
+        """Set what is new, unusual or static: every check, each with its own line in the log."""
+        stamp, parent, child, pose = _parts(transform)
+        stamp = whole(stamp)
+        parent, child = tree.stripped(parent), tree.stripped(child)
+        rotation = quaternions.canonical(quaternions.unit(pose.rotation))
+        errors = refusals.objections(child, parent, stamp, pose.translation, rotation, authority)
+        trees = self._tree
+        if not errors and not trees.has_room(child, parent, self.max_frames):
+            errors = [refusals.too_many_frames(child, authority, len(trees.frames))]
+        if errors:
+            for error in errors:
+                self._log("ERROR", error)
+            return False
+
+        known = len(trees.frames)
+        frame, link, fresh = trees.hang(child, parent, static)
+        sample = (*pose.translation, *rotation)
+        origin = trees.origin(parent, authority)
+        outcome = link.insert(stamp, origin, sample, True)
+        # A name that comes up is news even if the sample is refused; a parent that was
+        # known is none, or each new child would wake every request below its parent.
+        named = [new.name for new in trees.frames[known:]]
+        if outcome == TOO_OLD:
+            self._log("WARN", refusals.old_data(child, stamp, authority))
+            self._tell((), static, authority, named)
+            return False
+        frame.note(parent, authority, origin)
+        if fresh or outcome == PARENT_CHANGED:
+            self._solver.drop_paths()
+        if self._listeners.registered or self._pending:
+            kept = _stamped(parent, child, stamp, sample)
+            self._tell((kept,), static, authority, (child, *named))
+        return True
+
+    def _tell(
+        self,
+        samples: Iterable[TransformStamped],
+        static: bool,
+        authority: str,
+        changed: Iterable[str],
+    ) -> None:
+        """Call the listeners, then answer the requests that wait for one of these frames."""
+        for sample in samples:
+            self._listeners.call(sample, static, authority)
+        if self._pending:
+            for failure in self._requests.changed(*changed):
+                self._report("", failure)
+
+    def _log_failure(self, owner: str, failure: Exception) -> None:
+        self._log("ERROR", listener_text(owner, failure))
+
+    def set_transforms(
+        self,
+        parent: str,
+        child: str,
+        stamps: "npt.ArrayLike",
+        translations: "npt.ArrayLike",
+        rotations: "npt.ArrayLike",
+        authority: str = "",
+    ) -> "Insertion":
+        """Remember many samples of one link that moves, as if set one by one in their order.
+
+        Listeners are called with each of them, and pending requests are tried again, once all
+        are in.
+
+        Args:
+            parent: The frame the poses are given in.
+            child: The frame whose poses they are.
+            stamps: Whole nanoseconds, shape (n,), in any order.
+            translations: Metres, shape (n, 3).
+            rotations: Quaternions in xyzw order, shape (n, 4); any finite one but zero.
+            authority: Who sent them.
+
+        Returns:
+            Which rows were taken, and why the others were not; true if all were. The log
+            has the first ten.
+
+        Raises:
+            TypeError: If the stamps are no whole numbers.
+            ValueError: If a shape does not fit.
+        """
+        from tftool.frames.batch import insert
+
+        known = len(self._tree.frames)
+        link = (parent, child, authority)
+        report, rows = insert.insert(
+            self._tree, self._log, self.max_frames, link, stamps, translations, rotations
+        )
+        self._solver.drop_paths()
+        if report.accepted.any():
+            parent, child = tree.stripped(parent), tree.stripped(child)
+            taken = (
+                _stamped(parent, child, stamp, sample)
+                for stamp, sample in rows.taken(report.accepted)
+            )
+            grown = len(self._tree.frames) > known
+            news = (child, parent) if grown else (child,)
+            self._tell(taken if self._listeners.registered else (), False, authority, news)
+        return report
+
+    def set_records(
+        self, parent: str, child: str, records: "npt.NDArray[np.int64]", authority: str = ""
+    ) -> "Insertion | None":
+        """As `set_transforms`, of samples that lie in memory as the buffer keeps them.
+
+        Where nothing speaks against it they are not copied: the buffer reads them where they
+        are, and copies them before it inserts or prunes.
+
+        Args:
+            parent: The frame the poses are given in.
+            child: The frame whose poses they are.
+            records: One row a sample, shape (n, 8): nanoseconds, and bit by bit the seven
+                doubles x y z and x y z w.
+            authority: Who sent them.
+
+        Returns:
+            Which rows were taken, and why the others were not; None if all were.
+        """
+        import numpy as np
+
+        from tftool.frames.batch import insert
+
+        link = (parent, child, authority)
+        known = len(self._tree.frames)
+        if not self._listeners.registered and insert.adopt(
+            self._tree, self.max_frames, link, records
+        ):
+            self._solver.drop_paths()
+            named = [frame.name for frame in self._tree.frames[known:]]
+            self._tell((), False, authority, (tree.stripped(child), *named))
+            return None
+        numbers = records.view(np.float64)
+        return self.set_transforms(
+            parent, child, records[:, 0], numbers[:, 1:4], numbers[:, 4:], authority
+        )
+
+    def clear(self) -> None:
+        """Forget all that moves; names, statics and pending requests stay."""
+        for frame in self._tree.frames:
+            if frame.link is not None and not frame.link.is_static:
+                frame.link.clear()
+        self._solver.drop_paths()
+
+    def listen(self, callback: Listener, owner: str = "") -> Callable[[], None]:
+        """Have `callback` called after each accepted sample; call what is returned to stop.
+
+        What it raises is reported under the name of its `owner`; the sample stays, and the
+        code that set it goes on.
+        """
+        return self._listeners.add(callback, owner)
 
     # Looking up
 
@@ -57,14 +329,14 @@ class Buffer(Store):
             time = whole(time)
         pose: Transform | None = None
         try:
-            plan = self._lookups.plans[target_frame][source_frame]
+            path = self._solver.paths[target_frame][source_frame]
         except KeyError:
             pass
         else:
-            moment = time or plan.latest()
-            pose = plan.solve(moment)
+            moment = time or path.latest()
+            pose = path.solve(moment)
         if pose is None:
-            moment, sample = self._lookups.pose(target_frame, source_frame, time)
+            moment, sample = self._solver.pose(target_frame, source_frame, time)
             pose = rigid.transform(sample[:3], sample[3:])
         return _new(TransformStamped, (moment, target_frame, source_frame, pose))
 
@@ -83,21 +355,23 @@ class Buffer(Store):
         Raises:
             TransformException: As `lookup_transform`; frames are always checked, even equal ones.
         """
-        plans = self._lookups.plans
+        paths = self._solver.paths
         if not (
             # Whose names were found good before.
-            source_frame in plans.get(fixed_frame, _NO_PLANS)
-            and fixed_frame in plans.get(target_frame, _NO_PLANS)
+            source_frame in paths.get(fixed_frame, _NO_PATHS)
+            and fixed_frame in paths.get(target_frame, _NO_PATHS)
         ):
             for frame, argument in (
                 (target_frame, "target_frame"),
                 (source_frame, "source_frame"),
                 (fixed_frame, "fixed_frame"),
             ):
-                self._lookups.number(frame, argument, "lookupTransform", target_frame, source_frame)
+                self._solver.number(frame, argument, "lookupTransform", target_frame, source_frame)
         inner = self.lookup_transform(fixed_frame, source_frame, source_time).transform
         stamp, _, _, outer = self.lookup_transform(target_frame, fixed_frame, target_time)
-        found = joined(outer.translation + outer.rotation, inner.translation + inner.rotation)
+        found = poses.compose(
+            (*outer.translation, *outer.rotation), (*inner.translation, *inner.rotation)
+        )
         turn = quaternions.canonical(quaternions.unit(found[3:]))
         pose = rigid.transform(found[:3], turn)
         return _new(TransformStamped, (stamp, target_frame, source_frame, pose))
@@ -126,11 +400,11 @@ class Buffer(Store):
             TypeError: If the times are no whole numbers.
             ValueError: If the shape is another.
         """
-        # The single lookup does without numpy; who asks for many has it.
-        from tftool.frames import bulk
+        # The single lookup does without numpy.
+        from tftool.frames.batch import lookup
 
-        return bulk.lookup_transforms(
-            self._forest, self._lookups, target_frame, source_frame, times, missing, threads
+        return lookup.lookup_transforms(
+            self._tree, self._solver, target_frame, source_frame, times, missing, threads
         )
 
     def lookup_transforms_full(
@@ -153,11 +427,11 @@ class Buffer(Store):
             TypeError: If the times are no whole numbers.
             ValueError: If the shapes do not fit.
         """
-        from tftool.frames import bulk
+        from tftool.frames.batch import lookup
 
-        return bulk.lookup_transforms_full(
-            self._forest,
-            self._lookups,
+        return lookup.lookup_transforms_full(
+            self._tree,
+            self._solver,
             target_frame,
             target_times,
             source_frame,
@@ -173,12 +447,12 @@ class Buffer(Store):
         Raises:
             TransformException: If a name is unknown or invalid, or nothing joins the two.
         """
-        plan = self._lookups.plans.get(target_frame, _NO_PLANS).get(source_frame)
-        if plan is not None:
-            return plan.latest()
+        path = self._solver.paths.get(target_frame, _NO_PATHS).get(source_frame)
+        if path is not None:
+            return path.latest()
         call = "get_latest_common_time"
-        number = self._lookups.number
-        return self._lookups.latest_common(
+        number = self._solver.number
+        return self._solver.latest_common(
             number(target_frame, "target_frame", call, target_frame, source_frame),
             number(source_frame, "source_frame", call, target_frame, source_frame),
         )
@@ -251,10 +525,10 @@ class Buffer(Store):
         """Whether `lookup_transform` would answer; it never raises for a name or a time."""
         if time.__class__ is not int:
             time = whole(time)
-        plan = self._lookups.plans.get(target_frame, _NO_PLANS).get(source_frame)
-        if plan is not None and plan.covers(time or plan.latest()):
+        path = self._solver.paths.get(target_frame, _NO_PATHS).get(source_frame)
+        if path is not None and path.covers(time or path.latest()):
             return True
-        return self._lookups.why_not(target_frame, source_frame, time) is None
+        return self._solver.why_not(target_frame, source_frame, time) is None
 
     def can_transform_full(
         self,
@@ -271,7 +545,7 @@ class Buffer(Store):
 
     def why_not(self, target_frame: str, source_frame: str, time: Stamp = 0) -> str:
         """Why `can_transform` says no, in tf2's words; empty if it says yes."""
-        reason = self._lookups.why_not(target_frame, source_frame, whole(time))
+        reason = self._solver.why_not(target_frame, source_frame, whole(time))
         return "" if reason is None else str(reason)
 
     def why_not_full(
@@ -288,7 +562,7 @@ class Buffer(Store):
             (source_frame, "source_frame"),
             (fixed_frame, "fixed_frame"),
         ):
-            if why := self._lookups.fault(frame):
+            if why := self._solver.fault(frame):
                 return refusals.invalid_frame(frame, argument, why)
         # The other way round than in the lookup, as in tf2.
         return self.why_not(target_frame, fixed_frame, target_time) or self.why_not(
@@ -305,7 +579,7 @@ class Buffer(Store):
         Args:
             callback: Called from inside the set that makes it possible, in the order of the
                 requests: with the handle, and True; or False once that moment is forgotten.
-                What it raises goes where what a listener raises does; see `listen`.
+                What it raises is reported as what a listener raises is; see `listen`.
             target_frame: As in `lookup_transform`.
             source_frame: As in `lookup_transform`.
             time: As in `lookup_transform`; 0 is never forgotten.
@@ -347,24 +621,39 @@ class Buffer(Store):
             now: What the clock reads; ages are told against it.
             at: The moment to show; 0 for each frame at the latest moment of its chain.
         """
-        return sweep.snapshot(self._forest, whole(now), whole(at))
+        return snapshot.snapshot(self._tree, whole(now), whole(at))
+
+    def samples(self, child: str) -> "SampleColumns":
+        """Everything remembered of one frame's link, oldest first, in numpy; a copy.
+
+        Args:
+            child: The frame; of a root, which hangs from nothing, there are no samples.
+
+        Raises:
+            InvalidArgumentException: If the name is empty or starts with a slash.
+            LookupException: If the name never came up.
+        """
+        from tftool.frames.batch import columns
+
+        number = self._solver.number(child, "child", "samples", child, child)
+        return columns.samples(self._tree, self._tree.frames[number])
 
     def frames(self) -> list[str]:
         """Every name that ever came up, in that order; of one sample the child first."""
-        return [frame.name for frame in self._forest.frames]
+        return [frame.name for frame in self._tree.frames]
 
     def frame_exists(self, frame: str) -> bool:
         """Whether a name ever came up; tf2's own NO_PARENT always did."""
-        return frame in self._forest.numbers or frame == names.NO_PARENT_NAME
+        return frame in self._tree.numbers or frame == tree.NO_PARENT_NAME
 
     def parent(self, frame: str, time: Stamp = 0) -> str | None:
-        """What a frame hung from at a moment; None for a root, and where nobody knows."""
-        number = self._forest.numbers.get(frame)
+        """What a frame hung from at a moment; None for a root, and where there is no data."""
+        number = self._tree.numbers.get(frame)
         if number is None:
             return None
-        link = self._forest.frames[number].link
+        link = self._tree.frames[number].link
         above = -1 if link is None else link.parent_at(time)
-        return None if above < 0 else self._forest.frames[above].name
+        return None if above < 0 else self._tree.frames[above].name
 
     def chain(self, target_frame: str, source_frame: str, time: Stamp = 0) -> list[str]:
         """The frames from source to target, both included; empty if they are the same.
@@ -372,19 +661,42 @@ class Buffer(Store):
         Raises:
             TransformException: As `lookup_transform`.
         """
-        return self._lookups.chain(target_frame, source_frame, whole(time))
+        return self._solver.chain(target_frame, source_frame, whole(time))
 
     def all_frames_as_yaml(self, current_time: Stamp = 0) -> str:
-        """tf2's YAML of all frames; see `export.as_yaml`."""
-        return export.as_yaml(self._infos(), current_time)
+        """tf2's YAML of all frames; see `snapshot.as_yaml`."""
+        return snapshot.as_yaml(self._infos(), current_time)
 
     def all_frames_as_string(self) -> str:
-        """tf2's sentences about all frames; see `export.as_string`."""
-        return export.as_string(self._infos())
+        """tf2's sentences about all frames; see `snapshot.as_string`."""
+        return snapshot.as_string(self._infos())
 
     def all_frames_as_dot(self, current_time: Stamp = 0) -> str:
-        """tf2's dot of all frames; see `export.as_dot`."""
-        return export.as_dot(self._infos(), current_time)
+        """tf2's dot of all frames; see `snapshot.as_dot`."""
+        return snapshot.as_dot(self._infos(), current_time)
 
     def _infos(self) -> tuple[FrameInfo, ...]:
-        return self.snapshot(0).frames
+        return snapshot.snapshot(self._tree, 0, 0).frames
+
+
+def _parts(transform: TransformStamped) -> tuple[Stamp, str, str, Transform]:
+    """The four parts of a sample.
+
+    Raises:
+        TypeError: If it is none.
+    """
+    try:
+        stamp, parent, child, pose = transform
+    except (TypeError, ValueError):
+        pose = None
+    if not isinstance(pose, Transform):
+        raise TypeError(
+            "what is set is a TransformStamped(stamp, frame_id, child_frame_id, Transform(…)), "
+            f"not {transform!r:.200}"
+        )
+    return stamp, parent, child, pose
+
+
+def _stamped(target: str, source: str, stamp: Stamp, sample: Sample) -> TransformStamped:
+    x, y, z, qx, qy, qz, qw = sample
+    return TransformStamped(stamp, target, source, rigid.transform((x, y, z), (qx, qy, qz, qw)))

@@ -1,71 +1,378 @@
-"""One link over time: samples come in, in any order, and are forgotten when they are old."""
+"""What joins a child to its parent over time: a link that never changes, and one that moves.
+
+How a moving link's samples lie in memory, which the batch path and `Buffer.samples` read too:
+
+- `records` is one flat array of 64-bit words, oldest sample first, WORDS words for each: its
+  stamp in nanoseconds, then x, y, z and the quaternion's x, y, z, w, doubles bit by bit. One
+  place to look at for a stamp and its pose: long histories do not fit a processor's cache.
+- Records before `start` are pruned, or free: what is pruned is removed in bulk later.
+- An *origin* is a sample's parent and authority in one word: the parent's number in the low 32
+  bits, the authority's above them. As long as all samples have the same origin, `origin` is
+  all there is; from the first other one on, `origins` holds one word for each record.
+- The newest sample, and the newest two once they are asked for, are kept as tuples too, so
+  that most questions touch no array.
+"""
 
 import struct
 from array import array
-from math import inf
-from typing import Any, Final
+from math import inf, nan
+from typing import Any, Final, Literal, TypeAlias
 
-from tftool.frames.links import (
-    KNOWN,
-    NO_PARENT,
-    ODD,
-    RECORD,
-    RESHAPED,
-    STORED,
-    TOO_OLD,
-    WORDS,
-    Sample,
-)
-from tftool.frames.window import Window
-from tftool.geometry import quaternions
+from tftool.geometry import poses, quaternions
 from tftool.stamps import Duration, Stamp
 
-_pack: Final = struct.Struct("q7d").pack
+Sample: TypeAlias = tuple[float, float, float, float, float, float, float]
+"""A pose: x, y, z in metres and a unit quaternion x, y, z, w of tf2's sign."""
 
-# Forgotten samples, and room in front for ones that arrive backwards, take at most
+# Not Final: compiled, a tuple that is takes itself for missing in other modules.
+IDENTITY: Sample = (0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 1.0)
+
+NO_POSE: Sample = (nan, nan, nan, nan, nan, nan, nan)
+"""In place of a pose: none. A tuple of floats like any other, so compiled code need not box it."""
+
+Refusal: TypeAlias = tuple[int, Stamp]
+"""Why a link has no pose at a moment: NO_DATA, FORWARD or BACKWARD, and the stamp it does have."""
+
+Columns: TypeAlias = "tuple[array[int], array[int] | None, int]"
+"""Records, oldest first; an origin for each, or None where there is but one; the newest origin."""
+
+NO_PARENT: Final = -1
+"""In place of a parent's number or an origin: none."""
+
+WORDS: Final = 8
+"""How many 64-bit words a record takes."""
+
+RECORD: Final = 8 * WORDS
+"""How many bytes that is."""
+
+AUTHORITY_SHIFT: Final = 32
+"""Where the authority's number begins in an origin."""
+
+PARENT_MASK: Final = (1 << AUTHORITY_SHIFT) - 1
+"""The bits of an origin that are the parent's number."""
+
+# Why a link has no pose at some moment.
+NO_DATA: Final = 1
+FORWARD: Final = 2
+BACKWARD: Final = 3
+
+# What became of an insert.
+TOO_OLD: Final = 0
+KNOWN: Final = 1
+STORED: Final = 2
+PARENT_CHANGED: Final = 3
+NEEDS_CHECK: Final = 4
+
+_pack: Final = struct.Struct("q7d").pack
+_unpack_pose: Final = struct.Struct("7d").unpack_from
+_unpack_pair: Final = struct.Struct("q7dq7d").unpack_from
+
+# Pruned samples, and room in front for ones that arrive backwards, take at most
 # one part in sixteen, like the room that `array` keeps behind its end.
 _SLACK: Final = 4
 _LEAST_SLACK: Final = 32
 
 # A quaternion whose square lies between these is of length one but for rounding.
-_SHORTEST: Final = 1.0 - 8e-16
-_LONGEST: Final = 1.0 + 8e-16
+SHORTEST: Final = 1.0 - 8e-16
+LONGEST: Final = 1.0 + 8e-16
 
 
-class History(Window):
-    """A link that moves: its samples of the last `limit` nanoseconds, as tf2 keeps them.
+class StaticLink:
+    """A link that holds at all times: one sample, overwritten.
 
-    Forgetting is lazy: only an insert forgets, and before it adds. Among equal stamps
-    the last one inserted is the newest.
+    Attributes:
+        is_static: True.
+        newest: The sample; None before there is one.
+        newest_stamp: 0, as in tf2.
+        oldest_stamp: 0.
+        parent: Number of the parent; NO_PARENT before there is one.
+        origin: The parent's and the authority's number in one word.
+        mixed: False: it has one parent.
     """
 
-    __slots__ = ("_due", "_full", "_limit", "_run")
+    __slots__ = (
+        "is_static",
+        "mixed",
+        "newest",
+        "newest_stamp",
+        "oldest_stamp",
+        "origin",
+        "parent",
+    )
+
+    def __init__(self, newest: Sample | None = None) -> None:
+        self.is_static: Literal[True] = True
+        self.newest: Sample | None = newest
+        self.newest_stamp: Stamp = 0
+        self.oldest_stamp: Stamp = 0
+        self.parent: int = NO_PARENT
+        self.origin: int = NO_PARENT
+        self.mixed: bool = False
+
+    def __len__(self) -> int:
+        return 1
+
+    def at(self, time: Stamp) -> Sample:
+        """The one pose, whatever the moment; NO_POSE before there is one."""
+        return self.newest if self.newest is not None else NO_POSE
+
+    def parent_at(self, time: Stamp) -> int:
+        """The one parent, whatever the moment."""
+        return self.parent
+
+    def insert(self, stamp: Stamp, origin: int, sample: Any, validated: bool = True) -> int:
+        """Put a sample in place of the one that was there; KNOWN or PARENT_CHANGED."""
+        parent = origin & PARENT_MASK
+        known = parent == self.parent and sample == self.newest
+        self.origin = origin
+        self.parent = parent
+        self.newest = sample
+        return KNOWN if known else PARENT_CHANGED
+
+    def items(self) -> list[tuple[Stamp, int, Sample]]:
+        """The one sample, at stamp 0: stamp, parent's number, pose."""
+        return [] if self.newest is None else [(0, self.parent, self.newest)]
+
+
+class History:
+    """A link that moves: its samples of the last `limit` nanoseconds, as tf2 keeps them.
+
+    Pruning is lazy: only an insert prunes, and before it adds. Among equal stamps the last
+    one inserted is the newest.
+
+    Attributes:
+        is_static: False.
+        limit: How far it remembers back from its newest sample.
+        newest_stamp: Stamp of the newest sample; 0 when there is none.
+        oldest_stamp: Stamp of the oldest sample; 0 likewise.
+        newest: The newest sample itself; None when there is none.
+        parent: Number of the newest sample's parent; NO_PARENT when there is none.
+        origin: The newest sample's origin; see the head of this module.
+        origins: One for each record; None while all are the same.
+        mixed: Whether samples with different parents are remembered.
+        records: See the head of this module.
+        start: Number of the first record that is not pruned.
+        period: Nanoseconds from sample to sample, as last measured; where to look is guessed
+            from it.
+    """
+
+    __slots__ = (
+        "_borrowed",
+        "_compact_at",
+        "_newest_pair",
+        "_newest_parent_start",
+        "_prune_after",
+        "is_static",
+        "limit",
+        "mixed",
+        "newest",
+        "newest_stamp",
+        "oldest_stamp",
+        "origin",
+        "origins",
+        "parent",
+        "period",
+        "records",
+        "start",
+    )
 
     def __init__(self, limit: Duration) -> None:
-        super().__init__()
-        self._limit = limit
-        # So many forgotten samples are too many to leave where they are.
-        self._full = _LEAST_SLACK
-        # A newest stamp beyond this means that the oldest sample is to be forgotten.
-        self._due: Stamp = 0
-        # Where the newest samples that share a parent begin; of use while mixed.
-        self._run = 0
+        self.is_static: Literal[False] = False
+        self.limit: Duration = limit
+        self.period: Duration = 1
+        self.clear()
 
-    def insert(self, stamp: Stamp, parent: int, sample: Any, sound: bool = False) -> int:
-        """Forget what is too old by now, then remember a sample.
+    def clear(self) -> None:
+        """Forget everything; afterwards any stamp is taken again."""
+        self.records: array[int] = array("q")
+        self.start: int = 0
+        self.newest_stamp: Stamp = 0
+        self.oldest_stamp: Stamp = 0
+        self.newest: Sample | None = None
+        # The last two samples as they lie in `records`; read when they are first asked for.
+        self._newest_pair: poses.Pair | None = None
+        self.parent: int = NO_PARENT
+        self.origin: int = NO_PARENT
+        self.origins: array[int] | None = None
+        self.mixed: bool = False
+        # Whether the records belong to a recording too, which must not see them change.
+        self._borrowed: bool = False
+        # So many pruned records are too many to leave where they are.
+        self._compact_at: int = _LEAST_SLACK
+        # A newest stamp beyond this means that the oldest sample is to be pruned.
+        self._prune_after: Stamp = 0
+        # Where the newest samples that share a parent begin; of use while mixed.
+        self._newest_parent_start: int = 0
+
+    def __len__(self) -> int:
+        return len(self.records) // WORDS - self.start
+
+    # Asking
+
+    def at(self, time: Stamp) -> Sample:
+        """The pose at that moment (0: the newest), interpolated; NO_POSE if there is none.
+
+        Between two samples with different parents it is the older one, as it is.
+        """
+        newest = self.newest_stamp
+        if not self.oldest_stamp < time < newest:
+            if time == newest or time == 0:
+                return self.newest if self.newest is not None else NO_POSE
+            if time == self.oldest_stamp and self.newest is not None:
+                return self._sample(self.start)
+            return NO_POSE
+        # Most questions fall between the last two: without them at hand, latest and recent
+        # lookups are an eighth slower.
+        pair = self._newest_pair
+        if pair is None:
+            pair = self._newest_pair = _unpack_pair(self.records, RECORD * (self._count() - 2))
+        if time < pair[0]:
+            # Samples come almost periodically: guess first, search if that is wrong.
+            try:
+                guess = self.start + (time - self.oldest_stamp) // self.period
+                pair = _unpack_pair(self.records, RECORD * guess)
+            except struct.error:
+                # Beyond the newest one.
+                pair = _unpack_pair(self.records, RECORD * self.index(time))
+            if not pair[0] <= time < pair[8]:
+                pair = _unpack_pair(self.records, RECORD * self.index(time))
+        if self.mixed and self.parent_changes_after(time):
+            return pair[1:8]
+        before = pair[0]
+        # A quotient of whole numbers: as floats, stamps of today are 256 ns apart.
+        return poses.interpolate(pair, (time - before) / (pair[8] - before))
+
+    def parent_at(self, time: Stamp) -> int:
+        """Number of the parent at that moment: the older neighbour's; NO_PARENT if there is none.
+
+        At 0 it is the newest sample's.
+        """
+        if time == self.newest_stamp or time == 0:
+            return self.parent
+        if self.newest is None or not self.oldest_stamp <= time < self.newest_stamp:
+            return NO_PARENT
+        if not self.mixed:
+            return self.parent
+        return self._parent(self.start if time == self.oldest_stamp else self.index(time))
+
+    def stamp_at(self, time: Stamp) -> Stamp:
+        """Stamp of the sample that answers for that moment, the older of the two."""
+        if time == self.newest_stamp or time == 0:
+            return self.newest_stamp
+        return self._stamp(self.index(time)) if time > self.oldest_stamp else self.oldest_stamp
+
+    def refusal(self, time: Stamp) -> Refusal:
+        """Why there is no pose at that moment, and the stamp nearest to it."""
+        if len(self) <= 1:
+            return NO_DATA, self.newest_stamp
+        if time > self.newest_stamp:
+            return FORWARD, self.newest_stamp
+        return BACKWARD, self.oldest_stamp
+
+    def items(self) -> list[tuple[Stamp, int, Sample]]:
+        """Every sample remembered, newest first: stamp, parent's number, pose."""
+        return [
+            (self._stamp(index), self._parent(index), self._sample(index))
+            for index in range(self._count() - 1, self.start - 1, -1)
+        ]
+
+    def columns(self) -> "Columns":
+        """Records and origins, oldest first: copies; see `Columns`.
+
+        They are of one moment, even if another thread inserts or prunes meanwhile: what
+        was copied is held against what is remembered, and copied again where they differ.
+        """
+        while True:
+            start, newest = self.start, self.newest_stamp
+            origins, origin = self.origins, self.origin
+            records = self.records[WORDS * start :]
+            if origins is not None:
+                origins = origins[start:]
+            if (
+                (origins is None or WORDS * len(origins) == len(records))
+                and (start, newest, origin) == (self.start, self.newest_stamp, self.origin)
+                and (not records or (records[0], records[-WORDS]) == (self.oldest_stamp, newest))
+            ):
+                return records, origins, origin
+
+    def parents(self) -> set[int]:
+        """The number of every parent that a remembered sample has."""
+        if not self.mixed or self.origins is None:
+            return {self.parent} if self.newest is not None else set()
+        return {origin & PARENT_MASK for origin in set(self.origins[self.start :])}
+
+    def parent_changes_after(self, time: Stamp) -> bool:
+        """Whether the two samples that enclose a moment have different parents."""
+        index = self.index(time)
+        return self._parent(index) != self._parent(index + 1)
+
+    def _count(self) -> int:
+        """How many records there are, pruned ones included."""
+        return len(self.records) // WORDS
+
+    def _stamp(self, index: int) -> Stamp:
+        return self.records[WORDS * index]
+
+    def _sample(self, index: int) -> Sample:
+        sample: Sample = _unpack_pose(self.records, RECORD * index + 8)
+        return sample
+
+    def _parent(self, index: int) -> int:
+        return self.parent if self.origins is None else self.origins[index] & PARENT_MASK
+
+    def _after(self, time: Stamp) -> int:
+        """Where the first sample after a moment lies; behind the last one if there is none."""
+        if time < self.oldest_stamp:
+            return self.start
+        if time < self.newest_stamp:
+            return self.index(time) + 1
+        return self._count()
+
+    def index(self, time: Stamp) -> int:
+        """Where the last sample at or before `time` lies; oldest <= time < newest.
+
+        Guess by the mean rate, correct the guess once, and search only when that fails.
+        """
+        records = self.records
+        # The sample at `low` is not later than the moment, the one at `high` is.
+        low, high = self.start, self._count() - 1
+        self.period = period = max(1, (self.newest_stamp - self.oldest_stamp) // (high - low))
+        guess = low + (time - self.oldest_stamp) // period
+        for _ in range(2):
+            guess = min(max(guess, low), high - 1)
+            there = records[WORDS * guess]
+            if there > time:
+                high = guess
+            elif time < records[WORDS * guess + WORDS]:
+                return guess
+            else:
+                low = guess + 1
+            guess += (time - there) // period
+        while high - low > 1:
+            guess = (low + high) >> 1
+            if records[WORDS * guess] <= time:
+                low = guess
+            else:
+                high = guess
+        return low
+
+    # Inserting
+
+    def insert(self, stamp: Stamp, origin: int, sample: Any, validated: bool = False) -> int:
+        """Prune what is too old by now, then remember a sample.
 
         Args:
             stamp: Nanoseconds.
-            parent: Number of the parent.
+            origin: Its parent's and its authority's number in one word.
             sample: Seven floats just as they came, the quaternion not always of length one
                 or of tf2's sign.
-            sound: Whether all that is settled already.
+            validated: Whether stamp and numbers were checked and the quaternion is of length
+                one and of tf2's sign.
 
         Returns:
             TOO_OLD if it lies further back than the limit, KNOWN if that very sample is
-            there, RESHAPED if it changes who the newest parent is or makes the parents
-            mixed, else STORED. ODD, and nothing was done, if the stamp is no `int`, or a
-            number is none.
+            there, PARENT_CHANGED if it changes which parents the link has or had, else STORED.
+            NEEDS_CHECK, and nothing was done, if the stamp is no `int`, or a number is none.
 
         Raises:
             struct.error: If the stamp does not fit 64 bits; nothing was done.
@@ -73,14 +380,14 @@ class History(Window):
         # A `Sample`, which compiled code takes apart here alone: it is kept as it came.
         numbers: Sample = sample
         x, y, z, qx, qy, qz, qw = numbers
-        if not sound:
+        if not validated:
             # NaN is not below anything; nor is a place so far off that it cannot be told from it.
             if not (
                 isinstance(stamp, int)
-                and _SHORTEST < qx * qx + qy * qy + qz * qz + qw * qw < _LONGEST
+                and SHORTEST < qx * qx + qy * qy + qz * qz + qw * qw < LONGEST
                 and x + y + z < inf
             ):
-                return self._insert_odd(stamp, parent, sample)
+                return self._insert_scaled(stamp, origin, sample)
             if qw < -0.5 or (qw <= 0.5 and quaternions.leading(qx, qy, qz, qw) < 0.0):
                 qx *= -1.0
                 qy *= -1.0
@@ -90,197 +397,219 @@ class History(Window):
         newest = self.newest_stamp
         record = _pack(stamp, x, y, z, qx, qy, qz, qw)
         if stamp <= newest:
-            return self._insert_late(stamp, parent, sample, record)
+            return self._insert_late(stamp, origin, sample, record)
         records = self.records
-        if newest > self._due:
-            # As a rule every sample that comes lets one go.
+        if newest > self._prune_after:
+            # As a rule every sample that comes prunes one.
             start = self.start + 1
             oldest = records[WORDS * start]
-            due = oldest + self._limit
-            if newest > due or self.mixed or start >= self._full:
-                self._forget(newest - self._limit)
+            prune_after = oldest + self.limit
+            if newest > prune_after or self.mixed or start >= self._compact_at:
+                self._prune(newest - self.limit)
             else:
                 self.start = start
                 self.oldest_stamp = oldest
-                self._due = due
+                self._prune_after = prune_after
+        if self._borrowed:
+            records = self._own()
         records.frombytes(record)
-        self.previous_stamp = newest
-        self.previous = self.newest
         self.newest_stamp = stamp
         self.newest = sample
-        if parent == self.parent and not self.mixed:
+        self._newest_pair = None
+        if origin == self.origin and self.origins is None:
             return STORED
-        return self._append_parent(parent)
+        return self._append_origin(origin)
 
-    def _insert_odd(self, stamp: Any, parent: int, sample: Any) -> int:
-        """Insert a sample whose quaternion is to be scaled, if nothing else is odd about it."""
+    def _insert_scaled(self, stamp: Any, origin: int, sample: Any) -> int:
+        """Insert a sample whose quaternion is to be scaled, if nothing else is to be checked."""
         x, y, z, qx, qy, qz, qw = sample
         turn = quaternions.canonical(quaternions.unit((qx, qy, qz, qw)))
         if stamp.__class__ is not int or x + y + z != x + y + z or turn[3] != turn[3]:
-            return ODD
-        return self.insert(stamp, parent, (x, y, z, *turn), True)
+            return NEEDS_CHECK
+        return self.insert(stamp, origin, (x, y, z, *turn), True)
 
-    def clear(self) -> None:
-        """Forget everything; afterwards any stamp is taken again."""
-        self.records = array("q")
-        self._parents = None
-        self.start = self._run = 0
-        self._full = _LEAST_SLACK
-        self.newest_stamp = self.oldest_stamp = self.previous_stamp = self._due = 0
-        self.newest = self.previous = None
-        self.parent = NO_PARENT
-        self.mixed = False
-
-    @property
-    def limit(self) -> Duration:
-        """How far it remembers back from its newest sample."""
-        return self._limit
-
-    def extend(self, records: "array[int]", oldest_kept: Stamp) -> None:
-        """Append records, each newer than the one before, and forget those before a stamp.
-
-        They have the parent that all samples have; one there is already, and they reach
-        beyond what is forgotten.
-        """
-        if self.newest_stamp < oldest_kept:
-            self.replace(records, array("i", [self.parent]) * (len(records) // WORDS))
-            return
-        self.records.extend(records)
-        self._note_newest()
-        if self.oldest_stamp < oldest_kept:
-            self._forget(oldest_kept)
-
-    def replace(self, records: "array[int]", parents: "array[int]") -> None:
-        """Remember these instead: not none, oldest first, of equal stamps the newest last."""
-        self.records = records
-        self._full = max(_LEAST_SLACK, len(parents) >> _SLACK)
-        self._begin(0)
-        self._note_newest()
-        self.parent = parents[-1]
-        self.mixed = parents.count(self.parent) != len(parents)
-        self._parents = parents if self.mixed else None
-        self._run = 0
-        if self.mixed:
-            run = len(parents) - 1
-            while parents[run - 1] == self.parent:
-                run -= 1
-            self._run = run
-
-    def _note_newest(self) -> None:
-        """Keep the last two samples at hand."""
-        last = self._count() - 1
-        self.newest_stamp, self.newest = self._stamp(last), self._sample(last)
-        self.previous_stamp, self.previous = 0, None
-        if last > self.start:
-            self.previous_stamp, self.previous = self._stamp(last - 1), self._sample(last - 1)
-
-    def _forget(self, oldest_kept: Stamp) -> None:
-        """Let go of samples before that stamp; the newest is not one of them."""
-        start = self.start + 1
-        if self._stamp(start) < oldest_kept:
-            # Where equal stamps are the oldest, all of them stay.
-            start = self._later(oldest_kept - 1)
-        if self.mixed and start >= self._run:
-            self._parents = None
-            self.mixed = False
-        if start >= self._full:
-            del self.records[: WORDS * start]
-            if self._parents is not None:
-                del self._parents[:start]
-            self._run -= start
-            start = 0
-            self._full = max(_LEAST_SLACK, self._count() >> _SLACK)
-        self._begin(start)
-
-    def _begin(self, start: int) -> None:
-        """Have the window begin at a record."""
-        self.start = start
-        self.oldest_stamp = oldest = self._stamp(start)
-        self._due = oldest + self._limit
-
-    def _append_parent(self, parent: int) -> int:
-        """Note the parent of the sample just appended."""
+    def _append_origin(self, origin: int) -> int:
+        """Note the origin of the sample just appended."""
         count = self._count()
-        parents = self._parents
+        parent = origin & PARENT_MASK
         if self.parent == NO_PARENT:
             self.parent = parent
+            self.origin = origin
             self._begin(0)
-            return RESHAPED
-        if parents is None:
-            parents = self._mix(count - 1)
-        parents.append(parent)
+            return PARENT_CHANGED
+        self._note_origins(count - 1).append(origin)
+        self.origin = origin
         if parent == self.parent:
             return STORED
+        if not self.mixed:
+            self.mixed = True
         self.parent = parent
-        self._run = count - 1
-        return RESHAPED
+        self._newest_parent_start = count - 1
+        return PARENT_CHANGED
 
-    def _mix(self, count: int) -> "array[int]":
-        """Begin to note a parent for each of the first `count` samples."""
-        parents = self._parents = array("i", [self.parent]) * count
-        self.mixed = True
-        self._run = self.start
-        return parents
+    def _note_origins(self, count: int) -> "array[int]":
+        """The origin of each record; begun for the first `count` samples if there was but one."""
+        origins = self.origins
+        if origins is None:
+            origins = self.origins = array("q", [self.origin]) * count
+        return origins
 
-    def _insert_late(self, stamp: Stamp, parent: int, sample: Any, record: bytes) -> int:
+    def _insert_late(self, stamp: Stamp, origin: int, sample: Any, record: bytes) -> int:
         """Insert the first sample, or one that is not newer than all others."""
-        records = self.records
+        records = self._own() if self._borrowed else self.records
         newest = self.newest_stamp
+        parent = origin & PARENT_MASK
         if self.newest is None:
             records.frombytes(record)
             self._begin(0)
             self.newest_stamp = stamp
             self.newest = sample
             self.parent = parent
-            return RESHAPED
-        if newest > self._due:
-            self._forget(newest - self._limit)
-        if stamp < newest - self._limit:
+            self.origin = origin
+            return PARENT_CHANGED
+        if newest > self._prune_after:
+            self._prune(newest - self.limit)
+        if stamp < newest - self.limit:
             return TOO_OLD
-        place = self._later(stamp)
+        place = self._after(stamp)
         behind = place - 1
         while behind >= self.start and records[WORDS * behind] == stamp:
             if self._sample(behind) == sample and self._parent(behind) == parent:
                 return KNOWN
             behind -= 1
 
-        was_mixed = self.mixed
-        if parent != self.parent and not was_mixed:
-            self._mix(self._count())
+        changes = parent != self.parent
+        origins = self.origins
+        if origin != self.origin:
+            origins = self._note_origins(self._count())
+        if changes and not self.mixed:
+            self.mixed = True
+            self._newest_parent_start = self.start
         if place == self.start:
             place = self._make_room_in_front()
             records[WORDS * place : WORDS * (place + 1)] = array("q", record)
-            if self._parents is not None:
-                self._parents[place] = parent
+            if origins is not None:
+                origins[place] = origin
             self._begin(place)
         else:
             records[WORDS * place : WORDS * place] = array("q", record)
-            if self._parents is not None:
-                self._parents.insert(place, parent)
-            if place < self._run:
-                self._run += 1
-        last = len(records) // WORDS - 1
-        if place >= last - 1:
-            self.previous_stamp = self._stamp(last - 1)
-            self.previous = sample if place == last - 1 else self._sample(last - 1)
-        if place == last:
+            if origins is not None:
+                origins.insert(place, origin)
+            if place < self._newest_parent_start:
+                self._newest_parent_start += 1
+        self._newest_pair = None
+        if place == self._count() - 1:
             # Equal to the newest stamp: the one that came last is in front.
             self.newest = sample
-            if parent != self.parent:
+            self.origin = origin
+            if changes:
                 self.parent = parent
-                self._run = place
-                return RESHAPED
-        elif parent != self.parent and (place >= self._run or not was_mixed):
-            self._run = place + 1
-        return RESHAPED if self.mixed != was_mixed else STORED
+                self._newest_parent_start = place
+        elif changes and place >= self._newest_parent_start:
+            self._newest_parent_start = place + 1
+        return PARENT_CHANGED if changes else STORED
 
     def _make_room_in_front(self) -> int:
         """The free place before the oldest sample; samples that arrive backwards go there."""
         if self.start == 0:
             room = max(_LEAST_SLACK, self._count() >> _SLACK)
             self.records[0:0] = array("q", bytes(RECORD * room))
-            if self._parents is not None:
-                self._parents[0:0] = array("i", [self.parent]) * room
+            if self.origins is not None:
+                self.origins[0:0] = array("q", [self.origin]) * room
             self.start = room
-            self._run += room
+            self._newest_parent_start += room
         return self.start - 1
+
+    # Many at once
+
+    def extend(self, records: "array[int]", oldest_kept: Stamp) -> None:
+        """Append records, each newer than the one before, and prune those before a stamp.
+
+        They have the one origin that all samples have; one there is already, and they reach
+        beyond what is pruned.
+        """
+        if self.newest_stamp < oldest_kept:
+            self.replace(records, array("q", [self.origin]) * (len(records) // WORDS))
+            return
+        if self._borrowed:
+            self._own()
+        self.records.extend(records)
+        self._note_newest()
+        if self.oldest_stamp < oldest_kept:
+            self._prune(oldest_kept)
+
+    def replace(self, records: "array[int]", origins: "array[int]") -> None:
+        """Remember these instead: not none, oldest first, of equal stamps the newest last."""
+        self.records = records
+        self._borrowed = False
+        self._compact_at = max(_LEAST_SLACK, len(origins) >> _SLACK)
+        self._begin(0)
+        self._note_newest()
+        self.origin = origins[-1]
+        self.parent = self.origin & PARENT_MASK
+        self.origins = None if origins.count(self.origin) == len(origins) else origins
+        self._newest_parent_start = self._find_newest_parent_start()
+        self.mixed = self._newest_parent_start > 0
+
+    def borrow(self, records: "array[int]", origin: int) -> None:
+        """Remember these instead, each newer than the one before, all of one origin.
+
+        They are copied only when something is inserted or pruned.
+        """
+        self.replace(records, array("q", [origin]))
+        self._compact_at = max(_LEAST_SLACK, self._count() >> _SLACK)
+        self._borrowed = True
+
+    def _own(self) -> "array[int]":
+        """Copy records that were borrowed, before they change."""
+        self.records = self.records[:]
+        self._borrowed = False
+        return self.records
+
+    def _find_newest_parent_start(self) -> int:
+        """Where the newest samples that share a parent begin."""
+        if self.origins is None:
+            return self.start
+        first = self._count() - 1
+        while first > self.start and self._parent(first - 1) == self.parent:
+            first -= 1
+        return first
+
+    def _note_newest(self) -> None:
+        """Keep the newest sample at hand."""
+        last = self._count() - 1
+        self.newest_stamp, self.newest = self._stamp(last), self._sample(last)
+        self._newest_pair = None
+
+    # Pruning
+
+    def _prune(self, oldest_kept: Stamp) -> None:
+        """Let go of samples before that stamp; the newest is not one of them."""
+        if self._borrowed:
+            self._own()
+        start = self.start + 1
+        if self._stamp(start) < oldest_kept:
+            # Where equal stamps are the oldest, all of them stay.
+            start = self._after(oldest_kept - 1)
+        if self.mixed and start >= self._newest_parent_start:
+            self.mixed = False
+        if start >= self._compact_at:
+            del self.records[: WORDS * start]
+            if self.origins is not None:
+                del self.origins[:start]
+                if self.origins.count(self.origin) == len(self.origins):
+                    self.origins = None
+            self._newest_parent_start -= start
+            start = 0
+            self._compact_at = max(_LEAST_SLACK, self._count() >> _SLACK)
+        self._begin(start)
+
+    def _begin(self, start: int) -> None:
+        """Have the samples begin at a record."""
+        self.start = start
+        self.oldest_stamp = oldest = self._stamp(start)
+        self._prune_after = oldest + self.limit
+
+
+Link: TypeAlias = StaticLink | History
+"""What joins a child to its parent."""

@@ -29,7 +29,7 @@ def must_clear(
 class Watch:
     """Watches readings of a clock, and has a buffer cleared when they fall back.
 
-    A buffer knows no clock, so whoever feeds it from a recording or a simulation that may
+    A buffer knows no clock, so code that feeds it from a recording or a simulation that may
     start over shows each new reading here first.
     """
 

@@ -1,6 +1,6 @@
 """What the buffer says when it refuses, in tf2's words."""
 
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Callable, Collection, Iterable
 
 from tftool.errors import (
     BackwardExtrapolationException,
@@ -11,7 +11,7 @@ from tftool.errors import (
     LookupException,
     NoDataForExtrapolationException,
 )
-from tftool.frames.links import BACKWARD, FORWARD, NO_DATA, Refusal
+from tftool.frames.history import BACKWARD, FORWARD, NO_DATA, Refusal
 from tftool.stamps import Duration, Stamp, display
 
 # Stamps are kept in 64 bits.
@@ -19,9 +19,9 @@ _LONGEST = 2**63
 
 
 def unknown(
-    frame: str, argument: str, call: str, known: Iterable[str], *, target: str, source: str
+    frame: str, argument: str, call: str, known: Collection[str], *, target: str, source: str
 ) -> LookupException:
-    """For a name that never came up; `known` is asked only when somebody wants the remedy."""
+    """For a name that never came up; `known` is walked only when the remedy is read."""
     return LookupException(
         f'"{frame}" passed to {call} argument {argument} does not exist. ',
         frame=frame,
@@ -144,7 +144,7 @@ def objections(
         lines.append(no_child(authority))
     if not parent:
         lines.append(no_parent(child, authority))
-    if any(number != number for number in translation + rotation):
+    if any(number != number for number in (*translation, *rotation)):
         lines.append(nan_input(child, authority, translation, rotation))
     if rotation[3] != rotation[3]:
         lines.append(denormalized(child, authority, rotation))
@@ -240,22 +240,16 @@ def short_cache(cache_time: Duration) -> str:
     )
 
 
-def also_failed(failures: Sequence[Exception]) -> str:
-    """Callbacks that failed beside the one whose exception is raised."""
-    first = failures[0]
-    return f"callbacks failed, {len(failures)} more, first {type(first).__name__}: {first}"
-
-
 def _plain(numbers: Iterable[float]) -> str:
     return " ".join(f"{number:f}" for number in numbers)
 
 
 Log = Callable[[str, str], None]
-"""Is told a level ("WARN", "ERROR") and a sentence."""
+"""Takes a level ("WARN", "ERROR") and a sentence."""
 
 
 def log_to_logging(level: str, text: str) -> None:
-    """Where a buffer says why it refused when nobody told it where to."""
+    """Where a buffer says why it refused if it was given no log."""
     # Costs 10 ms at start-up, and most programs never get here.
     import logging
 

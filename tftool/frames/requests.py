@@ -16,36 +16,28 @@ AVAILABLE = 1
 EXPIRED = 2
 
 Callback: TypeAlias = Callable[[int, bool], object]
-"""Is told the handle, and whether the transform is available now or never will be."""
+"""Is called with the handle, and whether the transform is available now or never will be."""
 
-Question: TypeAlias = tuple[str, str, Stamp]
+Lookup: TypeAlias = tuple[str, str, Stamp]
 """Target, source and time."""
 
-Examine: TypeAlias = Callable[[Question, bool], tuple[int, tuple[str, ...]]]
+Examine: TypeAlias = Callable[[Lookup, bool], tuple[int, tuple[str, ...]]]
 """Says PENDING, AVAILABLE or EXPIRED, and which frames must change before that can.
 
-Asked the first time (the flag), a question that has an answer is never taken for expired;
+Asked the first time (the flag), a lookup that has an answer is never taken for expired;
 later, as in tf2, expiry is looked at first.
 """
-
-
-def attempt(failures: list[Exception], callback: Callable[..., object], *told: object) -> None:
-    """Call back; what is raised is noted, and keeps nobody else from being called."""
-    try:
-        callback(*told)
-    except Exception as failure:
-        failures.append(failure)
 
 
 class Request:
     """One pending request."""
 
-    __slots__ = ("callback", "handle", "questions", "watched")
+    __slots__ = ("callback", "handle", "lookups", "watched")
 
-    def __init__(self, handle: int, callback: Callback, questions: tuple[Question, ...]) -> None:
+    def __init__(self, handle: int, callback: Callback, lookups: tuple[Lookup, ...]) -> None:
         self.handle = handle
         self.callback = callback
-        self.questions = questions
+        self.lookups = lookups
         self.watched: tuple[str, ...] = ()
 
 
@@ -67,13 +59,13 @@ class Requests:
         # Handles by frame; a dictionary keeps them in the order they were made.
         self._watchers: dict[str, dict[int, None]] = {}
 
-    def add(self, callback: Callback, questions: tuple[Question, ...]) -> int:
+    def add(self, callback: Callback, lookups: tuple[Lookup, ...]) -> int:
         """Ask now; what has no answer yet waits.
 
         Returns:
             NOW if all can be answered, NEVER if one no longer can, else a handle.
         """
-        request = Request(self._last + 1, callback, questions)
+        request = Request(self._last + 1, callback, lookups)
         status = self._ask(request, True)
         if status == AVAILABLE:
             return NOW
@@ -108,14 +100,17 @@ class Requests:
             status = self._ask(request, False)
             if status != PENDING:
                 del self.pending[handle]
-                attempt(failures, request.callback, handle, status == AVAILABLE)
+                try:
+                    request.callback(handle, status == AVAILABLE)
+                except Exception as failure:
+                    failures.append(failure)
         return failures
 
     def _ask(self, request: Request, first: bool) -> int:
-        """Ask every question; while one has no answer, watch what keeps it from having one."""
+        """Ask for every lookup; while one has no answer, watch what keeps it from having one."""
         status = AVAILABLE
-        for question in request.questions:
-            found, blocked = self._examine(question, first)
+        for lookup in request.lookups:
+            found, blocked = self._examine(lookup, first)
             if found == EXPIRED:
                 self._unwatch(request)
                 return EXPIRED

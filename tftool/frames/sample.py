@@ -3,10 +3,11 @@
 from dataclasses import dataclass, field
 from typing import NamedTuple
 
-from tftool.geometry.rigid import Transform
+from tftool.geometry.rigid import Transform, refuses_arithmetic
 from tftool.stamps import Duration, Stamp
 
 
+@refuses_arithmetic
 class TransformStamped(NamedTuple):
     """The pose of `child_frame_id` in `frame_id` at one moment.
 
@@ -26,6 +27,7 @@ class TransformStamped(NamedTuple):
     transform: Transform
 
 
+@refuses_arithmetic
 class FrameInfo(NamedTuple):
     """One frame, and the link it hangs by.
 
@@ -33,7 +35,7 @@ class FrameInfo(NamedTuple):
         frame: Its name.
         parent: What it hangs from at the moment shown; None for a root.
         is_static: Whether that link holds at all times.
-        authority: Who sent its newest sample; None for a frame nobody ever sent.
+        authority: Who sent its newest sample; None for a frame that was never sent.
         samples: How many are remembered.
         rate: Samples per second by tf2's formula, hertz: a single one, or a static, shows 10000.
         oldest: Stamp of its oldest sample; 0 for a static.

@@ -82,7 +82,7 @@ class Series:
         return as_seconds(self._arrivals[-1] - self._arrivals[0])
 
 
-class Link:
+class FrameTraffic:
     """A frame as its messages show it.
 
     Attributes:
@@ -110,7 +110,7 @@ class Traffic:
     """
 
     def __init__(self) -> None:
-        self.links: dict[str, Link] = {}
+        self.links: dict[str, FrameTraffic] = {}
         self.senders: dict[str, Series] = {}
 
     def receive(
@@ -126,7 +126,7 @@ class Traffic:
         for sample in transforms:
             delay = as_seconds(now - sample.stamp)
             delays.append(delay)
-            link = self.links.setdefault(sample.child_frame_id, Link(sample.child_frame_id))
+            link = self.links.setdefault(sample.child_frame_id, FrameTraffic(sample.child_frame_id))
             link.parent = sample.frame_id
             link.sender = authority
             link.is_static = is_static

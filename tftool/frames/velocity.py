@@ -2,13 +2,15 @@
 
 import math
 from dataclasses import dataclass
-from typing import Protocol
+from typing import TYPE_CHECKING
 
-from tftool.frames.sample import TransformStamped
-from tftool.geometry import quaternions
+from tftool.geometry import conversions, quaternions
 from tftool.geometry.quaternions import Triple
 from tftool.geometry.rigid import Transform, Vector3
 from tftool.stamps import Duration, Stamp, as_seconds, seconds, whole
+
+if TYPE_CHECKING:
+    from tftool.frames.buffer import Buffer
 
 
 @dataclass(frozen=True, slots=True)
@@ -30,20 +32,8 @@ class Velocity:
     angular: Vector3
 
 
-class Lookups(Protocol):
-    """The two questions a velocity is worked out from."""
-
-    def lookup_transform(
-        self, target_frame: str, source_frame: str, time: Stamp = 0
-    ) -> TransformStamped:
-        """The pose of source in target."""
-
-    def newest_common(self, target_frame: str, source_frame: str) -> Stamp:
-        """The latest common time, 0 if there is none."""
-
-
 def full(
-    buffer: Lookups,
+    buffer: "Buffer",
     tracking: str,
     observation: str,
     reference: str,
@@ -73,16 +63,16 @@ def full(
 
     reference_from_body = buffer.lookup_transform(reference, tracking, time).transform
     origin = reference_from_body.translation
-    w = quaternions.rotate(reference_from_body.rotation, w)
-    v = _sum(quaternions.rotate(reference_from_body.rotation, v), _cross(origin, w))
+    w = reference_from_body.rotate(w)
+    v = reference_from_body.rotate(v) + origin.cross(w)
     place = buffer.lookup_transform(reference, point_frame, time).transform.apply(point)
-    shift = (place.x - origin.x, place.y - origin.y, place.z - origin.z)
-    v = (v[0] + w[0] * shift[0], v[1] + w[1] * shift[1], v[2] + w[2] * shift[2])
-    return Velocity(seconds(start + over * 0.5), reference, tracking, Vector3(*v), Vector3(*w))
+    shift = place - origin
+    v += Vector3(w.x * shift.x, w.y * shift.y, w.z * shift.z)
+    return Velocity(seconds(start + over * 0.5), reference, tracking, v, w)
 
 
 def twist(
-    buffer: Lookups, tracking: str, observation: str, time: Stamp, interval: Duration
+    buffer: "Buffer", tracking: str, observation: str, time: Stamp, interval: Duration
 ) -> Velocity:
     """How the origin of `tracking` moves and how it turns, given in `observation`.
 
@@ -103,32 +93,17 @@ def twist(
     first = buffer.lookup_transform(observation, tracking, start).transform
     last = buffer.lookup_transform(observation, tracking, end).transform
     v, w = _difference(first, last, as_seconds(end - start))
-    return Velocity((start + end) // 2, observation, tracking, Vector3(*v), Vector3(*w))
+    return Velocity((start + end) // 2, observation, tracking, v, w)
 
 
-def _difference(first: Transform, last: Transform, duration: float) -> tuple[Triple, Triple]:
+def _difference(first: Transform, last: Transform, duration: float) -> tuple[Vector3, Vector3]:
     """The mean velocities between two poses, in the frame they are given in."""
     if duration == 0.0:
-        return (math.nan, math.nan, math.nan), (math.nan, math.nan, math.nan)
-    a, b = first.translation, last.translation
-    turn = quaternions.canonical(
-        quaternions.multiply(quaternions.conjugate(first.rotation), last.rotation)
-    )
-    x, y, z, w = turn
-    sine = math.sqrt(x * x + y * y + z * z)
-    # Twice the arc cosine of w would lose half the digits of a small turn.
-    rate = 2.0 * math.atan2(sine, w) / duration
-    axis = (x / sine, y / sine, z / sine) if sine > 1e-150 else (1.0, 0.0, 0.0)
-    wx, wy, wz = quaternions.rotate(first.rotation, axis)
+        unknown = Vector3(math.nan, math.nan, math.nan)
+        return unknown, unknown
+    turn = quaternions.multiply(quaternions.conjugate(first.rotation), last.rotation)
+    axis, angle = conversions.axis_angle_from_quaternion(turn)
     return (
-        ((b.x - a.x) / duration, (b.y - a.y) / duration, (b.z - a.z) / duration),
-        (wx * rate, wy * rate, wz * rate),
+        (last.translation - first.translation) / duration,
+        first.rotate(axis) * (angle / duration),
     )
-
-
-def _cross(a: Triple, b: Triple) -> Triple:
-    return (a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0])
-
-
-def _sum(a: Triple, b: Triple) -> Triple:
-    return (a[0] + b[0], a[1] + b[1], a[2] + b[2])

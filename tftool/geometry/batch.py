@@ -102,20 +102,13 @@ def matrices(translations: Floats, rotations: Floats) -> Floats:
     return result
 
 
-def slerp(start: Floats, end: Floats, fraction: Floats) -> Floats:
-    """Turn from `start` to `end`, unit quaternions, along the shorter arc; fractions (...)."""
-    dot = np.sum(start * end, axis=-1, keepdims=True)
-    end = np.where(dot < 0.0, -end, end)
+def angles_between(first: Floats, second: Floats) -> Floats:
+    """Radians, from 0 to π, between rotations given as unit quaternions, shapes (..., 4)."""
+    dot = np.sum(first * second, axis=-1, keepdims=True)
+    second = np.where(dot < 0.0, -second, second)
     # arccos of the dot product would lose half the digits of a small angle.
-    half = np.arctan2(_length(end - start), _length(end + start))
-    angle = 2.0 * half
-    tiny = angle < 1e-9
-    sine = np.where(tiny, 1.0, np.sin(angle))
-    share = fraction[..., None]
-    keep = np.where(tiny, 1.0 - share, np.sin((1.0 - share) * angle) / sine)
-    take = np.where(tiny, share, np.sin(share * angle) / sine)
-    turned: Floats = keep * start + take * end
-    return turned
+    angles: Floats = 4.0 * np.arctan2(_length(second - first), _length(second + first))
+    return angles[..., 0]
 
 
 def rotation_vectors(quaternions: Floats) -> Floats:

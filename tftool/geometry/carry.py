@@ -6,10 +6,10 @@ does in tf2's own conversions.
 """
 
 from collections.abc import Iterable, Sequence
-from typing import TYPE_CHECKING, NamedTuple, TypeAlias
+from typing import TYPE_CHECKING, TypeAlias
 
 from tftool.geometry import quaternions
-from tftool.geometry.rigid import Quaternion, Transform, Vector3
+from tftool.geometry.rigid import Transform, Vector3, transform
 
 if TYPE_CHECKING:
     import numpy as np
@@ -19,55 +19,27 @@ Covariance: TypeAlias = tuple[float, ...]
 """36 numbers, 6×6 row by row, in the order x, y, z, rotation about x, about y, about z."""
 
 # Below this, the square of a quaternion's length is taken for no rotation at all.
-_NOTHING = 2.2e-16
+_NO_ROTATION = 2.2e-16
 
 
-class PoseWithCovariance(NamedTuple):
-    """A pose and how sure one is of it."""
-
-    pose: Transform
-    covariance: Covariance
-
-
-class Wrench(NamedTuple):
-    """A force and a torque, newtons and newton metres."""
-
-    force: Vector3
-    torque: Vector3
-
-
-class Twist(NamedTuple):
-    """A linear and an angular velocity, metres and radians per second."""
-
-    linear: Vector3
-    angular: Vector3
-
-
-def point(transform: Transform, xyz: Iterable[float]) -> Vector3:
+def point(a_from_b: Transform, xyz: Iterable[float]) -> Vector3:
     """A place: turned and moved."""
-    return _usable(transform).apply(xyz)
+    return _usable(a_from_b).apply(xyz)
 
 
-def vector(transform: Transform, xyz: Iterable[float]) -> Vector3:
+def vector(a_from_b: Transform, xyz: Iterable[float]) -> Vector3:
     """A direction: turned, not moved."""
-    return _usable(transform).rotate(xyz)
+    return _usable(a_from_b).rotate(xyz)
 
 
-def quaternion(transform: Transform, xyzw: Iterable[float]) -> Quaternion:
-    """An orientation: turned; the product as it comes, neither scaled nor of a chosen sign."""
-    x, y, z, w = xyzw
-    turn = quaternions.unit(_usable(transform).rotation)
-    return Quaternion(*quaternions.multiply(turn, (x, y, z, w)))
-
-
-def pose(transform: Transform, pose: Transform) -> Transform:
+def pose(a_from_b: Transform, pose: Transform) -> Transform:
     """A pose: its place as a point, its orientation turned, with w not negative."""
-    moved = _usable(transform) @ _usable(pose)
+    moved = _usable(a_from_b) @ _usable(pose)
     x, y, z, w = moved.rotation
-    return Transform(moved.translation, (-x, -y, -z, -w) if w < 0.0 else moved.rotation)
+    return transform(moved.translation, (-x, -y, -z, -w)) if w < 0.0 else moved
 
 
-def covariance(transform: Transform, covariance: Sequence[float]) -> Covariance:
+def covariance(a_from_b: Transform, covariance: Sequence[float]) -> Covariance:
     """A 6×6 covariance: each of its four 3×3 blocks B becomes R·B·Rᵀ.
 
     Raises:
@@ -75,7 +47,7 @@ def covariance(transform: Transform, covariance: Sequence[float]) -> Covariance:
     """
     if len(covariance) != 36:
         raise ValueError(f"a covariance is 36 numbers, not {len(covariance)}")
-    turn = quaternions.matrix(_usable(transform).rotation)
+    turn = quaternions.matrix(_usable(a_from_b).rotation)
     result = [0.0] * 36
     for top in (0, 3):
         for left in (0, 3):
@@ -93,36 +65,17 @@ def covariance(transform: Transform, covariance: Sequence[float]) -> Covariance:
     return tuple(result)
 
 
-def pose_with_covariance(transform: Transform, given: PoseWithCovariance) -> PoseWithCovariance:
-    """A pose and its covariance."""
-    return PoseWithCovariance(pose(transform, given.pose), covariance(transform, given.covariance))
+def wrench(a_from_b: Transform, force: Vector3, torque: Vector3) -> tuple[Vector3, Vector3]:
+    """A force and a torque: both turned, and the torque that the force's arm makes added."""
+    force, torque = vector(a_from_b, force), vector(a_from_b, torque)
+    return force, torque + a_from_b.translation.cross(force)
 
 
-def wrench(transform: Transform, given: Wrench) -> Wrench:
-    """A force turned; a torque turned, and what the force makes of the distance on top."""
-    force = vector(transform, given.force)
-    torque = vector(transform, given.torque)
-    return Wrench(force, _plus(torque, _cross(transform.translation, force)))
-
-
-def twist(transform: Transform, given: Twist) -> Twist:
-    """A velocity of a rigid body, told at the origin of either frame."""
-    angular = vector(transform, given.angular)
-    linear = vector(transform, given.linear)
-    return Twist(_plus(linear, _cross(transform.translation, angular)), angular)
-
-
-def polygon(transform: Transform, points: Iterable[Iterable[float]]) -> tuple[Vector3, ...]:
-    """Corners, each as a point."""
-    usable = _usable(transform)
-    return tuple(usable.apply(corner) for corner in points)
-
-
-def points(transform: Transform, xyz: "npt.ArrayLike") -> "npt.NDArray[np.float64]":
+def points(a_from_b: Transform, xyz: "npt.ArrayLike") -> "npt.NDArray[np.float64]":
     """Many points at once, in numpy.
 
     Args:
-        transform: Moves them.
+        a_from_b: Moves them.
         xyz: Shape (n, 3).
 
     Returns:
@@ -136,21 +89,13 @@ def points(transform: Transform, xyz: "npt.ArrayLike") -> "npt.NDArray[np.float6
     given = np.asarray(xyz, dtype=np.float64)
     if given.ndim != 2 or given.shape[1] != 3:
         raise ValueError(f"points have the shape (n, 3), not {given.shape}")
-    usable = _usable(transform)
+    usable = _usable(a_from_b)
     turn = np.array(quaternions.matrix(usable.rotation))
     moved: npt.NDArray[np.float64] = given @ turn.T + np.array(usable.translation)
     return moved
 
 
-def _usable(transform: Transform) -> Transform:
-    if sum(number * number for number in transform.rotation) < _NOTHING:
-        return Transform(transform.translation)
-    return transform
-
-
-def _cross(a: Vector3, b: Vector3) -> Vector3:
-    return Vector3(a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x)
-
-
-def _plus(a: Vector3, b: Vector3) -> Vector3:
-    return Vector3(a.x + b.x, a.y + b.y, a.z + b.z)
+def _usable(given: Transform) -> Transform:
+    if sum(number * number for number in given.rotation) < _NO_ROTATION:
+        return Transform(given.translation)
+    return given

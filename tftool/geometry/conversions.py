@@ -1,16 +1,27 @@
 """Other ways to write a rotation: roll pitch yaw, matrix, axis and angle, w first.
 
-Euler angles are turns about fixed axes: x by roll, then y by pitch, then z by yaw. The
-few that transforms3d has better go through here and nowhere else; it brings numpy, so it
-is loaded when one of them is called.
+Roll, pitch, yaw are turns about fixed axes: x, then y, then z. They, and axis and angle of a
+quaternion, are plain floats: commands print them, and transforms3d costs 120 ms of a start. All
+other Euler angles, and quaternions from matrices and from axis and angle, are transforms3d's; it
+is loaded when one of them is called, and its order, w first, is met here and nowhere else.
 """
 
 import math
 from collections.abc import Iterable, Sequence
 
 from tftool.geometry import quaternions
-from tftool.geometry.quaternions import Quad, Rows
+from tftool.geometry.quaternions import Matrix3, Quad
 from tftool.geometry.rigid import Quaternion, Vector3
+
+AXES = tuple(
+    f"{frame}{first}{second}{third}"
+    for frame in "sr"
+    for first in "xyz"
+    for second in "xyz"
+    for third in "xyz"
+    if first != second != third
+)
+"""Every order of Euler angles: "s" for static (fixed) or "r" for rotating axes, then the axes."""
 
 # Nearer than this to the pole, roll and yaw turn about one axis and only their sum is told.
 _POLE = 1.0 - 1e-12
@@ -58,7 +69,7 @@ def second_rpy_from_quaternion(quaternion: Iterable[float]) -> tuple[float, floa
     )
 
 
-def matrix_from_quaternion(quaternion: Iterable[float]) -> Rows:
+def matrix_from_quaternion(quaternion: Iterable[float]) -> Matrix3:
     """The 3×3 rotation matrix, row by row.
 
     Any finite quaternion but zero gives a proper rotation; zero gives NaN.
@@ -80,7 +91,7 @@ def quaternion_from_matrix(matrix: Sequence[Sequence[float]]) -> Quaternion:
         raise ValueError(
             f"a rotation matrix is three rows of three numbers, not {matrix!r}"
         ) from error
-    rows: Rows = ((a, b, c), (d, e, f), (g, h, i))
+    rows: Matrix3 = ((a, b, c), (d, e, f), (g, h, i))
     for j, row in enumerate(rows):
         for k, other in enumerate(rows):
             dot = sum(x * y for x, y in zip(row, other, strict=True))
@@ -91,7 +102,11 @@ def quaternion_from_matrix(matrix: Sequence[Sequence[float]]) -> Quaternion:
                 )
     if a * (e * i - f * h) - b * (d * i - f * g) + c * (d * h - e * g) < 0.0:
         raise ValueError("the matrix is no rotation: it mirrors")
-    return Quaternion(*quaternions.unit(quaternions.from_matrix(rows)))
+    import numpy as np
+    from transforms3d.quaternions import mat2quat
+
+    turn = tuple(float(number) for number in xyzw_from_wxyz(mat2quat(np.array(rows))))
+    return Quaternion(*quaternions.canonical(quaternions.unit(_quad(turn))))
 
 
 def axis_angle_from_quaternion(quaternion: Iterable[float]) -> tuple[Vector3, float]:
@@ -114,9 +129,12 @@ def quaternion_from_axis_angle(axis: Iterable[float], angle: float) -> Quaternio
     x, y, z = axis
     length = math.hypot(x, y, z)
     if not 0.0 < length < math.inf:
-        raise ValueError(f"({x}, {y}, {z}) is no axis")
-    part = math.sin(0.5 * angle) / length
-    return Quaternion(x * part, y * part, z * part, math.cos(0.5 * angle))
+        raise ValueError(f"({x}, {y}, {z}) is no axis: it must be finite and not all zero")
+    from transforms3d.quaternions import axangle2quat
+
+    return xyzw_from_wxyz(
+        float(number) for number in axangle2quat((x / length, y / length, z / length), angle, True)
+    )
 
 
 def wxyz_from_xyzw(quaternion: Iterable[float]) -> tuple[float, float, float, float]:
@@ -131,40 +149,62 @@ def xyzw_from_wxyz(quaternion: Iterable[float]) -> Quaternion:
     return Quaternion(x, y, z, w)
 
 
-def quaternion_from_euler(angles: Sequence[float], axes: str) -> Quaternion:
-    """A rotation from Euler angles of any convention.
+def quaternion_from_euler(angles: Sequence[float], axes: str = "sxyz") -> Quaternion:
+    """A rotation from Euler angles of any order.
 
     Args:
         angles: Three angles in radians.
-        axes: Four letters as transforms3d has them: "s" for static (fixed) or "r" for
-            rotating axes, then the three axes in order: "sxyz" is roll, pitch, yaw.
+        axes: One of `AXES`; "sxyz" is roll, pitch, yaw.
 
     Raises:
-        ValueError: If `axes` is no such convention.
+        ValueError: If `axes` is no such order.
     """
     from transforms3d.euler import euler2quat
 
     first, second, third = angles
-    try:
-        turned = euler2quat(first, second, third, axes)
-    except (KeyError, AttributeError) as error:
-        raise ValueError(f"{axes!r} names no order of axes; one is 'sxyz'") from error
+    turned = euler2quat(first, second, third, _checked(axes))
     return xyzw_from_wxyz(float(number) for number in turned)
 
 
-def euler_from_quaternion(quaternion: Iterable[float], axes: str) -> tuple[float, float, float]:
-    """Euler angles, in radians, of any convention; see `quaternion_from_euler`.
+def euler_from_quaternion(
+    quaternion: Iterable[float], axes: str = "sxyz"
+) -> tuple[float, float, float]:
+    """Euler angles, in radians, of any order; see `quaternion_from_euler`.
 
     Raises:
-        ValueError: If `axes` is no such convention.
+        ValueError: If `axes` is no such order.
     """
     from transforms3d.euler import quat2euler
 
-    try:
-        first, second, third = quat2euler(wxyz_from_xyzw(quaternion), axes)
-    except (KeyError, AttributeError) as error:
-        raise ValueError(f"{axes!r} names no order of axes; one is 'sxyz'") from error
+    first, second, third = quat2euler(wxyz_from_xyzw(quaternion), _checked(axes))
     return float(first), float(second), float(third)
+
+
+def euler_from_matrix(
+    matrix: Sequence[Sequence[float]], axes: str = "sxyz"
+) -> tuple[float, float, float]:
+    """Euler angles of a 3×3 rotation matrix (of a 4×4 one, its upper left).
+
+    Where they are not unique, the last is 0.
+
+    Raises:
+        ValueError: If `axes` is no such order.
+    """
+    # An array as it keeps it itself: of anything else it wants no copy, which numpy 2 refuses.
+    import numpy as np
+    from transforms3d.euler import mat2euler
+
+    first, second, third = mat2euler(np.asarray(matrix, dtype=np.float64), _checked(axes))
+    return float(first), float(second), float(third)
+
+
+def _checked(axes: str) -> str:
+    if axes not in AXES:
+        raise ValueError(
+            f"{axes!r} names no order of axes: that is 's' (fixed axes) or 'r' (rotating ones) "
+            "and three of x, y, z such as 'sxyz'"
+        )
+    return axes
 
 
 def _quad(quaternion: Iterable[float]) -> Quad:

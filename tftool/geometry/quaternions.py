@@ -7,13 +7,15 @@ makes no object it does not hand out. Products apply the right factor first.
 import math
 from typing import TypeAlias
 
+from tftool.geometry import poses
+
 Triple: TypeAlias = tuple[float, float, float]
 """x, y, z."""
 
 Quad: TypeAlias = tuple[float, float, float, float]
 """A quaternion: x, y, z, w."""
 
-Rows: TypeAlias = tuple[Triple, Triple, Triple]
+Matrix3: TypeAlias = tuple[Triple, Triple, Triple]
 """A 3×3 matrix, row by row."""
 
 IDENTITY: Quad = (0.0, 0.0, 0.0, 1.0)
@@ -111,53 +113,20 @@ def slerp(start: Quad, end: Quad, fraction: float) -> Quad:
     Returns:
         A unit quaternion, `start` itself at fraction 0.
     """
-    ax, ay, az, aw = start
-    bx, by, bz, bw = end
-    cosine = ax * bx + ay * by + az * bz + aw * bw
-    if cosine < 0.0:
-        cosine = -cosine
-        bx, by, bz, bw = -bx, -by, -bz, -bw
-    if cosine >= 1.0:
-        # Too near for acos to tell; on an arc this short the chord is the arc.
-        return (
-            ax + fraction * (bx - ax),
-            ay + fraction * (by - ay),
-            az + fraction * (bz - az),
-            aw + fraction * (bw - aw),
-        )
-    angle = math.acos(cosine)
-    sine = math.sin(angle)
-    keep = math.sin((1.0 - fraction) * angle) / sine
-    take = math.sin(fraction * angle) / sine
-    return (
-        keep * ax + take * bx,
-        keep * ay + take * by,
-        keep * az + take * bz,
-        keep * aw + take * bw,
-    )
-
-
-def half_angle(first: Quad, second: Quad) -> float:
-    """Half the turn from one unit quaternion to the other's exact sign, as tf2's `angle`."""
-    dot = sum(a * b for a, b in zip(first, second, strict=True))
-    return math.acos(max(-1.0, min(1.0, dot)))
+    here = (0.0, 0.0, 0.0)
+    return poses.interpolate((0, *here, *start, 1, *here, *end), fraction)[3:]
 
 
 def angle_between(first: Quad, second: Quad) -> float:
     """The turn from one rotation to the other, in radians from 0 to π."""
     near = math.dist(first, second)
-    far = math.dist(first, conjugate_sign(second))
+    x, y, z, w = second
+    far = math.dist(first, (-x, -y, -z, -w))
     # acos of the dot product would lose half the digits of a small angle.
     return 4.0 * math.atan2(min(near, far), max(near, far))
 
 
-def conjugate_sign(quaternion: Quad) -> Quad:
-    """The other quaternion that means the same rotation."""
-    x, y, z, w = quaternion
-    return (-x, -y, -z, -w)
-
-
-def matrix(quaternion: Quad) -> Rows:
+def matrix(quaternion: Quad) -> Matrix3:
     """Write a rotation as a matrix.
 
     Any finite quaternion but zero gives a proper rotation; zero gives NaN.
@@ -171,22 +140,3 @@ def matrix(quaternion: Quad) -> Rows:
         (2.0 * (xy + wz), 1.0 - 2.0 * (xx + zz), 2.0 * (yz - wx)),
         (2.0 * (xz - wy), 2.0 * (yz + wx), 1.0 - 2.0 * (xx + yy)),
     )
-
-
-def from_matrix(rows: Rows) -> Quad:
-    """Read the rotation out of a proper rotation matrix, with tf2's sign."""
-    (m00, m01, m02), (m10, m11, m12), (m20, m21, m22) = rows
-    trace = m00 + m11 + m22
-    if trace > 0.0:
-        w = 0.5 * math.sqrt(trace + 1.0)
-        part = 0.25 / w
-        return ((m21 - m12) * part, (m02 - m20) * part, (m10 - m01) * part, w)
-    m = rows
-    i = (2 if m11 < m22 else 1) if m00 < m11 else (2 if m00 < m22 else 0)
-    j, k = (i + 1) % 3, (i + 2) % 3
-    q = [0.0, 0.0, 0.0]
-    q[i] = 0.5 * math.sqrt(m[i][i] - m[j][j] - m[k][k] + 1.0)
-    part = 0.25 / q[i]
-    q[j] = (m[j][i] + m[i][j]) * part
-    q[k] = (m[k][i] + m[i][k]) * part
-    return (q[0], q[1], q[2], (m[k][j] - m[j][k]) * part)

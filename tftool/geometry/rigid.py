@@ -1,4 +1,4 @@
-"""One rigid transform in plain floats: compose, invert, apply, interpolate.
+"""One rigid transform in plain floats: compose, invert, apply.
 
 A transform `a_from_b` is the pose of b in a, and moves points given in b into a:
 `a_from_c == a_from_b @ b_from_c`, `point_in_a == a_from_b.apply(point_in_b)`.
@@ -6,7 +6,7 @@ A transform `a_from_b` is the pose of b in a, and moves points given in b into a
 
 import math
 from collections.abc import Iterable
-from typing import NamedTuple, TypeAlias
+from typing import NamedTuple, NoReturn, TypeAlias, TypeVar
 
 from tftool.geometry import quaternions
 
@@ -14,16 +14,82 @@ Matrix: TypeAlias = tuple[tuple[float, float, float, float], ...]
 """A 4×4 matrix, row by row."""
 
 
+T = TypeVar("T")
+
+
+def refuses_arithmetic(kind: type[T]) -> type[T]:
+    """A class of tuples that no longer puts together by + and repeats by *, but refuses."""
+
+    def refuse(self: object, other: object) -> NoReturn:
+        raise TypeError(
+            f"a {kind.__name__} is no list to put together or repeat: compute with its fields, "
+            "chain transforms by @, or make a list of it by list(…)"
+        )
+
+    for name in ("__add__", "__radd__", "__mul__", "__rmul__"):
+        setattr(kind, name, refuse)
+    return kind
+
+
 class Vector3(NamedTuple):
-    """A point or a vector, in metres unless said otherwise."""
+    """A point or a vector, in metres unless said otherwise.
+
+    It adds, subtracts and scales as a vector does: `2.0 * (a + b)`.
+    """
 
     x: float
     y: float
     z: float
 
+    def __add__(self, other: object) -> "Vector3":
+        if not isinstance(other, tuple):
+            return NotImplemented
+        x, y, z = _three(other)
+        return Vector3(self.x + x, self.y + y, self.z + z)
 
+    def __radd__(self, other: object) -> "Vector3":
+        return self + other
+
+    def __sub__(self, other: object) -> "Vector3":
+        if not isinstance(other, tuple):
+            return NotImplemented
+        x, y, z = _three(other)
+        return Vector3(self.x - x, self.y - y, self.z - z)
+
+    def __rsub__(self, other: object) -> "Vector3":
+        return -self + other
+
+    def __neg__(self) -> "Vector3":
+        return Vector3(-self.x, -self.y, -self.z)
+
+    def __mul__(self, factor: object) -> "Vector3":
+        if not isinstance(factor, int | float):
+            return NotImplemented
+        return Vector3(self.x * factor, self.y * factor, self.z * factor)
+
+    def __rmul__(self, factor: object) -> "Vector3":
+        return self * factor
+
+    def __truediv__(self, divisor: float) -> "Vector3":
+        return Vector3(self.x / divisor, self.y / divisor, self.z / divisor)
+
+    def cross(self, other: "Vector3") -> "Vector3":
+        """The cross product."""
+        ax, ay, az = self
+        bx, by, bz = other
+        return Vector3(ay * bz - az * by, az * bx - ax * bz, ax * by - ay * bx)
+
+
+def _three(numbers: tuple[object, ...]) -> tuple[float, float, float]:
+    if len(numbers) != 3:
+        raise TypeError(f"a vector is added to three numbers, not to {numbers!r}")
+    x, y, z = numbers
+    return x, y, z  # type: ignore[return-value]
+
+
+@refuses_arithmetic
 class Quaternion(NamedTuple):
-    """A rotation; xyzw order as in ROS messages, unit length unless a stranger made it."""
+    """A rotation; xyzw order as in ROS messages, unit length unless it came from outside."""
 
     x: float
     y: float
@@ -37,11 +103,12 @@ class _Parts(NamedTuple):
     rotation: Quaternion
 
 
+@refuses_arithmetic
 class Transform(_Parts):
     """A rotation and then a translation; a value: frozen, hashable, equal when its numbers are.
 
-    The quaternion is kept as it is given. Wherever it is used, any finite one but
-    zero stands for the rotation in its direction; zero makes every result NaN.
+    The quaternion is kept as it is given. Wherever it is used, any finite one but zero stands
+    for the rotation in its direction. (A message may bring a zero one: it makes results NaN.)
 
     Attributes:
         translation: `Vector3`, metres.
@@ -58,14 +125,14 @@ class Transform(_Parts):
         """Build a transform from three and four numbers.
 
         Raises:
-            ValueError: If there are not three and four of them, or one is no number.
+            ValueError: If there are not three and four of them, one is no number, or the
+                four are all zero.
         """
+        turn = _floats(rotation, 4, "rotation")
+        if not any(turn):
+            raise ValueError("a rotation of all zeros is none: no turn at all is (0, 0, 0, 1)")
         return tuple.__new__(
-            cls,
-            (
-                Vector3(*_floats(translation, 3, "translation")),
-                Quaternion(*_floats(rotation, 4, "rotation")),
-            ),
+            cls, (Vector3(*_floats(translation, 3, "translation")), Quaternion(*turn))
         )
 
     @classmethod
@@ -147,47 +214,6 @@ def canonical(pose: Transform) -> Transform:
     return transform(pose.translation, quaternions.canonical(quaternions.unit(pose.rotation)))
 
 
-def slerp(start: Iterable[float], end: Iterable[float], fraction: float) -> Quaternion:
-    """Turn from `start` to `end` along the shorter arc, at constant speed.
-
-    Raises:
-        ValueError: If the fraction is outside [0, 1] or NaN: like tf2, we interpolate
-            and never extrapolate.
-    """
-    _check_fraction(fraction)
-    ax, ay, az, aw = start
-    bx, by, bz, bw = end
-    turned = quaternions.slerp(
-        quaternions.unit((ax, ay, az, aw)), quaternions.unit((bx, by, bz, bw)), fraction
-    )
-    return Quaternion(*turned)
-
-
-def interpolate(start: Transform, end: Transform, fraction: float) -> Transform:
-    """The pose on the way: straight line for the translation, shorter arc for the rotation.
-
-    Raises:
-        ValueError: If the fraction is outside [0, 1] or NaN.
-    """
-    _check_fraction(fraction)
-    ax, ay, az = start.translation
-    bx, by, bz = end.translation
-    return transform(
-        (
-            ax + fraction * (bx - ax),
-            ay + fraction * (by - ay),
-            az + fraction * (bz - az),
-        ),
-        slerp(start.rotation, end.rotation, fraction),
-    )
-
-
 def distance(pose: Transform) -> float:
     """How far apart the two origins are, in metres."""
     return math.hypot(*pose.translation)
-
-
-def _check_fraction(fraction: float) -> None:
-    # Asked this way round, NaN is refused as well.
-    if not 0.0 <= fraction <= 1.0:
-        raise ValueError(f"the fraction must lie in [0, 1], not {fraction!r}")

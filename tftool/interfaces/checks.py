@@ -170,9 +170,11 @@ def _check_byte(name: str) -> Check:
 def _check_message(name: str, kind: type[Any]) -> Check:
     def check(value: Any) -> Any:
         if not isinstance(value, kind):
+            # rclpy's Time and Duration have the names of the messages that they make.
+            hint = ", rclpy's own: write .to_msg() behind it" if hasattr(value, "to_msg") else ""
             raise AssertionError(
                 f"The '{name}' field must be a sub message of type '{kind.__name__}', "
-                f"not '{type(value).__name__}'"
+                f"not '{type(value).__name__}'{hint}"
             )
         return value
 

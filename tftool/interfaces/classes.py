@@ -11,12 +11,20 @@ import struct
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from operator import attrgetter
-from typing import Any, ClassVar
+from typing import Any, ClassVar, Final
 
 from tftool.errors import InputError
 from tftool.interfaces import schema
 from tftool.interfaces.checks import Check, array_check, element_check, packed
-from tftool.interfaces.schema import FLOATS, INTEGERS, PRIMITIVES, STRINGS, Schema, Structure
+from tftool.interfaces.schema import (
+    FLOATS,
+    INTEGERS,
+    PRIMITIVES,
+    STRINGS,
+    Schema,
+    Structure,
+    full_name,
+)
 
 _one_float32 = struct.Struct("<f")
 
@@ -29,7 +37,7 @@ def as_float32(value: float) -> float:
 
 
 @dataclass(frozen=True, slots=True)
-class Field:
+class MessageField:
     """One field of a class.
 
     Attributes:
@@ -58,7 +66,7 @@ class Message:
 
     __slots__ = ()
 
-    fields__: ClassVar[tuple[Field, ...]] = ()
+    fields__: ClassVar[tuple[MessageField, ...]] = ()
     interface__: ClassVar[str] = ""
 
     def __init__(self, **kwargs: Any) -> None:
@@ -127,7 +135,7 @@ def duplicate(message: Any) -> Any:
     return same
 
 
-def _duplicated(field: Field, value: Any) -> Any:
+def _duplicated(field: MessageField, value: Any) -> Any:
     if field.size is None:
         if not isinstance(field.kind, str):
             return duplicate(value)
@@ -142,8 +150,16 @@ def _duplicated(field: Field, value: Any) -> Any:
 # Making them
 
 
+MOST_NESTED: Final = 64
+"""How deep messages may lie in messages."""
+
+
 class Interfaces(Schema):
-    """Every interface's class by its name, made when it is first asked for."""
+    """Every interface's class by its name, made when it is first asked for.
+
+    The process has one set, `INTERFACES`; a recording has its own, as its definitions may be
+    those of another release, or of ROS 1.
+    """
 
     def __init__(self) -> None:
         super().__init__()
@@ -172,10 +188,32 @@ class Interfaces(Schema):
             made = self._made[full] = self._compound(package, kind, name)
         return made
 
-    def message(self, full_name: str) -> type[Message]:
-        """The class of a message by "package/msg/Name" or "package/Name"."""
-        parts = full_name.split("/")
-        return self.part(f"{parts[0]}/msg/{parts[-1]}")
+    def message(self, name: str) -> type[Message]:
+        """The class of a message by "package/msg/Name" or "package/Name".
+
+        Raises:
+            InputError: If there is none of that name, or it contains itself.
+        """
+        return self.part(full_name(name))
+
+    def recorded(self, name: str, text: str = "") -> type[Message]:
+        """The class of a message in a recording.
+
+        Where the recording holds two definitions of one type, each message is read by the
+        one that came with it.
+
+        Args:
+            name: Its type, "geometry_msgs/PoseStamped" or "geometry_msgs/msg/PoseStamped".
+            text: The definition that the recording has for it, those of its parts behind it
+                (see `define`); "" to take ROS 2's own.
+
+        Raises:
+            InputError: If it is not known, contains itself, or its definition is wrong.
+        """
+        full = full_name(name)
+        if text.strip() and not self.define(full, text):
+            return Interfaces().recorded(full, text)
+        return self.part(full)
 
     def part(self, full: str) -> type[Message]:
         """The class of any structure: a message, "std_srvs/srv/SetBool_Request", and so on.
@@ -190,6 +228,8 @@ class Interfaces(Schema):
         if made is None:
             if full in within:
                 raise InputError(f"{full} contains itself, so no message of it can ever be made")
+            if len(within) >= MOST_NESTED:
+                raise InputError(f"more than {MOST_NESTED} messages lie within each other")
             made = self._made[full] = self._class(self.structure(full), (*within, full))
         return made
 
@@ -205,7 +245,8 @@ class Interfaces(Schema):
     def _class(self, structure: Structure, within: tuple[str, ...]) -> type[Message]:
         package, kind, name = structure.name.split("/")
         members: dict[str, Any] = {
-            constant: _literal(type_name, text) for constant, type_name, text in structure.constants
+            constant: _literal(f"{structure.name}: '{constant}'", type_name, text)
+            for constant, type_name, text in structure.constants
         }
         fields = tuple(self._field(structure.name, field, within) for field in structure.fields)
         for field in fields:
@@ -216,7 +257,9 @@ class Interfaces(Schema):
         members["__module__"] = f"{package}.{kind}"
         return type(name, (Message,), members)
 
-    def _field(self, owner: str, field: schema.Field, within: tuple[str, ...]) -> Field:
+    def _field(
+        self, owner: str, field: schema.FieldDefinition, within: tuple[str, ...]
+    ) -> MessageField:
         name, type_name, size = field.name, field.type, field.size
         kind: str | type[Message] = type_name
         described = {"float32": "float", "float64": "double"}.get(type_name, type_name)
@@ -228,15 +271,15 @@ class Interfaces(Schema):
             described = type_name.replace("/msg/", "/")
         check = element_check(name, kind, field.text_bound)
         if size is None:
-            make = _single(kind, field.default)
+            make = _single(f"{owner}: '{name}'", kind, field.default)
         else:
-            make = _several(kind, size, field.default)
+            make = _several(f"{owner}: '{name}'", kind, size, field.default)
             check = array_check(name, kind, size, field.bound, check)
             described = f"{described}[{size}]" if size >= 0 else f"sequence<{described}>"
-        return Field(name, kind, size, field.bound, field.text_bound, check, make, described)
+        return MessageField(name, kind, size, field.bound, field.text_bound, check, make, described)
 
 
-def _property(field: Field) -> property:
+def _property(field: MessageField) -> property:
     slot = f"_{field.name}"
     check = field.check
 
@@ -247,16 +290,20 @@ def _property(field: Field) -> property:
     return property(attrgetter(slot), write, doc=field.described)
 
 
-def _single(kind: "str | type[Message]", default: str | None) -> Callable[[], Any]:
+def _single(place: str, kind: "str | type[Message]", default: str | None) -> Callable[[], Any]:
     if not isinstance(kind, str):
         return kind
-    value = _literal(kind, default) if default is not None else _nothing(kind)
+    value = _literal(place, kind, default) if default is not None else _nothing(kind)
     return lambda: value
 
 
-def _several(kind: "str | type[Message]", size: int, default: str | None) -> Callable[[], Any]:
+def _several(
+    place: str, kind: "str | type[Message]", size: int, default: str | None
+) -> Callable[[], Any]:
     if default is not None and isinstance(kind, str):
-        given = [_literal(kind, part) for part in default.strip("[] ").split(",") if part.strip()]
+        given = [
+            _literal(place, kind, part) for part in default.strip("[] ").split(",") if part.strip()
+        ]
         return lambda: packed(kind, size, list(given))
     if isinstance(kind, str):
         return lambda: packed(kind, size, [_nothing(kind)] * max(0, size))
@@ -273,16 +320,24 @@ def _nothing(kind: str) -> Any:
     return b"\0" if kind == "byte" else False
 
 
-def _literal(kind: str, text: str) -> Any:
+def _literal(place: str, kind: str, text: str) -> Any:
+    """The value of a constant or a default, and its place for the message if it is wrong.
+
+    Raises:
+        InputError: If it is no such value.
+    """
     text = text.strip()
-    if kind in INTEGERS:
-        return int(text, 0)
-    if kind in FLOATS:
-        return float(text)
+    try:
+        if kind in INTEGERS or kind == "byte":
+            # ROS 1 writes 010 for ten.
+            number = int(text) if text.lstrip("+-").isdecimal() else int(text, 0)
+            return bytes([number & 0xFF]) if kind == "byte" else number
+        if kind in FLOATS:
+            return float(text)
+    except ValueError:
+        raise InputError(f"{place}: '{text[:80]}' is no {kind}") from None
     if kind == "bool":
         return text.lower() in ("true", "1")
-    if kind == "byte":
-        return bytes([int(text, 0)])
     return text[1:-1] if text[:1] in "\"'" and text[-1:] == text[:1] and len(text) > 1 else text
 
 

@@ -9,7 +9,7 @@ import hashlib
 import json
 from typing import Any, Final
 
-from tftool.interfaces.schema import Field, Schema, Structure
+from tftool.interfaces.schema import FieldDefinition, Schema, Structure
 
 _NESTED, _BOUNDED_STRING, _BOUNDED_WSTRING = 1, 21, 22
 _NUMBERS: Final = {
@@ -34,7 +34,7 @@ _NUMBERS: Final = {
 }
 _ARRAY, _BOUNDED_SEQUENCE, _SEQUENCE = 48, 96, 144
 
-PLACEHOLDER: Final = Field("structure_needs_at_least_one_member", "uint8")
+PLACEHOLDER: Final = FieldDefinition("structure_needs_at_least_one_member", "uint8")
 """The member that IDL wants in an empty structure."""
 
 
@@ -73,7 +73,7 @@ def _describe(schema: Schema, structure: Structure, described: dict[str, dict[st
             _describe(schema, schema.structure(field.type), described)
 
 
-def _described(field: Field) -> dict[str, Any]:
+def _described(field: FieldDefinition) -> dict[str, Any]:
     number = _NUMBERS.get(field.type, _NESTED)
     if field.text_bound is not None:
         number = _BOUNDED_STRING if field.type == "string" else _BOUNDED_WSTRING

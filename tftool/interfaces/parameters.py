@@ -1,6 +1,7 @@
 """Parameters' values as rcl_interfaces has them, and as Python has them."""
 
 import array
+from collections.abc import Iterable, Sequence
 from typing import Any, Final
 
 from tftool.interfaces.classes import INTERFACES
@@ -43,3 +44,24 @@ def value_message(value: Any, number: int) -> Any:
     if field is not None and value is not None:
         setattr(message, field, value)
     return message
+
+
+def list_result(names: Iterable[str], prefixes: Sequence[str], depth: int) -> Any:
+    """The ListParametersResult of those names that lie below some prefixes.
+
+    Args:
+        names: The parameters there are.
+        prefixes: Names, and what goes before a dot; all parameters without one.
+        depth: How many levels below a prefix to list, 0 for all.
+    """
+    starts = [f"{one}." for one in prefixes] or [""]
+
+    def is_listed(name: str) -> bool:
+        return name in prefixes or any(
+            name.startswith(start) and (not depth or name[len(start) :].count(".") < depth)
+            for start in starts
+        )
+
+    found = [name for name in names if is_listed(name)]
+    kind = INTERFACES.message("rcl_interfaces/ListParametersResult")
+    return kind(names=found, prefixes=sorted({one.rpartition(".")[0] for one in found} - {""}))

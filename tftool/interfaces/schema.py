@@ -3,10 +3,13 @@
 A service travels as a request and a response, an action as three services' worth of
 messages; ROS 2 derives those, and an event for every service, from the definition.
 Each is a `Structure` by a name of its own: "std_srvs/srv/SetBool_Request".
+
+Definitions are those of ROS 2 that come with tftool, those of a workspace, and those that
+a recording brings along, of ROS 1 or ROS 2.
 """
 
 import re
-from collections.abc import Mapping, Sequence
+from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Final
 
@@ -31,6 +34,9 @@ FLOATS: Final = {"float32": "f", "float64": "d", "float": "f", "double": "d"}
 
 STRINGS: Final = ("string", "wstring")
 
+MOST_FIELDS: Final = 10_000
+"""Fields and constants of one definition."""
+
 PRIMITIVES: Final = frozenset([*INTEGERS, *FLOATS, *STRINGS, "bool", "byte"])
 
 _PARTS: Final = {"srv": ("Request", "Response"), "action": ("Goal", "Result", "Feedback")}
@@ -41,11 +47,23 @@ _FIELD = re.compile(
     r"(?:(?P<constant>=)\s*(?P<value>.+)|(?P<default>.+))?$"
 )
 
+_SEPARATOR = re.compile(r"^={20,}[ \t]*$", re.MULTILINE)
+_HEADING = re.compile(r"\s*(?P<language>MSG|IDL):\s*(?P<name>\S+)[^\n]*(?:\n|$)")
+_NAME = re.compile(r"(\w+)/(?:(msg|srv|action)/)?(\w+)", re.ASCII)
+_DERIVED = re.compile(r"_(?:Request|Response|Event|Goal|Result|Feedback)$")
+
+_ROS1: Final = {
+    # ROS 1 has moments and spans as primitives; ROS 2 as messages of the same two numbers.
+    "time": "builtin_interfaces/msg/Time",
+    "duration": "builtin_interfaces/msg/Duration",
+}
+_ROS1_MOVED: Final = {"roslib/msg/Header": "std_msgs/msg/Header"}
+
 _GOAL_ID = "unique_identifier_msgs/UUID goal_id\n"
 
 
 @dataclass(frozen=True, slots=True)
-class Field:
+class FieldDefinition:
     """One field of a structure.
 
     Attributes:
@@ -76,14 +94,28 @@ class Structure:
     """
 
     name: str
-    fields: tuple[Field, ...]
+    fields: tuple[FieldDefinition, ...]
     constants: tuple[tuple[str, str, str], ...] = ()
+
+
+def full_name(name: str) -> str:
+    """An interface's name with its folder: "std_msgs/String" is "std_msgs/msg/String".
+
+    Raises:
+        InputError: If it cannot be the name of an interface.
+    """
+    found = _NAME.fullmatch(name)
+    if found is None:
+        raise InputError(f"{name[:200]!r} is no name of an interface; write 'package/Name'")
+    package, folder, own = found.groups()
+    full = f"{package}/{folder or 'msg'}/{own}"
+    return _ROS1_MOVED.get(full, full)
 
 
 class Schema:
     """Every interface's structures by their names, read when they are first asked for.
 
-    Definitions of a workspace's own packages can be added.
+    Definitions of a workspace's own packages can be added, and those of a recording.
     """
 
     def __init__(self) -> None:
@@ -95,6 +127,43 @@ class Schema:
         self._texts[package] = dict(texts)
         for full in [full for full in self._read if full.startswith(f"{package}/")]:
             del self._read[full]
+
+    def define(self, full: str, text: str) -> bool:
+        """Take over the definitions that a recording has for one of its types.
+
+        Args:
+            full: The type's full name.
+            text: Its definition as in a .msg or .srv file; definitions of the types it is made
+                of may follow, each behind a line of '=' and a line "MSG: package/Name".
+
+        Returns:
+            Whether they are in use now; False if a structure was read before whose
+            definition differs, as where two releases recorded into one file.
+
+        Raises:
+            InputError: If a definition is wrong, or in IDL.
+        """
+        texts = _sections(full, text)
+        read = {
+            name: _parse(name, own, texts)
+            for name, own in texts.items()
+            if name.split("/")[1] == "msg"
+        }
+        if any(self._read.get(name, one) != one for name, one in read.items()):
+            return False
+        if any(name not in read and self._is_other(name, own) for name, own in texts.items()):
+            return False
+        for name, own in texts.items():
+            package, kind, short = name.split("/")
+            self._texts[package] = {**self._texts.get(package, {}), (kind, short): own}
+        self._read |= read
+        return True
+
+    def _is_other(self, full: str, text: str) -> bool:
+        """Whether a service or action was read before from another definition."""
+        package, kind, name = full.split("/")
+        known = self._texts.get(package, {}).get((kind, name), text)
+        return known != text and any(one.startswith(f"{full}_") for one in self._read)
 
     def knows(self, package: str, texts: Mapping[tuple[str, str], str]) -> bool:
         """Whether a package has these very definitions."""
@@ -108,6 +177,17 @@ class Schema:
         """The interfaces of a package, of kind msg, srv or action."""
         return [name for found, name in self._texts.get(package, {}) if found == kind]
 
+    def text(self, package: str, kind: str, name: str) -> str:
+        """The text of a definition, as in its file.
+
+        Raises:
+            InputError: If there is no such interface.
+        """
+        text = self._texts.get(package, {}).get((kind, name))
+        if text is None:
+            raise InputError(f"there is no interface {package}/{kind}/{name}")
+        return text
+
     def parts(self, package: str, kind: str, name: str) -> dict[str, str]:
         """The parts of a service's or an action's definition, by "Request", "Goal" and so on.
 
@@ -115,9 +195,7 @@ class Schema:
             InputError: If there is no such interface, or it has other parts.
         """
         full = f"{package}/{kind}/{name}"
-        text = self._texts.get(package, {}).get((kind, name))
-        if text is None:
-            raise InputError(f"there is no interface {full}")
+        text = self.text(package, kind, name)
         parts = _PARTS[kind]
         texts = re.split(r"^\s*---\s*$", text, flags=re.MULTILINE)
         if len(texts) != len(parts):
@@ -144,7 +222,7 @@ class Schema:
         return (kind, name) in self._texts.get(package, {})
 
     def _text(self, full: str) -> str:
-        package, kind, name = full.split("/")
+        package, kind, name = full_name(full).split("/")
         if kind == "msg":
             text = self._texts.get(package, {}).get((kind, name))
             if text is None:
@@ -184,21 +262,39 @@ def _of_action(folder: str, base: str, part: str) -> str | None:
     return None
 
 
-def _parse(full: str, text: str) -> Structure:
-    package = full.partition("/")[0]
-    fields: list[Field] = []
+def _sections(full: str, text: str) -> dict[str, str]:
+    """The definitions in a recording's text, by their full names."""
+    first, *others = _SEPARATOR.split(text)
+    # A service's event is recorded with the definition of the service.
+    name = _DERIVED.sub("", full) if "/msg/" not in full and "---" in first else full
+    found = {name: first}
+    for other in others:
+        heading = _HEADING.match(other)
+        if heading is None:
+            raise InputError(f"{full}: a definition behind '=====' does not begin with 'MSG: name'")
+        if heading["language"] == "IDL":
+            raise InputError(f"{full}: its definition is in IDL, which is not read; .msg is")
+        found.setdefault(full_name(heading["name"]), other[heading.end() :])
+    return found
+
+
+def _parse(full: str, text: str, recorded: Collection[str] | None = None) -> Structure:
+    """Read one definition, by ROS 1's rules too where it was `recorded` with other types."""
+    fields: list[FieldDefinition] = []
     constants: list[tuple[str, str, str]] = []
     for raw in text.splitlines():
         line = _without_comment(raw).strip()
         if not line:
             continue
+        if len(fields) + len(constants) >= MOST_FIELDS:
+            raise InputError(f"{full} has more than {MOST_FIELDS} fields")
         match = _FIELD.match(line)
         if match is None:
-            raise InputError(f"{full}: '{line}' is no field; write 'type name'")
+            raise InputError(f"{full}: '{line[:200]}' is no field; write 'type name'")
         if match["constant"]:
             constants.append((match["name"], match["type"], match["value"]))
         else:
-            fields.append(_field(package, match))
+            fields.append(_field(full, match, recorded))
     return Structure(full, tuple(fields), tuple(constants))
 
 
@@ -216,17 +312,25 @@ def _without_comment(line: str) -> str:
     return line.partition("#")[0] if quote else line
 
 
-def _field(package: str, match: "re.Match[str]") -> Field:
-    kind = match["type"]
-    if kind not in PRIMITIVES:
-        parts = kind.split("/")
-        # "Pose", "geometry_msgs/Pose" and "geometry_msgs/msg/Pose" are all written.
-        folder = parts[1] if len(parts) == 3 else "msg"
-        kind = f"{parts[0] if len(parts) > 1 else package}/{folder}/{parts[-1]}"
+def _field(full: str, match: "re.Match[str]", recorded: Collection[str] | None) -> FieldDefinition:
+    kind, package = match["type"], full.partition("/")[0]
+    if recorded is not None and kind in _ROS1:
+        kind = _ROS1[kind]
+    elif recorded is not None and kind == "Header" and f"{package}/msg/Header" not in recorded:
+        # ROS 1 lets definitions leave out where the header is from.
+        kind = "std_msgs/msg/Header"
+    elif kind not in PRIMITIVES:
+        kind = full_name(kind if "/" in kind else f"{package}/{kind}")
     size = bound = None
     brackets = match["array"]
     if brackets is not None:
-        bound = int(brackets[2:]) if brackets.startswith("<=") else None
-        size = int(brackets) if brackets and bound is None else -1
-    text = int(match["text"]) if match["text"] else None
-    return Field(match["name"], kind, size, bound, text, match["default"])
+        bound = _size(full, brackets[2:]) if brackets.startswith("<=") else None
+        size = _size(full, brackets) if brackets and bound is None else -1
+    text = _size(full, match["text"]) if match["text"] else None
+    return FieldDefinition(match["name"], kind, size, bound, text, match["default"])
+
+
+def _size(full: str, digits: str) -> int:
+    if not (digits.isascii() and digits.isdecimal() and len(digits) <= 10):
+        raise InputError(f"{full}: {digits[:20]} is no size of an array or a text")
+    return int(digits)

@@ -6,17 +6,16 @@ from typing import Any, Final, cast
 
 from tftool.errors import LinkError, MalformedMessage
 from tftool.interfaces.classes import INTERFACES, Message
-from tftool.link import keys, types
-from tftool.link.codec import codec
-from tftool.link.keys import Entity
-from tftool.link.membership import Membership
-from tftool.link.services import LONGEST, Asking, Endpoint, Tasks, patience_for
-from tftool.link.topics import Sender
-from tftool.link.transport import Arrived
+from tftool.link import types
+from tftool.link.context import LinkContext
+from tftool.link.graph import GraphEntity
+from tftool.link.seam import Arrived
+from tftool.link.services import LONGEST, Answering, Asking, Tasks, patience_for
 from tftool.link.types import ActionType
 from tftool.runtime.endpoints import Quality
 from tftool.runtime.topics import GoalHandle, Status
 from tftool.stamps import NANOSECONDS, Stamp
+from tftool.wire.codec import codec
 
 KEPT: Final = 100
 """Goals of an action under way or, for who asks late, ended; beyond that none is taken."""
@@ -61,9 +60,9 @@ def _info(goal_id: bytes, accepted: Stamp) -> Any:
 
 
 class ActionServer:
-    """An action of our world, for everybody."""
+    """An action of our world, offered to the other processes."""
 
-    def __init__(self, link: Membership, name: str, node: str, kind: ActionType) -> None:
+    def __init__(self, link: LinkContext, name: str, node: str, kind: ActionType) -> None:
         self._link = link
         self._name = name
         self._kind = kind
@@ -73,17 +72,18 @@ class ActionServer:
         self._tasks = Tasks()
         node, base = node or link.main_node, f"{name}/_action"
         self._parts = [
-            Endpoint(link, node, f"{base}/{part}", ros_type, handler)
+            Answering(link, node, f"{base}/{part}", ros_type, handler)
             for part, ros_type, handler in (
                 ("send_goal", f"{self._type}_SendGoal", self._send_goal),
                 ("cancel_goal", CANCEL_GOAL, self._cancel_goal),
                 ("get_result", f"{self._type}_GetResult", self._get_result),
             )
         ]
-        self._feedback = Sender(
-            link, node, f"{base}/feedback", f"{self._type}_FeedbackMessage", _FEEDBACK
+        publish = link.middleware.publisher
+        self._feedback = publish(
+            node, f"{base}/feedback", f"{self._type}_FeedbackMessage", _FEEDBACK
         )
-        self._status = Sender(link, node, f"{base}/status", STATUS, _STATUS)
+        self._status = publish(node, f"{base}/status", STATUS, _STATUS)
 
     def close(self) -> None:
         """Take no goals any more; those under way are given up."""
@@ -133,7 +133,7 @@ class ActionServer:
             said = _message(
                 f"{self._type}_FeedbackMessage", goal_id=_id(goal_id), feedback=feedback.sent(value)
             )
-            self._feedback.put(_bytes(said))
+            self._feedback.put(_bytes(said), self._link.now())
 
         goal = await self._link.world.send_goal(self._name, request, feed)
         if goal.decided is not None and not await asyncio.shield(goal.decided):
@@ -196,13 +196,13 @@ class ActionServer:
                     "action_msgs/msg/GoalStatus", goal_info=_info(goal_id, accepted), status=number
                 )
             )
-        self._status.put(_bytes(_message(STATUS, status_list=entries)))
+        self._status.put(_bytes(_message(STATUS, status_list=entries)), self._link.now())
 
 
 class ActionClient:
     """An action of another process, as one of our world: it takes values and messages alike."""
 
-    def __init__(self, link: Membership, name: str, server: Entity) -> None:
+    def __init__(self, link: LinkContext, name: str, server: GraphEntity) -> None:
         self._link = link
         self._name = name
         self._type = server.ros_type.removesuffix("_SendGoal")
@@ -211,20 +211,15 @@ class ActionClient:
         base = f"{name}/_action"
 
         def part(what: str, ros_type: str) -> Asking:
-            known = next(iter(link.graph.entities(keys.SERVER, name=f"{base}/{what}")), None)
-            type_hash = keys.type_hash(ros_type) if known is None else known.type_hash
-            return Asking(
-                link,
-                f"{base}/{what}",
-                Entity(0, "", 0, 0, "SS", "", f"{base}/{what}", ros_type, type_hash),
-            )
+            return Asking(link, f"{base}/{what}", ros_type)
 
         self._send = part("send_goal", f"{self._type}_SendGoal")
         self._cancel = part("cancel_goal", CANCEL_GOAL)
         self._result = part("get_result", f"{self._type}_GetResult")
         feedback = f"{self._type}_FeedbackMessage"
-        key = keys.any_hash_key(link.options.domain, f"{base}/feedback", feedback)
-        self._stop_feedback = link.wire.subscriber(key, self._on_feedback)
+        self._stop_feedback = link.middleware.listen(
+            f"{base}/feedback", feedback, self._on_feedback
+        )
         self._withdraw = link.world.serve_action(
             name, self._accept, self._type, node=server.node, is_remote=True
         )

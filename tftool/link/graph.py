@@ -1,35 +1,60 @@
-"""Who is there: processes, nodes, and what they offer, as their tokens tell."""
+"""Who is there: processes, nodes, and what they publish, subscribe and serve."""
 
 import re
 from collections.abc import Iterable
-from dataclasses import dataclass
-from enum import Enum
+from dataclasses import dataclass, field
+from enum import StrEnum
 from typing import Final
 
-from tftool.link import keys
-from tftool.link.keys import Entity
+from tftool.runtime.endpoints import PUBLISHER, SUBSCRIPTION, Quality
 from tftool.stamps import Stamp
 
+NODE: Final = "node"
+SERVER: Final = "server"
+CLIENT: Final = "client"
+KINDS: Final = (NODE, PUBLISHER, SUBSCRIPTION, SERVER, CLIENT)
+
 MOST: Final = 20_000
-"""Tokens that are kept; what strangers show on top of that is passed over."""
+"""Entries that are kept; what strangers show on top of that is passed over."""
 
 MOST_DOMAINS: Final = 100
 """Other domains that are remembered, to say so once of each."""
 
-_PROCESS = re.compile(
-    rf"{re.escape(keys.OURS)}/(?P<domain>\d{{1,9}})/(?P<session>[0-9a-f]{{1,32}})/"
-    r"(?P<since>\d{1,19})/(?P<pid>\d{1,9})/(?P<role>host|source|guest)/(?P<command>\w{1,64})",
-    re.ASCII,
-)
+
+@dataclass(frozen=True, slots=True)
+class GraphEntity:
+    """A node of another process, or what one offers or uses.
+
+    Attributes:
+        kind: One of `KINDS`.
+        domain: Number of the ROS domain.
+        session: The process it is of, by the middleware's name for it.
+        node: The node's name, with its namespace, without the leading slash.
+        name: The topic's or service's name without the leading slash; of a node, "".
+        ros_type: Its type, "tf2_msgs/msg/TFMessage"; of a node, "".
+        quality: Its quality of service; of a node, the default one.
+        gid: Bytes that identify it; they stand beside the messages of a publisher.
+        type_hash: The hash of the type, where it is shown; else "".
+    """
+
+    kind: str
+    domain: int
+    session: str
+    node: str
+    name: str = ""
+    ros_type: str = ""
+    quality: Quality = field(default_factory=Quality)
+    gid: bytes = b""
+    type_hash: str = ""
 
 
-class Role(str, Enum):
+class Role(StrEnum):
     """What a tftool is to the others of its session.
 
     Attributes:
         HOST: It runs the world that others look at.
         SOURCE: It brings something of its own, a static transform or a user's node.
-        GUEST: It only takes part, and waits for somebody who brings something.
+        GUEST: It only takes part, and waits for a process that brings something.
     """
 
     HOST = "host"
@@ -43,7 +68,7 @@ class Process:
 
     Attributes:
         domain: Number of its ROS domain.
-        session: Its zenoh session, in hexadecimal.
+        session: The middleware's name for it.
         since: When it joined, by its own clock.
         pid: Its process number on its machine.
         role: What it is to the others.
@@ -57,82 +82,58 @@ class Process:
     role: Role
     command: str
 
-    def token(self) -> str:
-        """The key of its token."""
-        command = re.sub(r"\W", "_", self.command, flags=re.ASCII)[:64] or "_"
-        who = f"{self.session}/{self.since}/{self.pid}/{self.role.value}"
-        return f"{keys.OURS}/{self.domain}/{who}/{command}"
-
     def __str__(self) -> str:
         return f"'tftool {self.command}' (process {self.pid})"
 
 
-def parse_process(token: str) -> Process | None:
-    """What the token of a tftool tells; None for any other."""
-    found = _PROCESS.fullmatch(token)
-    if found is None:
-        return None
-    return Process(
-        int(found["domain"]),
-        found["session"],
-        int(found["since"]),
-        int(found["pid"]),
-        Role(found["role"]),
-        found["command"],
-    )
-
-
 class Graph:
-    """Everybody else's tokens.
+    """What all other processes show.
 
     Attributes:
-        own: Our own zenoh session, whose tokens are passed over.
+        own: This process's session, of which nothing is entered.
         domain: The domain we are in.
     """
 
     def __init__(self, own: str, domain: int) -> None:
         self.own = own
         self.domain = domain
-        self._entities: dict[str, Entity] = {}
-        self._by_name: dict[str, dict[str, Entity]] = {}
+        self._entities: dict[str, GraphEntity] = {}
+        self._by_name: dict[str, dict[str, GraphEntity]] = {}
         self._processes: dict[str, Process] = {}
         self._foreign: set[int] = set()
 
-    def add(self, token: str) -> Entity | Process | None:
-        """Take a token in.
+    def add(self, key: str, found: GraphEntity | Process) -> GraphEntity | Process | None:
+        """Enter something under the key by which it is taken out again.
 
         Returns:
             What is new by it; None when nothing is.
         """
-        if token in self._entities or token in self._processes:
+        if key in self._entities or key in self._processes or found.session == self.own:
             return None
         if len(self._entities) + len(self._processes) >= MOST:
-            return None
-        found = keys.parse_token(token) or parse_process(token)
-        if found is None or found.session == self.own:
             return None
         if found.domain != self.domain:
             if len(self._foreign) < MOST_DOMAINS:
                 self._foreign.add(found.domain)
             return None
-        if isinstance(found, Entity):
-            self._entities[token] = found
-            self._by_name.setdefault(found.name, {})[token] = found
+        if isinstance(found, GraphEntity):
+            self._entities[key] = found
+            self._by_name.setdefault(found.name, {})[key] = found
         else:
-            self._processes[token] = found
+            self._processes[key] = found
         return found
 
-    def remove(self, token: str) -> Entity | Process | None:
-        """Let a token go.
+    def remove(self, key: str) -> GraphEntity | Process | None:
+        """Take something out.
 
         Returns:
             What is gone by it; None when it was not known.
         """
-        gone = self._entities.pop(token, None)
+        gone = self._entities.pop(key, None)
         if gone is None:
-            return self._processes.pop(token, None)
+            return self._processes.pop(key, None)
         namesakes = self._by_name[gone.name]
-        del namesakes[token]
+        del namesakes[key]
         if not namesakes:
             del self._by_name[gone.name]
         return gone
@@ -147,28 +148,28 @@ class Graph:
         return sorted(self._processes.values(), key=lambda one: (one.since, one.session))
 
     def process(self, session: str) -> Process | None:
-        """The tftool that a zenoh session belongs to."""
+        """The tftool that a session belongs to."""
         return next((one for one in self._processes.values() if one.session == session), None)
 
-    def entities(self, *kinds: str, name: str | None = None) -> list[Entity]:
+    def entities(self, *kinds: str, name: str | None = None) -> list[GraphEntity]:
         """Everything of some kinds, of one name if one is given."""
         found = self._entities if name is None else self._by_name.get(name, {})
         return [one for one in found.values() if not kinds or one.kind in kinds]
 
     @property
     def is_empty(self) -> bool:
-        """Whether nobody else is there."""
+        """Whether no other process is there."""
         return not self._entities and not self._processes
 
     @property
     def sessions(self) -> frozenset[str]:
-        """The zenoh sessions that show a token."""
+        """The sessions that show something."""
         found = {one.session for one in self._processes.values()}
         return frozenset(found | {one.session for one in self._entities.values()})
 
     @property
     def has_sources(self) -> bool:
-        """Whether somebody is there who brings something; guests alone only wait."""
+        """Whether a process is there that brings something; guests only wait."""
         guests = set()
         for one in self._processes.values():
             if one.role is not Role.GUEST:
@@ -176,11 +177,11 @@ class Graph:
             guests.add(one.session)
         return any(one.session not in guests for one in self._entities.values())
 
-    def publisher(self, gid: bytes, topic: str) -> Entity | None:
+    def publisher(self, gid: bytes, topic: str) -> GraphEntity | None:
         """Who sent a message: by its gid, else the only one it can be; None if that is unclear."""
         unknown = []
-        for one in self.entities(keys.PUBLISHER, name=topic):
-            if keys.gid_of(one.token()) == gid:
+        for one in self.entities(PUBLISHER, name=topic):
+            if one.gid == gid:
                 return one
             if self.process(one.session) is None:
                 unknown.append(one)
@@ -190,3 +191,10 @@ class Graph:
 def hosts(processes: Iterable[Process]) -> list[Process]:
     """Those among some processes that run a world."""
     return [one for one in processes if one.role is Role.HOST]
+
+
+def node_name(name: str) -> str:
+    """A node's name as ROS would have it: letters, digits and underscores."""
+    name = re.sub(r"[^A-Za-z0-9_/]", "_", name.strip("/"))[:200]
+    name = re.sub(r"/+", "/", name)
+    return name if name and not name[0].isdigit() else f"_{name}"

@@ -74,7 +74,7 @@ class Inbox:
     def _drain(self) -> None:
         """Call what waits, a slice at a time, so that a flood does not starve the world.
 
-        A callback that raises is told to the loop; those behind it are called all the same.
+        A callback that raises is reported to the loop; those behind it are called all the same.
         """
         for _ in range(_SLICE):
             with self._lock:

@@ -1,8 +1,8 @@
 """From our event loop to the transport: sent on a thread of its own.
 
 To send blocks while a reader takes nothing, up to a second until it counts as gone.
-That may hold up this thread, and nothing else: a process that somebody stopped with
-Ctrl-Z must not stop the world of everybody else.
+That may hold up this thread, and nothing else: a process that is stopped with
+Ctrl-Z must not stop the worlds of the others.
 """
 
 import contextlib
@@ -17,10 +17,13 @@ MOST_AHEAD: Final = 32
 """How far the loop may run ahead before it lets the sender catch up."""
 
 MOST_WAITING: Final = 20_000
-"""Messages that may wait while a reader takes nothing; then the loop waits as well."""
+"""Messages that may wait while a reader takes nothing; then the loop waits a while as well."""
 
 MOST_BYTES: Final = 256 * 1024 * 1024
 """Bytes of payload that may wait in the same way: a few images weigh more than many poses."""
+
+LONGEST_WAIT: Final = 2.0
+"""Seconds the loop waits for room in all; what is sent while there is none is dropped then."""
 
 _PAUSE = 0.0002
 _STUCK = 50  # pauses without progress, after which the sender counts as stuck
@@ -28,21 +31,30 @@ _FAREWELL = 2.0
 
 
 class Outbox:
-    """Calls that send something, made in their order on one thread."""
+    """Calls that send something, made in their order on one thread.
+
+    Attributes:
+        dropped: How many were dropped because too much waited for a sender that is stuck.
+    """
 
     def __init__(self) -> None:
         self._queue: queue.SimpleQueue[tuple[Callable[[], object], int] | None] = (
             queue.SimpleQueue()
         )
-        # Each of these is written by one thread alone, so that neither needs a lock.
+        # Each of these is written by one thread only, so that neither needs a lock.
         self._put = self._put_bytes = 0
+        self.dropped = 0
         self._sent = self._sent_bytes = 0
         self._stuck = False
+        self._is_hopeless = False
         self._closed = False
         self._thread: threading.Thread | None = None
 
     def put(self, send: Callable[[], object], size: int = 0) -> None:
         """Have something sent, after everything before it; what it raises is passed over.
+
+        Where too much waits, and the sender has sent nothing for `LONGEST_WAIT`, it is
+        dropped: a call that never returns must not hold up the loop for ever.
 
         Args:
             send: Sends it.
@@ -56,6 +68,9 @@ class Outbox:
         if self._thread is None:
             self._thread = threading.Thread(target=self._run, name="outbox", daemon=True)
             self._thread.start()
+        if self._is_full and self._is_hopeless:
+            self.dropped += 1
+            return
         self._put += 1
         self._put_bytes += size
         self._queue.put((send, size))
@@ -90,6 +105,9 @@ class Outbox:
             if idle >= _STUCK and not self._is_full:
                 self._stuck = True
                 return
+            if idle * _PAUSE >= LONGEST_WAIT:
+                self._is_hopeless = True
+                return
 
     def _run(self) -> None:
         while True:
@@ -104,4 +122,4 @@ class Outbox:
             del waiting, send
             self._sent_bytes += size
             self._sent += 1
-            self._stuck = False
+            self._stuck = self._is_hopeless = False

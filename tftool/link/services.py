@@ -1,4 +1,4 @@
-"""One service: ours for everybody, or somebody else's for our world."""
+"""One service: ours for other processes, or another process's for our world."""
 
 import asyncio
 from collections.abc import Callable, Coroutine
@@ -6,15 +6,11 @@ from typing import Any, Final
 
 from tftool.errors import LinkError, MalformedMessage, TftoolError
 from tftool.interfaces.classes import Message
-from tftool.link import keys, types
-from tftool.link.keys import Attachment, Entity
-from tftool.link.membership import Membership
-from tftool.link.transport import Question
+from tftool.link import types
+from tftool.link.context import LinkContext
+from tftool.link.graph import GraphEntity
+from tftool.link.seam import WireRequest
 from tftool.link.types import ServiceType
-from tftool.runtime.endpoints import Quality
-
-QUALITY: Final = Quality(depth=10)
-"""ROS 2's quality of services."""
 
 PATIENCE: Final = 5.0
 """Seconds that nodes of ours wait for an answer."""
@@ -24,7 +20,7 @@ LONGEST: Final = 3600.0
 
 
 class Tasks:
-    """Tasks that somebody must hold on to, and cancel at the end."""
+    """Tasks that are held until they end, and cancelled when their owner closes."""
 
     def __init__(self) -> None:
         self._tasks: set[asyncio.Task[None]] = set()
@@ -41,12 +37,12 @@ class Tasks:
             task.cancel()
 
 
-class Endpoint:
-    """The serving end of one service on the wire."""
+class Answering:
+    """The serving end of one service, whatever its requests mean."""
 
     def __init__(
         self,
-        link: Membership,
+        link: LinkContext,
         node: str,
         name: str,
         ros_type: str,
@@ -56,51 +52,38 @@ class Endpoint:
         self._name = name
         self._handler = handler
         self._tasks = Tasks()
-        key = keys.any_hash_key(link.options.domain, name, ros_type)
-        self._stop = link.wire.server(key, self._asked)
-        self._hide = link.show(link.entity(keys.SERVER, node, name, ros_type, QUALITY))
+        self._stop = link.middleware.server(node, name, ros_type, self._asked)
 
     def close(self) -> None:
-        """Answer nobody any more."""
-        self._hide()
+        """Answer no request any more."""
         self._stop()
         self._tasks.cancel()
 
-    def _asked(self, question: Question) -> None:
-        self._tasks.start(self._answer(question))
+    def _asked(self, request: WireRequest) -> None:
+        self._tasks.start(self._answer(request))
 
-    async def _answer(self, question: Question) -> None:
+    async def _answer(self, request: WireRequest) -> None:
         try:
-            asked = keys.parse_attachment(question.attachment)
-            payload = await self._handler(question.payload)
+            payload = await self._handler(request.payload)
         except MalformedMessage as refusal:
             self._link.refuse(self._name, refusal)
-            question.refuse(str(refusal))
+            request.refuse(str(refusal))
         except TftoolError as refusal:
-            question.refuse(str(refusal))
+            request.refuse(str(refusal))
         except asyncio.CancelledError:
-            question.refuse("the server has left")
+            request.refuse("the server has left")
             raise
         else:
-            now = self._link.world.clock.now()
-            # The number and the asker come back, so that the asker knows which answer it is.
-            question.answer(payload, Attachment(asked.sequence, now, asked.gid).encode())
+            request.answer(payload, self._link.now())
 
 
 class Asking:
-    """The asking end of one service on the wire."""
+    """The asking end of one service, whatever its requests mean."""
 
-    def __init__(self, link: Membership, name: str, server: Entity) -> None:
+    def __init__(self, link: LinkContext, name: str, ros_type: str) -> None:
         self._link = link
         self._name = name
-        # Under the server's own hash: it may be of another release.
-        self._key = (
-            f"{link.options.domain}/{name}/{keys.dds_name(server.ros_type)}/{server.type_hash}"
-        )
-        self._entity = link.entity(keys.CLIENT, link.main_node, name, server.ros_type, QUALITY)
-        self._gid = keys.gid_of(self._entity.token())
-        self._hide: Callable[[], None] | None = None
-        self._sequence = 0
+        self._client = link.middleware.client(link.main_node, name, ros_type)
 
     async def ask(self, payload: bytes, timeout: float) -> bytes:
         """Send a request and wait for the answer.
@@ -108,38 +91,29 @@ class Asking:
         Raises:
             LinkError: If there is none.
         """
-        # Whoever never asks is no client.
-        self._hide = self._hide or self._link.show(self._entity)
-        self._sequence += 1
         try:
-            return await self._link.wire.ask(
-                self._key,
-                payload,
-                self._link.attachment(self._sequence, self._gid),
-                timeout=timeout,
-            )
+            return await self._client.ask(payload, self._link.now(), timeout)
         except LinkError as error:
             raise LinkError(f"service '{self._name}': {error}") from error
 
     def close(self) -> None:
         """Ask no more."""
-        if self._hide is not None:
-            self._hide()
+        self._client.close()
 
 
 class ServiceServer:
-    """A service of our world, for everybody."""
+    """A service of our world, offered to the other processes."""
 
-    def __init__(self, link: Membership, name: str, node: str, kind: ServiceType) -> None:
+    def __init__(self, link: LinkContext, name: str, node: str, kind: ServiceType) -> None:
         self._link = link
         self._name = name
         self._kind = kind
         node = node or link.main_node
-        self._endpoint = Endpoint(link, node, name, kind.ros_type, self._serve)
+        self._answering = Answering(link, node, name, kind.ros_type, self._serve)
 
     def close(self) -> None:
-        """Answer nobody any more."""
-        self._endpoint.close()
+        """Answer no request any more."""
+        self._answering.close()
 
     async def _serve(self, payload: bytes) -> bytes:
         request = self._kind.request.decode(payload)
@@ -149,10 +123,10 @@ class ServiceServer:
 class ServiceClient:
     """A service of another process, as one of our world: it takes values and messages alike."""
 
-    def __init__(self, link: Membership, name: str, server: Entity) -> None:
+    def __init__(self, link: LinkContext, name: str, server: GraphEntity) -> None:
         self._name = name
         self._type = server.ros_type
-        self._asking = Asking(link, name, server)
+        self._asking = Asking(link, name, server.ros_type)
         self._withdraw = link.world.serve(
             name, self._call, server.ros_type, node=server.node, is_remote=True
         )

@@ -13,12 +13,11 @@ from typing import Any, TypeVar
 
 from tftool.errors import InputError, MalformedMessage
 from tftool.interfaces.classes import INTERFACES
-from tftool.link import keys
 from tftool.link.actions import ActionClient, ActionServer
-from tftool.link.graph import Process, Role, hosts
-from tftool.link.keys import Entity
-from tftool.link.membership import NAME, Membership, Options, plain
-from tftool.link.opening import Opening
+from tftool.link.context import NAME, LinkContext
+from tftool.link.graph import NODE, SERVER, GraphEntity, Process, Role, hosts
+from tftool.link.options import Options
+from tftool.link.seam import join
 from tftool.link.services import ServiceClient, ServiceServer
 from tftool.link.tf import StaticBridge, TransformBridge
 from tftool.link.topics import TopicBridge
@@ -33,27 +32,26 @@ T = TypeVar("T")
 _PLAIN = re.compile(r"[A-Za-z_][A-Za-z0-9_]*(/[A-Za-z_][A-Za-z0-9_]*)*", re.ASCII)
 
 
-class Link(Membership):
+class Link(LinkContext):
     """A process's place in a session: it joins, and carries its world's traffic.
 
     Attributes:
         departures: How many of the processes have left that transforms came from.
-        silent: How many processes of this machine did not answer when it joined.
     """
 
     def __init__(self, options: Options) -> None:
         """Join the others of this machine, and those `options` reach out to.
 
         Returns at once when it stands alone. No other process of this machine can join
-        in between until `attach`, `settle` or `close` is called: whoever opens decides
-        what to be while nobody else does.
+        in between until `attach`, `settle` or `close` is called, so that no two of them
+        decide at once whether to host.
 
         Raises:
-            LinkError: If there is no place to meet, or zenoh is missing or refuses.
+            LinkError: If there is no place to meet, or the middleware is missing or refuses.
         """
-        self._opening = Opening(options)
-        super().__init__(options, self._opening.wire, self._opening.graph)
-        self.silent = self._opening.silent
+        super().__init__(options, join(options))
+        self._nodes: dict[str, Callable[[], None]] = {}
+        self._removals: dict[GraphEntity, Callable[[], None]] = {}
         self._stops: list[Callable[[], None]] = []
         self._bridges: dict[str, TopicBridge | TransformBridge] = {}
         self._servers: dict[str, tuple[Offer[Any], ServiceServer | ActionServer]] = {}
@@ -68,7 +66,7 @@ class Link(Membership):
 
     def settle(self) -> None:
         """Let other processes of this machine join from now on."""
-        self._opening.settle()
+        self.middleware.settle()
 
     # Taking part
 
@@ -82,19 +80,17 @@ class Link(Membership):
         self._world = world
         self._since = WallClock().epoch
         self._loop = asyncio.get_running_loop()
-        self.wire.start(self._loop)
-        domain = self.options.domain
         if not self.options.read_only:
-            process = Process(
-                domain, self.wire.zid, self._since, os.getpid(), role, self.options.command
-            )
-            self._stops.append(self.wire.token(process.token()))
-        # Every domain: a peer that talks in another one is worth a word.
-        for pattern in (f"{keys.LIVELINESS}/*/**", f"{keys.OURS}/*/**"):
-            self._stops.append(self.wire.watch_tokens(pattern, self._on_token))
-        self._stops.append(world.watch(self._world_changed))
+            self._stops.append(self.middleware.process(self._process(role)))
+        self.middleware.start(self._loop, self)
+        self._stops.append(world.watch(self._world_changed, NAME))
         self._reconcile()
         self.settle()
+
+    def _process(self, role: Role) -> Process:
+        """This process, as the others see it."""
+        domain, session = self.options.domain, self.middleware.session
+        return Process(domain, session, self._since, os.getpid(), role, self.options.command)
 
     def close(self) -> None:
         """Leave the session; nothing of the world is touched."""
@@ -107,11 +103,11 @@ class Link(Membership):
             server.close()
         for client in self._clients.values():
             client.close()
-        for _, stop in self._nodes.values():
+        for stop in self._nodes.values():
             stop()
         for stop in self._stops:
             stop()
-        self._opening.close()
+        self.middleware.close()
 
     def __enter__(self) -> "Link":
         return self
@@ -163,42 +159,40 @@ class Link(Membership):
         shown = {node.name for node in self.world.nodes if node.is_shown}
         wanted = shown or {f"tftool_{self.options.command}"}
         for name in set(self._nodes) - wanted:
-            self._nodes.pop(name)[1]()
+            self._nodes.pop(name)()
         for name in wanted - set(self._nodes):
-            self._entity_ids += 1
-            number = self._entity_ids
-            entity = Entity(self.options.domain, self.wire.zid, number, number, "NN", plain(name))
-            self._nodes[name] = number, self.wire.token(entity.token())
+            self._nodes[name] = self.middleware.node(name)
 
     def _match_endpoints(self) -> None:
         """Enter in the world who else is there, publishes and subscribes."""
-        self.world.know_far_nodes(one.node for one in self.graph.entities(keys.NODE))
-        there = set(self.graph.entities(keys.PUBLISHER, keys.SUBSCRIBER))
-        for entity in self._endpoints.keys() - there:
-            self._endpoints.pop(entity)[1]()
-        for entity in there - self._endpoints.keys():
-            endpoint = Endpoint(
-                PUBLISHER if entity.kind == keys.PUBLISHER else SUBSCRIPTION,
+        self.world.know_far_nodes(one.node for one in self.graph.entities(NODE))
+        there = set(self.graph.entities(PUBLISHER, SUBSCRIPTION))
+        for entity in self.endpoints.keys() - there:
+            del self.endpoints[entity]
+            self._removals.pop(entity)()
+        for entity in there - self.endpoints.keys():
+            self.endpoints[entity] = endpoint = Endpoint(
+                PUBLISHER if entity.kind == PUBLISHER else SUBSCRIPTION,
                 entity.node,
                 entity.name,
                 entity.ros_type,
-                keys.read_quality(entity.quality),
+                entity.quality,
                 is_remote=True,
             )
-            self._endpoints[entity] = endpoint, self.world.endpoints.add(endpoint)
+            self._removals[entity] = self.world.endpoints.add(endpoint)
 
     def _name_topics(self) -> None:
-        """Name others' topics, so that whoever looks through the world's topics sees them.
+        """Name others' topics, so that they are among the world's topics.
 
-        Those that nobody has any more, here or there, are forgotten again.
+        Those that no process has any more, here or there, are forgotten again.
         """
         values = {ros_type: value for value, ros_type in VALUES.items()}
-        for entity in self.graph.entities(keys.PUBLISHER):
+        for entity in self.graph.entities(PUBLISHER):
             value = values.get(entity.ros_type)
             if value and entity.name not in self.world.topics() and is_plain(entity.name):
                 self.world.topic(entity.name, value).is_far = True
         for topic in tuple(self.world.topics().values()):
-            others = self.graph.entities(keys.PUBLISHER, keys.SUBSCRIBER, name=topic.name)
+            others = self.graph.entities(PUBLISHER, SUBSCRIPTION, name=topic.name)
             if topic.is_far and not topic.near_subscribers and not others:
                 self.world.remove_topic(topic.name)
 
@@ -258,8 +252,8 @@ class Link(Membership):
     def _match_clients(self) -> None:
         if self.options.read_only:
             return
-        wanted: dict[str, Entity] = {}
-        for entity in self.graph.entities(keys.SERVER):
+        wanted: dict[str, GraphEntity] = {}
+        for entity in self.graph.entities(SERVER):
             action, found, part = entity.name.partition("/_action/")
             if not found and INTERFACES.has(entity.ros_type):
                 wanted[entity.name] = entity
@@ -282,9 +276,9 @@ class Link(Membership):
         return any(offer is not None and offer.is_remote is remote for offer in offers)
 
     def _warn_of_rival(self, name: str, served: str) -> None:
-        for rival in self.graph.entities(keys.SERVER, name=served):
+        for rival in self.graph.entities(SERVER, name=served):
             process = self.graph.process(rival.session)
-            # Of two the second is told.
+            # Of two the second says so.
             if process is None or process.since < self._since:
                 self.say_once(
                     "rival",
@@ -295,28 +289,19 @@ class Link(Membership):
 
     # Keeping up with the others
 
-    def _on_token(self, change: tuple[str, bool]) -> None:
-        token, there = change
-        if not there:
-            gone = self.graph.remove(token)
-            if isinstance(gone, Process):
-                self._left(gone)
-            elif gone is not None:
-                if gone.kind == keys.PUBLISHER and gone.name == "tf":
-                    self._count_departure(gone.session)
-                self._graph_changed()
-            return
-        new = self.graph.add(token)
-        if new is None:
+    def graph_changed(self, found: GraphEntity | Process | None, there: bool) -> None:
+        """Keep up with what came or went; None where only another domain was heard of."""
+        if found is None:
             self._mention_foreign_domains()
-            return
-        if isinstance(new, Entity):
-            self._graph_changed()
+        elif isinstance(found, Process):
+            (self._came if there else self._left)(found)
         else:
-            self._came(new)
+            if not there and found.kind == PUBLISHER and found.name == "tf":
+                self._count_departure(found.session)
+            self._match_soon()
 
-    def _graph_changed(self) -> None:
-        """Reconcile soon: tokens come in crowds, and one look serves them all."""
+    def _match_soon(self) -> None:
+        """Reconcile soon: changes come in crowds, and one look serves them all."""
         self._senders.clear()
         self._reconcile_soon()
 
@@ -326,8 +311,8 @@ class Link(Membership):
             self._loop.call_soon(self._reconcile)
 
     def _came(self, process: Process) -> None:
-        alone = process.role is Role.HOST and len(hosts(self.graph.processes())) == 1
-        if alone and self.departures > self._forgotten:
+        is_only_host = process.role is Role.HOST and len(hosts(self.graph.processes())) == 1
+        if is_only_host and self.departures > self._forgotten:
             # Another world under the same names, perhaps by another clock: what is known of
             # the way things moved in the one before would only be in its way.
             self._forgotten = self.departures
@@ -349,7 +334,7 @@ class Link(Membership):
 
         A node may leave a process that stays, and what is not a tftool shows no process.
         """
-        senders = self.graph.entities(keys.PUBLISHER, name="tf")
+        senders = self.graph.entities(PUBLISHER, name="tf")
         stays = self.graph.process(session) or any(one.session == session for one in senders)
         self.departures += not stays
 
@@ -357,8 +342,8 @@ class Link(Membership):
         for domain in self.graph.foreign_domains:
             self.say_once(
                 f"domain {domain}",
-                f"Somebody talks in domain {domain}; this is domain {self.options.domain} and "
-                f"hears nothing of it. To join: --domain {domain}.",
+                f"Another process talks in domain {domain}; this is domain {self.options.domain} "
+                f"and hears nothing of it. To join: --domain {domain}.",
             )
 
 

@@ -1,25 +1,17 @@
-"""`tf` and `tf_static` of a world and of everybody else, joined."""
+"""`tf` and `tf_static` of a world, joined with those of the other processes."""
 
 from typing import Final
 
 from tftool.errors import MalformedMessage
 from tftool.frames.sample import TransformStamped
-from tftool.link import keys
-from tftool.link.membership import Membership
-from tftool.link.topics import Sender
-from tftool.link.transforms import decode_columns, decode_transforms, encode_transforms
-from tftool.link.transport import Arrived
+from tftool.link.context import LinkContext
+from tftool.link.seam import Arrived, WirePublisher
 from tftool.link.types import TRANSFORMS
-from tftool.runtime.endpoints import Quality
+from tftool.runtime.endpoints import SUBSCRIPTION, TF, TF_STATIC
 from tftool.runtime.topics import Topic
 from tftool.runtime.world import TransformMessage
 from tftool.stamps import Stamp, as_seconds, seconds
-
-TF: Final = Quality(depth=100)
-"""tf2's quality of /tf."""
-
-TF_STATIC: Final = Quality(depth=1, is_latched=True)
-"""tf2's quality of /tf_static."""
+from tftool.wire.transforms import decode_columns, decode_transforms, encode_transforms
 
 LARGE: Final = 256 * 1024
 """Bytes from which a message of transforms may be taken in as arrays: whole paths at once."""
@@ -32,32 +24,30 @@ YEAR: Final = seconds(365.25 * 24 * 3600)
 AHEAD: Final = seconds(2)
 """So far in the future no clock that agrees with ours can stamp anything."""
 
-_NO_SENDER = bytes(16)
-
 
 class TransformBridge:
     """`tf`: transforms of many nodes, each of them a publisher of its own."""
 
     quality = TF
 
-    def __init__(self, link: Membership, topic: Topic[TransformMessage]) -> None:
+    def __init__(self, link: LinkContext, topic: Topic[TransformMessage]) -> None:
         self._link = link
         self._topic = topic
-        self._senders: dict[str, Sender] = {}
+        self._senders: dict[str, WirePublisher] = {}
         self._nodes: set[str] = set()
         self._inbound: TransformMessage | None = None
         topic.relay = self._publish
-        key = keys.any_hash_key(link.options.domain, topic.name, TRANSFORMS)
-        entity = link.entity(keys.SUBSCRIBER, link.main_node, topic.name, TRANSFORMS, self.quality)
         self._stops = [
-            link.wire.subscriber(key, self._arrived, latched=self.quality.is_latched),
-            link.show(entity),
+            link.middleware.listen(
+                topic.name, TRANSFORMS, self._arrived, is_latched=self.quality.is_latched
+            ),
+            link.middleware.subscription(link.main_node, topic.name, TRANSFORMS, self.quality),
         ]
         self.refresh()
 
     def refresh(self) -> None:
-        """The buffer always listens; whoever else does is counted."""
-        others = self._link.graph.entities(keys.SUBSCRIBER, name=self._topic.name)
+        """Count the subscribers of other processes; the buffer always listens."""
+        others = self._link.graph.entities(SUBSCRIPTION, name=self._topic.name)
         self._topic.far_subscribers = len(others)
         self._dismiss()
 
@@ -84,27 +74,22 @@ class TransformBridge:
             return
         sender = self._senders.get(message.authority)
         if sender is None:
-            sender = self._senders[message.authority] = Sender(
-                self._link,
-                message.authority,
-                self._topic.name,
-                TRANSFORMS,
-                self.quality,
+            sender = self._senders[message.authority] = self._link.middleware.publisher(
+                message.authority, self._topic.name, TRANSFORMS, self.quality
             )
             if message.authority in self._node_names():
                 self._nodes.add(message.authority)
         if not sender.is_wanted:
             return
         try:
-            sender.put(encode_transforms(message.transforms))
+            sender.put(encode_transforms(message.transforms), self._link.now())
         except MalformedMessage as refusal:
             self._link.refuse(self._topic.name, refusal)
 
     def _arrived(self, message: Arrived) -> None:
         link = self._link
+        authority = link.authority(message.sender, self._topic.name)
         try:
-            gid = keys.parse_attachment(message.attachment).gid if message.attachment else None
-            authority = link.authority(gid or _NO_SENDER, self._topic.name)
             if self._takes_paths(message.payload, authority):
                 link.received += 1
                 return
@@ -127,7 +112,7 @@ class TransformBridge:
         Raises:
             MalformedMessage: If the bytes are no transforms.
         """
-        # Whoever listens to the topic wants every single one, so they may as well be made.
+        # A subscriber of the topic gets every single one, so they are made anyway.
         listened_to = self._topic.near_subscribers > 0
         if self.quality.is_latched or len(payload) < LARGE or listened_to:
             return False
@@ -179,7 +164,7 @@ class TransformBridge:
 
 
 class StaticBridge(TransformBridge):
-    """`tf_static`: who comes later gets all statics of everybody who is there."""
+    """`tf_static`: a late subscriber gets all statics of every process that is there."""
 
     quality = TF_STATIC
 

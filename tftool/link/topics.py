@@ -1,48 +1,14 @@
-"""One topic of a world and the same topic of everybody else, joined."""
+"""One topic of a world, joined with the same topic of the other processes."""
 
 from collections.abc import Callable
-from typing import Any, Final
+from typing import Any
 
 from tftool.errors import MalformedMessage
-from tftool.link import keys
-from tftool.link.membership import Membership
-from tftool.link.transport import Arrived
+from tftool.link.context import LinkContext
+from tftool.link.seam import Arrived, WirePublisher
 from tftool.link.types import MessageType
-from tftool.runtime.endpoints import PUBLISHER, SUBSCRIPTION, Endpoint, Quality
+from tftool.runtime.endpoints import PUBLISHER, SUBSCRIPTION, USUAL, Endpoint
 from tftool.runtime.topics import Topic
-
-USUAL: Final = Quality(depth=7)
-"""What turtlesim offers; ours for whoever states nothing."""
-
-
-class Sender:
-    """Who publishes one topic under one name: an outlet, a token, a running number."""
-
-    def __init__(
-        self, link: Membership, node: str, name: str, ros_type: str, quality: Quality
-    ) -> None:
-        entity = link.entity(keys.PUBLISHER, node, name, ros_type, quality)
-        self.gid = keys.gid_of(entity.token())
-        self._link = link
-        self._sequence = 0
-        # The latched one of a name keeps its own last messages, so each sender has its own.
-        self._outlet = link.publisher(name, ros_type, quality)
-        self._hide = link.show(entity)
-
-    @property
-    def is_wanted(self) -> bool:
-        """Whether a message would reach anybody, now or later."""
-        return self._outlet.is_wanted
-
-    def put(self, payload: bytes) -> None:
-        """Send one message."""
-        self._sequence += 1
-        self._outlet.put(payload, self._link.attachment(self._sequence, self.gid))
-
-    def close(self) -> None:
-        """Send no more."""
-        self._hide()
-        self._outlet.close()
 
 
 class TopicBridge:
@@ -53,11 +19,11 @@ class TopicBridge:
     for all, except by latched subscriptions: each is sent what was there before it.
     """
 
-    def __init__(self, link: Membership, topic: Topic[Any], kind: MessageType) -> None:
+    def __init__(self, link: LinkContext, topic: Topic[Any], kind: MessageType) -> None:
         self._link = link
         self._topic = topic
         self._kind = kind
-        self._senders: dict[Endpoint | None, Sender] = {}
+        self._senders: dict[Endpoint | None, WirePublisher] = {}
         self._subscriptions: dict[Endpoint | None, Callable[[], None]] = {}
         self._stop_in: Callable[[], None] | None = None
         self._inbound: Any = None
@@ -67,12 +33,12 @@ class TopicBridge:
         self.refresh()
 
     def refresh(self) -> None:
-        """Show what there is, and listen where somebody here wants to hear."""
+        """Show what there is, and listen where a subscriber here needs it."""
         topic, endpoints = self._topic, self._link.world.endpoints
-        # Nobody computes colours while nobody looks: whoever does is counted.
+        # The simulator computes colours only while a subscriber is counted.
         topic.far_subscribers = sum(
             one.ros_type == self._kind.ros_type
-            for one in self._link.graph.entities(keys.SUBSCRIBER, name=topic.name)
+            for one in self._link.graph.entities(SUBSCRIPTION, name=topic.name)
         )
         publishers = _here(endpoints.of(topic.name, PUBLISHER))
         for gone in self._senders.keys() - {None, *publishers}:
@@ -117,10 +83,9 @@ class TopicBridge:
         link, name, ros_type = self._link, self._topic.name, self._kind.ros_type
         node = link.main_node if stated is None else stated.node
         quality = USUAL if stated is None else stated.quality
-        entity = link.entity(keys.SUBSCRIBER, node, name, ros_type, quality)
         deliver = None if stated is None else stated.deliver
         if deliver is None:
-            return link.show(entity)
+            return link.middleware.subscription(node, name, ros_type, quality)
         hand_over = deliver
 
         def arrived(message: Arrived) -> None:
@@ -128,9 +93,9 @@ class TopicBridge:
             if read is not None:
                 hand_over(*read)
 
-        # The token goes after: whoever sees it may send at once and is heard.
-        stop = self._listen(arrived, latched=True)
-        hide = link.show(entity)
+        # Shown last: what sees it may send at once and is heard.
+        stop = self._listen(arrived, is_latched=True)
+        hide = link.middleware.subscription(node, name, ros_type, quality)
 
         def both() -> None:
             hide()
@@ -139,10 +104,11 @@ class TopicBridge:
         return both
 
     def _listen(
-        self, arrived: Callable[[Arrived], object], *, latched: bool = False
+        self, arrived: Callable[[Arrived], object], *, is_latched: bool = False
     ) -> Callable[[], None]:
-        key = keys.any_hash_key(self._link.options.domain, self._topic.name, self._kind.ros_type)
-        return self._link.wire.subscriber(key, arrived, latched=latched)
+        return self._link.middleware.listen(
+            self._topic.name, self._kind.ros_type, arrived, is_latched=is_latched
+        )
 
     def _arrived(self, message: Arrived) -> None:
         read = self._read(message)
@@ -158,13 +124,12 @@ class TopicBridge:
         """What a message says and who sent it; None for one that is refused."""
         try:
             value = self._kind.decode(message.payload)
-            beside = keys.parse_attachment(message.attachment) if message.attachment else None
         except MalformedMessage as refusal:
             self._link.refuse(self._topic.name, refusal)
             return None
         self._link.received += 1
-        name = self._topic.name
-        return value, None if beside is None else self._link.endpoint(beside.gid, name)
+        sender = message.sender
+        return value, self._link.endpoint(sender, self._topic.name) if sender else None
 
     # Out
 
@@ -175,20 +140,20 @@ class TopicBridge:
         sender = self._senders.get(stated)
         if sender is None:
             sender = self._senders[stated] = self._sender(stated)
-        # Nothing is turned into bytes for nobody.
+        # Encoded only if a subscriber or a cache takes it.
         if sender.is_wanted:
             self._put(sender, value)
 
-    def _put(self, sender: Sender, value: Any) -> None:
+    def _put(self, sender: WirePublisher, value: Any) -> None:
         try:
-            sender.put(self._kind.encode(value))
+            sender.put(self._kind.encode(value), self._link.now())
         except MalformedMessage as refusal:
             self._link.refuse(self._topic.name, refusal)
 
-    def _sender(self, stated: Endpoint | None) -> Sender:
+    def _sender(self, stated: Endpoint | None) -> WirePublisher:
         node = self._link.main_node if stated is None else stated.node
         quality = USUAL if stated is None else stated.quality
-        return Sender(self._link, node, self._topic.name, self._kind.ros_type, quality)
+        return self._link.middleware.publisher(node, self._topic.name, self._kind.ros_type, quality)
 
 
 def _here(endpoints: list[Endpoint]) -> list[Endpoint]:

@@ -12,7 +12,6 @@ from typing import Any, Final
 
 from tftool.errors import MalformedMessage
 from tftool.interfaces.classes import INTERFACES, Message, as_float32, duplicate
-from tftool.link.codec import codec
 from tftool.messages import (
     Clear,
     Color,
@@ -32,14 +31,12 @@ from tftool.messages import (
 )
 from tftool.runtime.world import TransformMessage
 from tftool.stamps import NANOSECONDS
+from tftool.wire.codec import codec
 
-TRANSFORMS: Final = "tf2_msgs/msg/TFMessage"
+TRANSFORMS: Final = TransformMessage.interface__
 
 VALUES: Final[dict[type[Any], str]] = {
-    Pose2D: "turtlesim/msg/Pose",
-    Color: "turtlesim/msg/Color",
-    Twist2D: "geometry_msgs/msg/Twist",
-    PointStamped: "geometry_msgs/msg/PointStamped",
+    kind: kind.interface__ for kind in (Pose2D, Color, Twist2D, PointStamped)
 }
 """The message type of each of our values that travels on topics."""
 
@@ -208,7 +205,7 @@ def topic_type(kind: type[Any]) -> MessageType | None:
     """How the values of a topic travel; None for what stays inside the process.
 
     Raises:
-        MalformedMessage: If it is a message that nobody else could read.
+        MalformedMessage: If it is a message whose bytes differ between ROS 2 releases.
     """
     if kind in VALUES:
         return MessageType(INTERFACES.message(VALUES[kind]), kind)
@@ -220,9 +217,7 @@ def topic_type(kind: type[Any]) -> MessageType | None:
 
 def topic_name(kind: type[Any]) -> str:
     """The ROS name of what a topic carries; "" for what is nothing to ROS."""
-    if kind is TransformMessage:
-        return TRANSFORMS
-    return VALUES.get(kind, "") or str(getattr(kind, "interface__", ""))
+    return str(getattr(kind, "interface__", ""))
 
 
 @cache

@@ -45,7 +45,7 @@ class Gains:
 
 
 @dataclass(frozen=True, slots=True)
-class Memory:
+class PidState:
     """What a controller keeps from one step to the next.
 
     Attributes:
@@ -57,19 +57,19 @@ class Memory:
     measured: float | None = None
 
 
-FRESH = Memory()
+FRESH = PidState()
 """What a controller remembers before its first step."""
 
 
 def step(
     gains: Gains,
-    memory: Memory,
+    memory: PidState,
     measured: float,
     interval: float,
     *,
     setpoint: float = 0.0,
     angle: bool = False,
-) -> tuple[float, Memory]:
+) -> tuple[float, PidState]:
     """Answer one measurement.
 
     The derivative is taken on the measurement, so that a setpoint that jumps
@@ -101,7 +101,7 @@ def step(
         if gains.ki * error * held > 0.0:
             integral = memory.integral
         output = held
-    return output, Memory(integral, measured)
+    return output, PidState(integral, measured)
 
 
 def _bounded_integral(gains: Gains, integral: float) -> float:

@@ -44,18 +44,20 @@ class Law:
 
 
 @dataclass(frozen=True, slots=True)
-class Memory:
+class PursuitState:
     """What the two controllers keep from one step to the next."""
 
-    distance: pid.Memory = pid.FRESH
-    bearing: pid.Memory = pid.FRESH
+    distance: pid.PidState = pid.FRESH
+    bearing: pid.PidState = pid.FRESH
 
 
-FRESH = Memory()
+FRESH = PursuitState()
 """What is remembered before the first step."""
 
 
-def steer(law: Law, memory: Memory, x: float, y: float, interval: float) -> tuple[Twist2D, Memory]:
+def steer(
+    law: Law, memory: PursuitState, x: float, y: float, interval: float
+) -> tuple[Twist2D, PursuitState]:
     """Turn a goal into a command.
 
     Args:
@@ -82,4 +84,4 @@ def steer(law: Law, memory: Memory, x: float, y: float, interval: float) -> tupl
         law.distance.limited(law.speed_limit), memory.distance, -distance, interval
     )
     turn, of_bearing = pid.step(law.bearing, memory.bearing, -bearing, interval, angle=True)
-    return Twist2D(speed, turn), Memory(of_distance, of_bearing)
+    return Twist2D(speed, turn), PursuitState(of_distance, of_bearing)

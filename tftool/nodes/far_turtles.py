@@ -29,7 +29,7 @@ class FarTurtle:
         name: Its name.
         pose: The pose it sent last.
         heard: When that came.
-        wall_hits: How often it met the wall, which nobody tells.
+        wall_hits: How often it met the wall, which no topic tells.
     """
 
     name: str
@@ -42,7 +42,7 @@ class FarTurtles:
     """A simulator as it is seen from another process: drawn as the simulator is.
 
     Topics tell no pen and no background: those that turtlesim begins with are taken. The
-    trail is what was drawn while somebody looked.
+    trail is what was drawn since the first look.
 
     Attributes:
         trail: What the pens drew since.
@@ -58,7 +58,7 @@ class FarTurtles:
         self._world = world
         self._known: dict[str, FarTurtle] = {}
         self._stops: dict[str, Callable[[], None]] = {}
-        world.watch(self._look)
+        world.watch(self._look, "far turtles")
         self._look()
 
     @property
@@ -76,7 +76,7 @@ class FarTurtles:
                 turtle = name.removesuffix(_POSE)
                 # Noted first: to subscribe may call this again.
                 self._stops[name] = lambda: None
-                self._stops[name] = topic.subscribe(self._taker(turtle))
+                self._stops[name] = topic.subscribe(self._taker(turtle), "far turtles")
 
     def _taker(self, name: str) -> Callable[[Pose2D], None]:
         def take(pose: Pose2D) -> None:

@@ -83,13 +83,10 @@ class Follower(Node):
 
     async def run(self) -> None:
         """Follow until the end."""
-        try:
-            async for now in self.every(self.period):
-                if self._spawning is None or self._spawning.step():
-                    self._follow(now)
-        finally:
-            if self._spawning is not None:
-                self._spawning.cancel()
+        self.publisher(f"{self.follower}/cmd_vel", Twist2D)
+        async for now in self.every(self.period):
+            if self._spawning is None or self._spawning.step():
+                self._follow(now)
 
     def _follow(self, now: Stamp) -> None:
         try:

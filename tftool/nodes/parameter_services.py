@@ -1,78 +1,111 @@
-"""ROS 2's services about parameters, for a node of ours."""
+"""ROS 2's six services about a node's parameters: for our own nodes, and for rclpy's."""
 
-from collections.abc import Callable
-from typing import Any
+from collections.abc import Callable, Iterator, Sequence
+from typing import Any, Protocol
 
 from tftool.errors import UsageError
 from tftool.interfaces.classes import INTERFACES
-from tftool.interfaces.parameters import SCALARS, value_message, value_of
+from tftool.interfaces.parameters import SCALARS, list_result, value_message, value_of
 from tftool.runtime.node import Node
 
 
+class ParameterHolder(Protocol):
+    """What the services read and change: messages of rcl_interfaces in and out."""
+
+    def values(self, names: Sequence[str]) -> list[Any]:
+        """A ParameterValue for each name, without a type where there is none of that name."""
+
+    def descriptors(self, names: Sequence[str]) -> list[Any]:
+        """A ParameterDescriptor for each name that is known."""
+
+    def listed(self, prefixes: Sequence[str], depth: int) -> Any:
+        """A ListParametersResult."""
+
+    def change(self, parameters: Sequence[Any]) -> Any:
+        """Set each of some Parameters, or none of them; a SetParametersResult."""
+
+
+Answer = Callable[[Any, Any], Any]
+"""Fills in and returns the response to a request: both are given."""
+
+
+def parameter_services(holder: ParameterHolder) -> Iterator[tuple[str, Any, Answer]]:
+    """Each service's name below its node, its type, and what answers it."""
+
+    def get(request: Any, response: Any) -> Any:
+        response.values = holder.values(request.names)
+        return response
+
+    def types(request: Any, response: Any) -> Any:
+        response.types = [value.type for value in holder.values(request.names)]
+        return response
+
+    def set_each(request: Any, response: Any) -> Any:
+        response.results = [holder.change([one]) for one in request.parameters]
+        return response
+
+    def set_together(request: Any, response: Any) -> Any:
+        response.result = holder.change(request.parameters)
+        return response
+
+    def list_(request: Any, response: Any) -> Any:
+        response.result = holder.listed(request.prefixes, request.depth)
+        return response
+
+    def describe(request: Any, response: Any) -> Any:
+        response.descriptors = holder.descriptors(request.names)
+        return response
+
+    for name, kind, answer in (
+        ("get_parameters", "GetParameters", get),
+        ("get_parameter_types", "GetParameterTypes", types),
+        ("set_parameters", "SetParameters", set_each),
+        ("set_parameters_atomically", "SetParametersAtomically", set_together),
+        ("list_parameters", "ListParameters", list_),
+        ("describe_parameters", "DescribeParameters", describe),
+    ):
+        yield name, INTERFACES.find("rcl_interfaces", "srv", kind), answer
+
+
 class ParameterServices:
-    """Answers who lists, reads, describes and sets a node's parameters."""
+    """Serves the parameters of a node of ours."""
 
     def __init__(self, node: Node) -> None:
         """Serve from now on, until the node ends."""
         self._node = node
-        answers: dict[str, tuple[str, Callable[[Any, Any], None]]] = {
-            "get_parameters": ("GetParameters", self._get),
-            "get_parameter_types": ("GetParameterTypes", self._types),
-            "set_parameters": ("SetParameters", self._set),
-            "set_parameters_atomically": ("SetParametersAtomically", self._set_together),
-            "list_parameters": ("ListParameters", self._list),
-            "describe_parameters": ("DescribeParameters", self._describe),
-        }
-        for name, (kind, answer) in answers.items():
-            self._serve(name, INTERFACES.find("rcl_interfaces", "srv", kind), answer)
+        for name, kind, answer in parameter_services(self):
+            self._serve(name, kind, answer)
 
-    def _serve(self, name: str, kind: Any, answer: Callable[[Any, Any], None]) -> None:
+    def _serve(self, name: str, kind: Any, answer: Answer) -> None:
         def handle(request: Any) -> Any:
-            response = kind.Response()
-            answer(request, response)
-            return response
+            return answer(request, kind.Response())
 
         self._node.serve(f"{self._node.name}/{name}", handle, kind)
 
     def _number(self, name: str) -> int:
         return SCALARS.get(type(self._node.parameters.values().get(name)), 0)
 
-    def _get(self, request: Any, response: Any) -> None:
-        values = self._node.parameters.values()
-        response.values = [
-            value_message(values.get(name), self._number(name)) for name in request.names
-        ]
+    def values(self, names: Sequence[str]) -> list[Any]:
+        """A ParameterValue for each name."""
+        known = self._node.parameters.values()
+        return [value_message(known.get(name), self._number(name)) for name in names]
 
-    def _types(self, request: Any, response: Any) -> None:
-        response.types = [self._number(name) for name in request.names]
-
-    def _list(self, request: Any, response: Any) -> None:
-        prefixes = tuple(f"{prefix}." for prefix in request.prefixes)
-        response.result.names = [
-            name
-            for name in self._node.parameters.values()
-            if not prefixes or name in request.prefixes or name.startswith(prefixes)
-        ]
-
-    def _describe(self, request: Any, response: Any) -> None:
+    def descriptors(self, names: Sequence[str]) -> list[Any]:
+        """A ParameterDescriptor for each name that is known."""
         kind = INTERFACES.message("rcl_interfaces/ParameterDescriptor")
         known = self._node.parameters.values()
-        response.descriptors = [
-            kind(name=name, type=self._number(name)) for name in request.names if name in known
-        ]
+        return [kind(name=name, type=self._number(name)) for name in names if name in known]
 
-    def _set(self, request: Any, response: Any) -> None:
-        response.results = [self._apply([one]) for one in request.parameters]
+    def listed(self, prefixes: Sequence[str], depth: int) -> Any:
+        """The names below some prefixes."""
+        return list_result(self._node.parameters.values(), prefixes, depth)
 
-    def _set_together(self, request: Any, response: Any) -> None:
-        response.result = self._apply(request.parameters)
-
-    def _apply(self, changes: list[Any]) -> Any:
+    def change(self, parameters: Sequence[Any]) -> Any:
         """Make all changes or none; how that went."""
         kind = INTERFACES.message("rcl_interfaces/SetParametersResult")
         before = dict(self._node.parameters.values())
         try:
-            for one in changes:
+            for one in parameters:
                 self._node.set_parameter(one.name, value_of(one.value))
         except (UsageError, ValueError) as refusal:
             for name, value in before.items():

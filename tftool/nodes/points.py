@@ -1,6 +1,7 @@
 """The message filter's demonstration: points that wait until they can be placed."""
 
 import asyncio
+from typing import Any
 
 from tftool.errors import TransformException
 from tftool.messages import PointStamped, Pose2D, Spawn, Twist2D
@@ -39,12 +40,9 @@ class MessageBroadcaster(Node):
 
     async def run(self) -> None:
         """Start up, then react to every pose."""
-        try:
-            async for _ in self.every(self.period):
-                if self._spawning.step():
-                    break
-        finally:
-            self._spawning.cancel()
+        async for _ in self.every(self.period):
+            if self._spawning.step():
+                break
         self.subscribe(f"{self.turtle}/pose", Pose2D, self._on_pose)
 
     def _on_pose(self, pose: Pose2D) -> None:
@@ -72,16 +70,12 @@ class PointDrawer(Node):
         self.target_frame, self.turtle = target_frame, turtle
         self.patience = require_period(patience)
         # A dict keeps the order in which they came.
-        self._waiting: dict[asyncio.Task[None], None] = {}
+        self._waiting: dict[asyncio.Task[Any], None] = {}
 
     async def run(self) -> None:
         """Listen until the end."""
         self.subscribe(f"{self.turtle}/{POINT_TOPIC}", PointStamped, self._on_point)
-        try:
-            await asyncio.Event().wait()
-        finally:
-            for task in list(self._waiting):
-                task.cancel()
+        await asyncio.Event().wait()
 
     def _on_point(self, point: PointStamped) -> None:
         if not point.frame_id:
@@ -90,7 +84,7 @@ class PointDrawer(Node):
             oldest = next(iter(self._waiting))
             del self._waiting[oldest]
             oldest.cancel()
-        task = asyncio.get_running_loop().create_task(self._place(point))
+        task = self.start_soon(self._place(point))
         self._waiting[task] = None
         task.add_done_callback(lambda done: self._waiting.pop(done, None))
 
@@ -103,4 +97,6 @@ class PointDrawer(Node):
             self.warn(f"Failure {refusal}")
         else:
             x, y, z = found.transform.apply((point.x, point.y, point.z))
-            self.info(f"Point of turtle3 in frame of turtle1: x:{x:f} y:{y:f} z:{z:f}")
+            self.info(
+                f"Point of {self.turtle} in frame of {self.target_frame}: x:{x:f} y:{y:f} z:{z:f}"
+            )

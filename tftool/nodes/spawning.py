@@ -1,10 +1,7 @@
 """How the tutorial's nodes get their turtle: ask, see that it is there, then begin."""
 
-import asyncio
-from typing import Any
-
 from tftool.errors import TftoolError
-from tftool.messages import Spawn
+from tftool.messages import Spawn, Spawned
 from tftool.runtime.node import Node
 
 
@@ -18,42 +15,41 @@ class Spawning:
     def __init__(self, node: Node, request: Spawn) -> None:
         self._node = node
         self._request = request
-        self._call: asyncio.Task[Any] | None = None
+        self._is_asked = False
+        self._answer: Spawned | TftoolError | None = None
         self._confirmed = False
 
     def step(self) -> bool:
         """Do what is next; True once the turtle was there before this step."""
         if self._confirmed:
             return True
-        if self._call is None:
+        if not self._is_asked:
             if self._node.world.has_service("spawn"):
-                self._call = asyncio.get_running_loop().create_task(
-                    self._node.call("spawn", self._request)
-                )
+                self._is_asked = True
+                self._node.start_soon(self._ask())
             else:
                 self._node.info("Service is not ready")
-        elif not self._call.done():
+        elif self._answer is None:
             self._node.info("Spawn is not finished")
         else:
-            self._take_answer(self._call)
+            self._take(self._answer)
         return False
 
-    def cancel(self) -> None:
-        """Give up waiting for an answer."""
-        if self._call is not None:
-            self._call.cancel()
-
-    def _take_answer(self, call: "asyncio.Task[Any]") -> None:
+    async def _ask(self) -> None:
         try:
-            # Any answer counts, as in the tutorial: an empty name says that a turtle of
-            # that name is there already, and that one will do.
-            name = call.result().name
+            self._answer = await self._node.call("spawn", self._request)
         except TftoolError as refusal:
-            self._node.warn(f"Could not spawn '{self._request.name}', asking again: {refusal}")
-            self._call = None
+            self._answer = refusal
+
+    def _take(self, answer: Spawned | TftoolError) -> None:
+        if isinstance(answer, TftoolError):
+            self._node.warn(f"Could not spawn '{self._request.name}', asking again: {answer}")
+            self._is_asked, self._answer = False, None
+            return
+        # Any answer counts, as in the tutorial: an empty name says that a turtle of
+        # that name is there already, and that one will do.
+        if answer.name:
+            self._node.info(f"Successfully spawned {answer.name}")
         else:
-            if name:
-                self._node.info(f"Successfully spawned {name}")
-            else:
-                self._node.warn(f"{self._request.name} is there already, and will do")
-            self._confirmed = True
+            self._node.warn(f"{self._request.name} is there already, and will do")
+        self._confirmed = True

@@ -1,10 +1,9 @@
 """turtlesim's two small drivers: one draws squares, one copies another turtle."""
 
-import asyncio
 import math
 from enum import Enum
-from typing import Any
 
+from tftool.errors import TftoolError
 from tftool.messages import Pose2D, Reset, Twist2D
 from tftool.motion.unicycle import TICK, Placement, float32
 from tftool.nodes.turtle import require_turtle_name
@@ -49,19 +48,15 @@ class DrawSquare(Node):
         self.goal: Placement | None = None
         self._pose: Pose2D | None = None
         self._wants_reset = reset
-        self._reset: asyncio.Task[Any] | None = None
 
     async def run(self) -> None:
         """Drive until the end."""
+        self.publisher(f"{self.turtle}/cmd_vel", Twist2D)
         self.subscribe(f"{self.turtle}/pose", Pose2D, self._on_pose)
-        try:
-            async for _ in self.every(TICK, immediately=True):
-                # The answer to the reset is not waited for, only that it was asked.
-                if self._asked_for_reset() and self._pose is not None:
-                    self._look(self._pose)
-        finally:
-            if self._reset is not None:
-                self._reset.cancel()
+        async for _ in self.every(TICK, immediately=True):
+            # The answer to the reset is not waited for, only that it was asked.
+            if self._asked_for_reset() and self._pose is not None:
+                self._look(self._pose)
 
     def _on_pose(self, pose: Pose2D) -> None:
         self._pose = pose
@@ -69,8 +64,14 @@ class DrawSquare(Node):
     def _asked_for_reset(self) -> bool:
         if self._wants_reset and self.world.has_service("reset"):
             self._wants_reset = False
-            self._reset = asyncio.get_running_loop().create_task(self.call("reset", Reset()))
+            self.start_soon(self._reset())
         return not self._wants_reset
+
+    async def _reset(self) -> None:
+        try:
+            await self.call("reset", Reset())
+        except TftoolError as refusal:
+            self.warn(f"The simulator was not reset: {refusal}")
 
     def _look(self, pose: Pose2D) -> None:
         if self.goal is None:
@@ -149,6 +150,7 @@ class Mimic(Node):
 
     async def run(self) -> None:
         """Copy from now on."""
+        self.publisher(f"{self.copy}/cmd_vel", Twist2D)
         self.subscribe(f"{self.leader}/pose", Pose2D, self._on_pose)
 
     def _on_pose(self, pose: Pose2D) -> None:

@@ -2,7 +2,7 @@
 
 import math
 import re
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from difflib import get_close_matches
 from typing import Literal
@@ -93,7 +93,7 @@ def parse(argv: Sequence[str]) -> StaticArguments | None:
     x, y, z = (numbers.get(name, 0.0) for name in TRANSLATION)
     roll, pitch, yaw = (numbers.get(name, 0.0) for name in EULER)
     if quaternion:
-        turn = tuple(numbers.get(name, float(name == "qw")) for name in QUATERNION)
+        turn = _rotation(numbers.get(name, float(name == "qw")) for name in QUATERNION)
         return StaticArguments(Transform((x, y, z), turn), parent, child, False, "quaternion")
     return StaticArguments(
         Transform((x, y, z), quaternion_from_rpy(roll, pitch, yaw)),
@@ -127,6 +127,13 @@ def _split(argv: Sequence[str]) -> tuple[list[str], dict[str, str], bool]:
     return words, given, asks_for_help
 
 
+def _rotation(numbers: Iterable[float]) -> tuple[float, ...]:
+    turn = tuple(numbers)
+    if not any(turn):
+        raise UsageError("A quaternion of four zeros is no rotation: 0 0 0 1 turns nothing.")
+    return turn
+
+
 def _old_style(words: list[str]) -> StaticArguments:
     *texts, parent, child = words
     turns = OLD_EULER if len(texts) == 6 else QUATERNION
@@ -138,7 +145,7 @@ def _old_style(words: list[str]) -> StaticArguments:
         raise _refusal("Child frame id must not be empty", "The last word names the child.")
     translation = tuple(numbers[name] for name in TRANSLATION)
     if turns is QUATERNION:
-        turn = tuple(numbers[name] for name in QUATERNION)
+        turn = _rotation(numbers[name] for name in QUATERNION)
         return StaticArguments(Transform(translation, turn), parent, child, True, "quaternion")
     roll, pitch, yaw = (numbers[name] for name in EULER)
     return StaticArguments(
@@ -179,7 +186,7 @@ def _refusal(tf2_text: str, remedy: str) -> UsageError:
 
 
 def advice(said: StaticArguments) -> list[str]:
-    """What whoever wrote this may not have meant: one sentence each."""
+    """What the author of these arguments may not have meant: one sentence each."""
     sentences = []
     if said.old_style:
         sentences.append("Old-style arguments are deprecated; see --help for new-style arguments.")
@@ -198,7 +205,5 @@ def advice(said: StaticArguments) -> list[str]:
         )
     length = math.hypot(*said.transform.rotation)
     if said.rotation == "quaternion" and abs(length - 1.0) > 0.01:
-        sentences.append(
-            f"The quaternion has length {length:.4g}, not 1; whoever receives it scales it."
-        )
+        sentences.append(f"The quaternion has length {length:.4g}, not 1; receivers scale it.")
     return sentences

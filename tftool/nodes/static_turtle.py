@@ -20,7 +20,7 @@ def static_turtle(arguments: Sequence[str]) -> TransformStamped:
         arguments: child_frame_name x y z roll pitch yaw.
 
     Returns:
-        The link from `world`, stamped 0: to be stamped by whoever broadcasts it.
+        The link from `world`, stamped 0: to be stamped when it is broadcast.
 
     Raises:
         NodeArgumentsError: If there are not seven (status 1), the child is `world`, or a

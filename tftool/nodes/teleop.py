@@ -28,11 +28,14 @@ SCALE_LINEAR = 2.0
 SCALE_ANGULAR = 2.0
 """Turn rate of the arrow keys in rad/s, unless a parameter says otherwise."""
 
+MOST_SENDING = 100
+"""How many goals may be on their way to the simulator; further keys are ignored meanwhile."""
+
 Action = Literal["cmd_vel", "rotate", "cancel", "quit"]
 
 
 @dataclass(frozen=True, slots=True)
-class Key:
+class KeyMeaning:
     """What a key does.
 
     Attributes:
@@ -50,22 +53,22 @@ class Key:
     theta: float = 0.0
 
 
-KEYS: Mapping[str, Key] = MappingProxyType(
+KEYS: Mapping[str, KeyMeaning] = MappingProxyType(
     {
-        "up": Key("cmd_vel", "forward", linear=1.0),
-        "down": Key("cmd_vel", "back", linear=-1.0),
-        "left": Key("cmd_vel", "turn left", angular=1.0),
-        "right": Key("cmd_vel", "turn right", angular=-1.0),
-        "g": Key("rotate", "east", theta=0.0),
-        "t": Key("rotate", "north-east", theta=0.7854),
-        "r": Key("rotate", "north", theta=1.5708),
-        "e": Key("rotate", "north-west", theta=2.3562),
-        "d": Key("rotate", "west", theta=3.1416),
-        "c": Key("rotate", "south-west", theta=-2.3562),
-        "v": Key("rotate", "south", theta=-1.5708),
-        "b": Key("rotate", "south-east", theta=-0.7854),
-        "f": Key("cancel", "cancel a rotation"),
-        "q": Key("quit", "quit"),
+        "up": KeyMeaning("cmd_vel", "forward", linear=1.0),
+        "down": KeyMeaning("cmd_vel", "back", linear=-1.0),
+        "left": KeyMeaning("cmd_vel", "turn left", angular=1.0),
+        "right": KeyMeaning("cmd_vel", "turn right", angular=-1.0),
+        "g": KeyMeaning("rotate", "east", theta=0.0),
+        "t": KeyMeaning("rotate", "north-east", theta=0.7854),
+        "r": KeyMeaning("rotate", "north", theta=1.5708),
+        "e": KeyMeaning("rotate", "north-west", theta=2.3562),
+        "d": KeyMeaning("rotate", "west", theta=3.1416),
+        "c": KeyMeaning("rotate", "south-west", theta=-2.3562),
+        "v": KeyMeaning("rotate", "south", theta=-1.5708),
+        "b": KeyMeaning("rotate", "south-east", theta=-0.7854),
+        "f": KeyMeaning("cancel", "cancel a rotation"),
+        "q": KeyMeaning("quit", "quit"),
     }
 )
 """Every key that does something. The letters form a ring round F on a keyboard."""
@@ -92,7 +95,7 @@ class Teleop(Node):
         Args:
             world: Where to live.
             name: The node's name.
-            turtle: Whom to drive; a simulator's namespace may stand in front.
+            turtle: The turtle to drive; a simulator's namespace may stand in front.
             scale_linear: Speed of the arrow keys in m/s.
             scale_angular: Turn rate of the arrow keys in rad/s.
 
@@ -106,18 +109,17 @@ class Teleop(Node):
         self.declare_parameter("scale_linear", float(scale_linear))
         self.declare_parameter("scale_angular", float(scale_angular))
         self._goal: GoalHandle | None = None
-        self._sending: set[asyncio.Task[None]] = set()
+        self._sending = 0
         self._quit = asyncio.Event()
 
     async def run(self) -> None:
         """Take keys from the topic `keys` until one says to quit."""
+        self.publisher(f"{self.turtle}/cmd_vel", Twist2D)
         stop = self.subscribe("keys", KeyPress, lambda pressed: self.press(pressed.key))
         try:
             await self._quit.wait()
         finally:
             stop()
-            for sending in self._sending:
-                sending.cancel()
 
     def press(self, key: str) -> Action | None:
         """Do what a key says.
@@ -137,9 +139,10 @@ class Teleop(Node):
             # Nothing plus nothing: a key that does not turn must not send minus zero.
             self.publish(f"{self.turtle}/cmd_vel", Twist2D(linear + 0.0, angular + 0.0))
         elif meaning.action == "rotate":
-            sending = asyncio.get_running_loop().create_task(self._rotate(meaning.theta))
-            self._sending.add(sending)
-            sending.add_done_callback(self._sending.discard)
+            # Keys come from a topic as well, and its publisher may never pause.
+            if self._sending < MOST_SENDING:
+                self._sending += 1
+                self.start_soon(self._rotate(meaning.theta))
         elif meaning.action == "cancel":
             # Without a goal, or when it has ended by now, there is nothing to cancel.
             if self._goal is not None:
@@ -155,3 +158,5 @@ class Teleop(Node):
             )
         except TftoolError as refusal:
             self.warn(f"{self.turtle} cannot be turned: {refusal}")
+        finally:
+            self._sending -= 1

@@ -29,7 +29,7 @@ class Segment(NamedTuple):
 class Trail:
     """The drawing layer under all turtles.
 
-    Pixels are painted only when somebody asks for one: most worlds never do.
+    Pixels are painted only when a colour is asked for: most worlds never do that.
 
     Attributes:
         segments: The newest segments, oldest first.

@@ -7,11 +7,11 @@ from typing import ClassVar
 from tftool.errors import UsageError
 from tftool.messages import Clear, Color, Kill, Killed, Reset, Spawn, Spawned
 from tftool.motion.unicycle import CENTRE, TICK, Placement
-from tftool.nodes.inbox import Inbox
-from tftool.nodes.outlet import Outlet, requested_placement, require_byte
 from tftool.nodes.parameter_services import ParameterServices
+from tftool.nodes.tick_queue import TickQueue
 from tftool.nodes.trail import Segment, Trail
 from tftool.nodes.turtle import Turtle, require_turtle_name, shown
+from tftool.nodes.turtle_ports import TurtlePorts, requested_placement, require_byte
 from tftool.runtime.clock import Phase
 from tftool.runtime.log import Level
 from tftool.runtime.node import Node
@@ -33,8 +33,8 @@ class Turtlesim(Node):
 
     Whatever arrives (commands, services, goals) waits for the next tick; then every
     turtle is updated once, in the order of the names. Topics of a turtle: `pose` out
-    at every tick, `cmd_vel` in, `color_sensor` out at every tick while somebody
-    subscribes to it. Services: spawn, kill, clear, reset, and of each turtle
+    at every tick, `cmd_vel` in, `color_sensor` out at every tick while it
+    has subscribers. Services: spawn, kill, clear, reset, and of each turtle
     teleport_absolute, teleport_relative, set_pen. Action of each turtle: rotate_absolute.
 
     Parameters: background_r, background_g, background_b (0 to 255), holonomic.
@@ -81,9 +81,9 @@ class Turtlesim(Node):
         self._prefix = f"{namespace.strip('/')}/" if namespace.strip("/") else ""
         self._initial = tuple(turtles)
         self._turtles: dict[str, Turtle] = {}
-        self._outlets: dict[str, Outlet] = {}
+        self._ports: dict[str, TurtlePorts] = {}
         self._counter = 0
-        self._inbox = Inbox(world.clock)
+        self._queue = TickQueue(world.clock)
 
     # What others may see
 
@@ -142,36 +142,36 @@ class Turtlesim(Node):
 
         first = True
         async for now in self.every(TICK, immediately=True):
-            self._inbox.deliver(now)
+            self._queue.deliver(now)
             if first:
-                # turtlesim's first tick moves nobody; the start is published all the same.
+                # turtlesim's first tick moves no turtle; the start is published all the same.
                 first = False
                 for name, turtle in self._turtles.items():
-                    self._outlets[name].pose.publish(turtle.pose)
+                    self._ports[name].pose.publish(turtle.pose)
             else:
                 self._update(now)
 
     def close(self) -> None:
-        """Withdraw everything; who still waits for an answer is told that none will come.
+        """Withdraw everything, and refuse the requests that still wait.
 
-        The turtles stay where they are, for whoever looks at the end.
+        The turtles stay where they are, for a look at the end.
         """
-        for outlet in self._outlets.values():
-            outlet.close()
-        self._outlets.clear()
-        self._inbox.close(f"simulator '{self.name}' has left")
+        for ports in self._ports.values():
+            ports.close()
+        self._ports.clear()
+        self._queue.close(f"simulator '{self.name}' has left")
         super().close()
 
     def _update(self, now: Stamp) -> None:
         for name, turtle in tuple(self._turtles.items()):
-            outlet = self._outlets.get(name)
-            if outlet is None:  # somebody who heard of a pose sent the simulator away
+            ports = self._ports.get(name)
+            if ports is None:  # a subscriber of a pose removed the simulator
                 return
             before = turtle.pose
             stroke = turtle.update(now, self._say, self._draw)
-            outlet.pose.publish(turtle.pose)
-            if outlet.color.subscribers:
-                outlet.color.publish(self.color_under(name))
+            ports.pose.publish(turtle.pose)
+            if ports.color.subscribers:
+                ports.color.publish(self.color_under(name))
             if stroke is not None:
                 self.trail.draw(stroke)
             if turtle.pose is not before:
@@ -193,8 +193,8 @@ class Turtlesim(Node):
         turtle = Turtle(name, place, now)
         # Kept in the order of the names: that is the order of updates and of drawing.
         self._turtles = dict(sorted({**self._turtles, name: turtle}.items()))
-        self._outlets[name] = Outlet(
-            self.world, self.name, self._prefix, turtle, self._inbox, self._say, self._is_holonomic
+        self._ports[name] = TurtlePorts(
+            self.world, self.name, self._prefix, turtle, self._queue, self._say, self._is_holonomic
         )
         self.revision += 1
         self.info(
@@ -221,16 +221,16 @@ class Turtlesim(Node):
 
     def _remove(self, name: str) -> None:
         del self._turtles[name]
-        outlet = self._outlets.pop(name)
-        outlet.close()
-        outlet.remove_topics()
+        ports = self._ports.pop(name)
+        ports.close()
+        ports.remove_topics()
         self.revision += 1
 
     # What is asked of the simulator
 
     async def _on_spawn(self, request: Spawn) -> Spawned:
         place = requested_placement(request)
-        return await self._inbox.ask(lambda tick: Spawned(self._spawn(place, request.name, tick)))
+        return await self._queue.ask(lambda tick: Spawned(self._spawn(place, request.name, tick)))
 
     async def _on_kill(self, request: Kill) -> Killed:
         def kill(_: Stamp) -> Killed:
@@ -240,14 +240,14 @@ class Turtlesim(Node):
             self.error(f"Tried to kill turtle [{shown(request.name)}], which does not exist")
             return Killed(False)
 
-        return await self._inbox.ask(kill)
+        return await self._queue.ask(kill)
 
     async def _on_clear(self, _: Clear) -> None:
         def clear(_: Stamp) -> None:
             self.info("Clearing turtlesim.")
             self._wipe()
 
-        await self._inbox.ask(clear)
+        await self._queue.ask(clear)
 
     async def _on_reset(self, _: Reset) -> None:
         def reset(tick: Stamp) -> None:
@@ -258,7 +258,7 @@ class Turtlesim(Node):
             self._spawn(Placement(CENTRE, CENTRE, 0.0), "", tick)
             self._wipe()
 
-        await self._inbox.ask(reset)
+        await self._queue.ask(reset)
 
     # Little things
 

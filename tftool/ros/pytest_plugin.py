@@ -30,20 +30,24 @@ def pytest_addoption(parser: pytest.Parser) -> None:
 def pytest_configure(config: pytest.Config) -> None:
     """Answer to ROS 2's modules before test files are imported."""
     if config.getoption("--ros-free"):
-        from tftool.ros import program
-        from tftool.ros.importing import ros_modules
+        from tftool.ros.host import program
+        from tftool.ros.host.importing import ros_modules
+        from tftool.ros.host.workspace import Workspace
+        from tftool.ros.launch import packages
 
         imports = ros_modules()
         # Tests sleep and start threads as nodes do, so they need the same time.
         imports.__enter__().tested = config.rootpath
         _imports.append(imports)
+        # The interfaces of the workspace around the tests, and its packages' share folders.
+        packages.use(Workspace(config.rootpath))
         program.let_outsiders_join(_program_of_fixture)
 
 
 def pytest_unconfigure(config: pytest.Config) -> None:
     """Give the imports back."""
     if _imports:
-        from tftool.ros import program
+        from tftool.ros.host import program
 
         program.let_outsiders_join(None)
     while _imports:

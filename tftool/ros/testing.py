@@ -9,11 +9,11 @@ from collections.abc import Callable, Sequence
 from pathlib import Path
 from typing import Any
 
-from tftool.ros import names, users
-from tftool.ros.fibers import EndedError
-from tftool.ros.hosting import ProgramFailed
-from tftool.ros.importing import ros_free
-from tftool.ros.program import Program
+from tftool.ros.host import names, user_code
+from tftool.ros.host.fibers import EndedError
+from tftool.ros.host.hosting import ProgramFailed
+from tftool.ros.host.importing import ros_free
+from tftool.ros.host.program import Program
 from tftool.runtime.clock import Phase, SimClock, run
 from tftool.runtime.log import LogRecord
 from tftool.runtime.supervisor import live
@@ -33,7 +33,7 @@ class RosRuntime:
     def __init__(self) -> None:
         self.clock = SimClock()
         self.world = World(self.clock)
-        self._imports = ros_free(insist=True)
+        self._imports = ros_free(force=True)
         self._failure: BaseException | None = None
         self._is_told = False
 
@@ -114,7 +114,7 @@ class RosRuntime:
             body: Any = what
             name = getattr(what, "__module__", "program").rpartition(".")[2]
         else:
-            body, name = users.file_body(Path(what)), Path(what).stem
+            body, name = user_code.file_body(Path(what)), Path(what).stem
         options, _ = names.parse(argv)
         taken = {node.name for node in self.world.nodes}
         number = 1
@@ -124,7 +124,7 @@ class RosRuntime:
             lambda: Program(
                 self.world,
                 f"{name}-{number}",
-                users.whole(body),
+                user_code.whole(body),
                 argv=[str(what) if isinstance(what, str | Path) else name, *argv],
                 options=options,
                 on_exit=on_exit,

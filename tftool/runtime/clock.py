@@ -1,6 +1,6 @@
 """Where time comes from: simulated or real, one interface for both.
 
-Nobody else touches `time` or `asyncio.sleep`. A waiter names the moment it wants
+No other module touches `time` or `asyncio.sleep`. A waiter names the moment it wants
 and its place within that moment: (stamp, phase, rank, order of asking). Both
 clocks wake waiters in exactly that order, because asyncio itself breaks ties
 between timers of one instant unpredictably.
@@ -11,18 +11,20 @@ simulated time and ten minutes pass in a second.
 """
 
 import asyncio
+import contextlib
 import heapq
 import math
 import selectors
-import signal
 import threading
 import time
 from abc import ABC, abstractmethod
-from collections.abc import Coroutine, Mapping
+from collections.abc import Collection, Coroutine
 from enum import IntEnum
 from typing import Any, TypeVar
 
 from tftool.errors import TftoolError
+from tftool.listeners import Listeners
+from tftool.runtime.stopping import PATIENCE, STANDSTILL, Stopper, abandon, leftovers
 from tftool.stamps import NANOSECONDS, Duration, Stamp, seconds, whole
 
 T = TypeVar("T")
@@ -46,16 +48,22 @@ class Clock(ABC):
         rate: How many of the clock's seconds pass in a real one; infinite when simulated.
         interrupted: Whether a signal has asked the run on it to end; known at once, even
             while something holds up the loop, which would otherwise be the first to know.
+        when_killed: Called before a second signal ends the process: restore the terminal there.
+        stopper: What can end the run on it; None while nothing runs.
     """
 
     epoch: Stamp
     rate: float
     interrupted: bool
+    when_killed: Listeners[()]
+    stopper: Stopper | None
 
     def __init__(self, epoch: Stamp, rate: float) -> None:
         self.epoch = epoch
         self.rate = rate
         self.interrupted = False
+        self.when_killed = Listeners()
+        self.stopper = None
         self._waiters: list[tuple[Stamp, int, int, int, asyncio.Future[None]]] = []
         self._asked = 0
 
@@ -66,6 +74,41 @@ class Clock(ABC):
     @abstractmethod
     def new_loop(self) -> asyncio.AbstractEventLoop:
         """Make an event loop whose time is this clock's."""
+
+    def interrupt(self) -> None:
+        """Note that a signal has come."""
+        self.interrupted = True
+
+    @abstractmethod
+    def limit(self, until: Stamp | None) -> None:
+        """Have a node that holds up the loop ended once the run is to be over.
+
+        Args:
+            until: The end of the run; None where it needs no watching any more.
+        """
+
+    @abstractmethod
+    def real_timer(self, patience: float) -> "asyncio.Future[None]":
+        """A future that is done after so many real seconds; cancel it to give it up."""
+
+    async def wait_for_end(
+        self, tasks: "Collection[asyncio.Task[Any]]"
+    ) -> "set[asyncio.Task[Any]]":
+        """Wait for cancelled tasks, for `PATIENCE` real seconds; for ever after a signal.
+
+        Returns:
+            Those that have not returned.
+        """
+        waiting = set(tasks)
+        timer = self.real_timer(PATIENCE)
+        try:
+            while waiting and (self.interrupted or not timer.done()):
+                also = set() if timer.done() else {timer}
+                await asyncio.wait(waiting | also, return_when=asyncio.FIRST_COMPLETED)
+                waiting = {task for task in waiting if not task.done()}
+        finally:
+            timer.cancel()
+        return waiting
 
     def elapsed(self) -> Duration:
         """How long ago the clock's epoch was, in nanoseconds."""
@@ -110,6 +153,9 @@ class SimClock(Clock):
 
     Two runs are the same run. One waiter is woken at a time, and everything it
     sets off comes to rest before the next one of the same instant is woken.
+
+    Attributes:
+        alarms: How many timers of real time are set.
     """
 
     def __init__(self, epoch: Stamp = seconds(1000)) -> None:
@@ -121,6 +167,7 @@ class SimClock(Clock):
         if epoch <= 0:
             raise ValueError("a simulated clock starts after 0, which means 'latest'")
         super().__init__(epoch, math.inf)
+        self.alarms = 0
         self._now = epoch
 
     def now(self) -> Stamp:
@@ -136,6 +183,33 @@ class SimClock(Clock):
     def new_loop(self) -> asyncio.AbstractEventLoop:
         """Make an event loop that lives in this clock's time."""
         return _VirtualLoop(self)
+
+    def limit(self, until: Stamp | None) -> None:
+        """End a node that holds up simulated time for `STANDSTILL` real seconds."""
+        if self.stopper is not None:
+            self.stopper.limit(None, None if until is None else STANDSTILL)
+
+    def real_timer(self, patience: float) -> "asyncio.Future[None]":
+        """A future that is done after so many real seconds, however much is simulated in them."""
+        loop = asyncio.get_running_loop()
+        future: asyncio.Future[None] = loop.create_future()
+
+        def ring() -> None:
+            with contextlib.suppress(RuntimeError):  # the loop has been closed
+                loop.call_soon_threadsafe(_set, future)
+
+        alarm = threading.Timer(patience, ring)
+        alarm.daemon = True
+        # Something from outside is on its way: simulated time is not at its end.
+        self.alarms += 1
+
+        def forget(_: "asyncio.Future[None]") -> None:
+            self.alarms -= 1
+            alarm.cancel()
+
+        future.add_done_callback(forget)
+        alarm.start()
+        return future
 
     def advance(self, loop_timer: float | None) -> bool:
         """Jump to what is due next and wake it; False when nothing is due, ever.
@@ -166,24 +240,30 @@ class WallClock(Clock):
     monotonic clock counts on.
     """
 
-    def __init__(self, rate: float = 1.0, *, head_start: Duration = 0) -> None:
+    def __init__(
+        self, rate: float = 1.0, *, epoch: Stamp | None = None, head_start: Duration = 0
+    ) -> None:
         """Start now, at `rate` times real time.
 
         Args:
             rate: How many of its seconds pass in a real one.
+            epoch: What it reads first, such as the moment a recording began; the moment it
+                is, less the head start, when None.
             head_start: How much of the past to live through first, as fast as it can be
-                simulated, so that a world is already under way when somebody looks.
+                simulated, so that a world is already under way at the first look at it.
 
         Raises:
             ValueError: If `rate` is not a positive number between a billionth and a
-                billion, or the head start negative.
+                billion, the head start negative, or the epoch not after 0.
         """
         # Beyond, a moment would not be a finite number of real seconds away.
         if not 1e-9 <= rate <= 1e9:
             raise ValueError(f"a rate must be a positive number from 1e-9 to 1e9, not {rate!r}")
         if head_start < 0:
             raise ValueError(f"a head start cannot be negative: {head_start} ns")
-        super().__init__(time.time_ns() - head_start, rate)
+        if epoch is not None and epoch <= 0:
+            raise ValueError("a clock starts after 0, which means 'latest'")
+        super().__init__(time.time_ns() - head_start if epoch is None else epoch, rate)
         self._started = time.monotonic_ns() - round(head_start / rate)
         self._alarm: asyncio.TimerHandle | None = None
         # Up to here time stands still while anything runs; from here on it is real.
@@ -212,6 +292,21 @@ class WallClock(Clock):
             self._set_alarm()
         return future
 
+    def limit(self, until: Stamp | None) -> None:
+        """End a node that holds up the loop when that moment has passed."""
+        if self.stopper is not None:
+            wait = None if until is None else (until - self.now()) / (NANOSECONDS * self.rate)
+            # A thread waits for no more than some hundred years.
+            self.stopper.limit(None if wait is None or wait > 1e9 else max(wait, 0.0))
+
+    def real_timer(self, patience: float) -> "asyncio.Future[None]":
+        """A future that is done after so many real seconds, whatever the rate."""
+        loop = asyncio.get_running_loop()
+        future: asyncio.Future[None] = loop.create_future()
+        alarm = loop.call_later(patience, _set, future)
+        future.add_done_callback(lambda _: alarm.cancel())
+        return future
+
     def _set_alarm(self) -> None:
         if self._alarm is not None:
             self._alarm.cancel()
@@ -220,7 +315,7 @@ class WallClock(Clock):
         if self._simulated is not None:
             self._alarm = asyncio.get_running_loop().call_later(0, self._wake)
         elif due is not None:
-            # Whoever waits for longer than any stamp lasts is woken once in between.
+            # A wait longer than any stamp lasts is interrupted once in between.
             delay = max(0, min(due - self.now(), 2**63)) / (NANOSECONDS * self.rate)
             self._alarm = asyncio.get_running_loop().call_later(delay, self._wake)
 
@@ -258,6 +353,11 @@ class WallClock(Clock):
         return None
 
 
+def _set(future: "asyncio.Future[None]") -> None:
+    if not future.done():
+        future.set_result(None)
+
+
 def _others_wait_their_turn() -> bool:
     """Whether the running loop has work at hand; asyncio has no public way to ask."""
     return bool(getattr(asyncio.get_running_loop(), "_ready", ()))
@@ -279,7 +379,8 @@ class _VirtualLoop(asyncio.SelectorEventLoop):
         selector: Any = getattr(self, "_selector", None)
         # The one file that is always there is the loop's own wake-up pipe.
         files = 0 if selector is None else len(selector.get_map())
-        return files <= 1 and getattr(self, "_default_executor", None) is None
+        has_help = getattr(self, "_default_executor", None) is not None or self.clock.alarms > 0
+        return files <= 1 and not has_help
 
 
 class _VirtualSelector(selectors.DefaultSelector):
@@ -318,81 +419,79 @@ class _VirtualSelector(selectors.DefaultSelector):
 def run(clock: Clock, main: Coroutine[Any, Any, T]) -> T:
     """Run a coroutine to its end on the loop that belongs to `clock`.
 
-    SIGINT and SIGTERM cancel it, so that every `finally` runs; a second one
-    ends the process the hard way.
+    The first SIGINT or SIGTERM cancels it, so that every `finally` runs; what does not return
+    within two seconds is named on stderr, and a second signal ends the process with status
+    130, whatever runs in it.
 
     Returns:
         What the coroutine returns.
 
     Raises:
-        KeyboardInterrupt: If a signal ended it.
-        Exception: What the coroutine raises.
+        KeyboardInterrupt: If a signal ended it; its cause is what failed on the way out.
+        Exception: What the coroutine raises, or a task that it left behind.
     """
     loop = clock.new_loop()
     clock.interrupted = False
     try:
         asyncio.set_event_loop(loop)
         task = loop.create_task(main)
-        signals = _Signals(clock, loop, task)
+        stopper = Stopper(loop, task, _real_seconds, clock.interrupt, clock.when_killed)
+        clock.stopper = stopper
         try:
-            result = loop.run_until_complete(task)
-            if clock.interrupted:
-                raise KeyboardInterrupt
-            return result
-        except asyncio.CancelledError:
-            if clock.interrupted:
-                raise KeyboardInterrupt from None
-            raise
+            return _outcome(clock, loop, task)
         finally:
-            _cancel_leftovers(loop)
-            signals.restore()
+            clock.stopper = None
+            stopper.close()
             loop.run_until_complete(loop.shutdown_asyncgens())
     finally:
         asyncio.set_event_loop(None)
         loop.close()
 
 
-class _Signals:
-    """Turns the first SIGINT or SIGTERM into a cancellation, where the platform lets us."""
-
-    def __init__(
-        self, clock: Clock, loop: asyncio.AbstractEventLoop, task: "asyncio.Task[Any]"
-    ) -> None:
-        self._clock = clock
-        self._loop = loop
-        self._task = task
-        self._before: dict[signal.Signals, Any] = {}
-        if threading.current_thread() is not threading.main_thread():
-            return
-        for number in (signal.SIGINT, signal.SIGTERM):
-            before = signal.getsignal(number)
-            try:
-                loop.add_signal_handler(number, self._catch)
-            except NotImplementedError:  # Windows: KeyboardInterrupt comes by itself
-                return
-            # The loop is still woken by the signal; this one is told even while it is held up.
-            signal.signal(number, self._note)
-            self._before[number] = before
-
-    def _note(self, number: int, frame: object) -> None:
-        self._clock.interrupted = True
-
-    def _catch(self) -> None:
-        self._clock.interrupted = True
-        self._task.cancel()
-        self.restore(dict.fromkeys(self._before, signal.SIG_DFL))
-
-    def restore(self, handlers: Mapping[signal.Signals, Any] | None = None) -> None:
-        """Give the signals back to whoever had them, or to `handlers`."""
-        for number, before in (handlers or self._before).items():
-            self._loop.remove_signal_handler(number)
-            if before is not None:
-                signal.signal(number, before)
+def _real_seconds() -> float:
+    return time.monotonic_ns() / NANOSECONDS
 
 
-def _cancel_leftovers(loop: asyncio.AbstractEventLoop) -> None:
-    leftovers = asyncio.all_tasks(loop)
-    for task in leftovers:
-        task.cancel()
-    if leftovers:
-        loop.run_until_complete(asyncio.gather(*leftovers, return_exceptions=True))
+def _outcome(clock: Clock, loop: asyncio.AbstractEventLoop, task: "asyncio.Task[T]") -> T:
+    """Run a task to its end, and those it leaves behind."""
+    failure: BaseException | None = None
+    try:
+        loop.run_until_complete(task)
+    except BaseException as error:
+        failure = error
+    left_failure = _cancel_leftovers(clock, loop)
+    if failure is None or isinstance(failure, asyncio.CancelledError):
+        failure = left_failure or failure
+    if clock.interrupted and (failure is None or isinstance(failure, Exception)):
+        raise KeyboardInterrupt from failure
+    if clock.interrupted:
+        raise KeyboardInterrupt from None
+    if failure is not None:
+        raise failure
+    return task.result()
+
+
+def _cancel_leftovers(clock: Clock, loop: asyncio.AbstractEventLoop) -> BaseException | None:
+    """Cancel what still runs, and give the first thing that is raised by it."""
+
+    async def cancel(tasks: "set[asyncio.Task[Any]]") -> BaseException | None:
+        for task in tasks:
+            task.cancel()
+        for task in await clock.wait_for_end(tasks):
+            abandon(task)
+        for task in tasks:
+            if task.done() and not task.cancelled() and (error := task.exception()) is not None:
+                return error
+        return None
+
+    left = leftovers(loop)
+    if not left:
+        return None
+    ending = loop.create_task(cancel(left))
+    try:
+        return loop.run_until_complete(ending)
+    finally:
+        # The loop itself may refuse to go on: nothing of this is left for when it is closed.
+        if not ending.done():
+            abandon(ending)
+            ending.get_coro().close()

@@ -1,7 +1,7 @@
 """Who publishes and who subscribes what, and with what quality of service.
 
-Nodes that state a quality are entered here, those of other processes too; the
-others (our own simulator, say) take what comes and give to whoever listens.
+Nodes are entered here by what they publish and subscribe, those of other processes too. What
+stays inside the process, such as keys that are pressed, has no ROS type and is not entered.
 """
 
 from collections import deque
@@ -20,9 +20,9 @@ class Quality:
     """How messages are to be handed on.
 
     Attributes:
-        depth: How many messages wait, or are kept for those who come late.
+        depth: How many messages wait, or are kept for late subscribers.
         is_reliable: Whether none may be lost on the way.
-        is_latched: Whether who comes late gets what was sent before (transient local).
+        is_latched: Whether late subscribers get what was sent before (transient local).
         keeps_all: Whether nothing that waits is dropped, whatever the depth.
     """
 
@@ -30,6 +30,16 @@ class Quality:
     is_reliable: bool = True
     is_latched: bool = False
     keeps_all: bool = False
+
+
+USUAL: Final = Quality(depth=7)
+"""What turtlesim offers, and nodes that ask for nothing else."""
+
+TF: Final = Quality(depth=100)
+"""tf2's quality of /tf."""
+
+TF_STATIC: Final = Quality(depth=1, is_latched=True)
+"""tf2's quality of /tf_static."""
 
 
 def conflict(offered: Quality, requested: Quality) -> str:
@@ -53,7 +63,7 @@ class Endpoint:
         quality: What it offers or asks for.
         is_remote: Whether it is another process's.
         deliver: Of a latched subscription here: takes what others sent it before, and who did.
-        kept: Of a latched publisher here: what those who come late get.
+        kept: Of a latched publisher here: what late subscribers get.
     """
 
     role: Role
@@ -106,7 +116,7 @@ class Endpoints:
         return [one for one in self._by_topic.get(topic, ()) if one.role == role]
 
     def topics(self) -> list[str]:
-        """The names of all topics somebody is entered for."""
+        """The names of all topics that have an endpoint."""
         return list(self._by_topic)
 
     def _compare(self, publisher: Endpoint, subscription: Endpoint) -> None:

@@ -1,10 +1,11 @@
-"""What nodes have to say, kept for screens and handed to whoever listens."""
+"""What nodes have to say, kept for screens and handed to listeners."""
 
 from collections import deque
 from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Literal, get_args
 
+from tftool.listeners import Listeners, Report
 from tftool.stamps import NANOSECONDS, Stamp
 
 Level = Literal["DEBUG", "INFO", "WARN", "ERROR", "FATAL"]
@@ -13,7 +14,7 @@ LEVELS: tuple[Level, ...] = get_args(Level)
 """From what hardly matters to what ends everything."""
 
 PROBLEMS: tuple[Level, ...] = ("WARN", "ERROR", "FATAL")
-"""The levels of what a user should hear of, whoever says it."""
+"""The levels of what a user should hear of, from any node."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -43,24 +44,33 @@ class LogRecord:
 
 
 class Log:
-    """The last thousand lines, and those who want each as it comes."""
+    """The last thousand lines, and the listeners that get each as it comes."""
 
-    def __init__(self, now: Callable[[], Stamp], keep: int = 1000) -> None:
+    def __init__(
+        self, now: Callable[[], Stamp], keep: int = 1000, report: Report | None = None
+    ) -> None:
+        """Begin empty.
+
+        Args:
+            now: Gives the stamp of a line.
+            keep: How many lines are kept.
+            report: Takes what a listener raises; see `Listeners`.
+        """
         self.records: deque[LogRecord] = deque(maxlen=keep)
         self._now = now
-        self._listeners: tuple[Callable[[LogRecord], object], ...] = ()
+        self._listeners: Listeners[LogRecord] = Listeners(report)
 
-    def listen(self, callback: Callable[[LogRecord], object]) -> Callable[[], None]:
-        """Have `callback` called with every line to come; call what is returned to stop."""
-        self._listeners = (*self._listeners, callback)
+    def listen(
+        self, callback: Callable[[LogRecord], object], owner: str = ""
+    ) -> Callable[[], None]:
+        """Have `callback` called with every line to come; call what is returned to stop.
 
-        def stop() -> None:
-            self._listeners = tuple(one for one in self._listeners if one is not callback)
-
-        return stop
+        What it raises is reported under the name of its `owner`.
+        """
+        return self._listeners.add(callback, owner)
 
     def debug(self, node: str, text: str) -> None:
-        """Say something for whoever looks for a fault."""
+        """Say something that helps to find a fault."""
         self.add("DEBUG", node, text)
 
     def info(self, node: str, text: str) -> None:
@@ -79,5 +89,4 @@ class Log:
         """Keep a line and hand it on."""
         record = LogRecord(self._now(), level, node, text, program)
         self.records.append(record)
-        for listener in self._listeners:
-            listener(record)
+        self._listeners.call(record)

@@ -1,14 +1,16 @@
 """A node: one coroutine, `run`, in a world, waiting only through the world's clock."""
 
-from collections.abc import AsyncIterator, Callable
+import asyncio
+from collections.abc import AsyncIterator, Callable, Coroutine
 from typing import Any, ClassVar, TypeVar
 
 from tftool.frames.buffer import Buffer
 from tftool.frames.sample import TransformStamped
 from tftool.runtime.clock import Clock, Phase
+from tftool.runtime.endpoints import TF, TF_STATIC, USUAL, Quality
 from tftool.runtime.parameters import Parameters, Value
 from tftool.runtime.resident import Resident
-from tftool.runtime.world import World
+from tftool.runtime.world import TopicPublisher, TransformMessage, World
 from tftool.stamps import Duration, Stamp, as_seconds, whole
 
 T = TypeVar("T")
@@ -22,8 +24,8 @@ class Node(Resident):
 
     Attributes:
         world: Where it lives.
-        name: Who it is, in logs and as the authority of what it broadcasts.
-        rank: Its place among the nodes of the world: who joined first goes first.
+        name: Its name, in logs and as the authority of what it broadcasts.
+        rank: Its place among the nodes of the world, in the order in which they joined.
         phase: Its place within an instant.
     """
 
@@ -40,6 +42,7 @@ class Node(Resident):
         self.rank = 0
         self.parameters = Parameters(name)
         self._stops: list[Callable[[], None]] = []
+        self._publishers: dict[str, TopicPublisher[Any]] = {}
         world.add(self)
 
     @property
@@ -54,6 +57,20 @@ class Node(Resident):
 
     async def run(self) -> None:
         """What the node does; it ends when this returns."""
+
+    def start_soon(self, work: Coroutine[Any, Any, T]) -> "asyncio.Task[T | None]":
+        """Run something beside `run`, as a part of this node.
+
+        It may outlast `run`, and is cancelled when the node leaves or the world ends. What it
+        raises is the failure of this node.
+
+        Returns:
+            The task; its result is None where the work has failed.
+
+        Raises:
+            TftoolError: If the world does not run.
+        """
+        return self.world.start_soon(self, work)
 
     async def every(self, period: Duration, *, immediately: bool = False) -> AsyncIterator[Stamp]:
         """The moments of a timer, on an integer grid from now on.
@@ -92,25 +109,28 @@ class Node(Resident):
 
     def publish(self, topic: str, value: Any) -> None:
         """Publish on a topic, made with the value's type if it is new."""
-        self.world.topic(topic, type(value)).publish(value)
+        publisher = self._publishers.get(topic)
+        if publisher is None or publisher.kind is not type(value):
+            publisher = self.publisher(topic, type(value))
+        publisher.publish(value)
+
+    def publisher(self, topic: str, kind: type[T], quality: Quality = USUAL) -> TopicPublisher[T]:
+        """Become a publisher of a topic, until this node ends, before there is a value."""
+        publisher = self.world.publisher(self.name, topic, kind, quality)
+        self._publishers[topic] = publisher
+        self._until_end(publisher.close)
+        return publisher
 
     def subscribe(
         self, topic: str, kind: type[T], callback: Callable[[T], object]
     ) -> Callable[[], None]:
         """Have `callback` called with every value; if it raises, this node has failed."""
-
-        def guarded(value: T) -> None:
-            try:
-                callback(value)
-            except Exception as error:
-                self.world.fail(self, error)
-
-        return self._until_end(self.world.topic(topic, kind).subscribe(guarded))
+        return self._until_end(self.world.subscribe(self.name, topic, kind, callback))
 
     def serve(
         self, name: str, handler: Callable[[Any], Any], kind: Any = None
     ) -> Callable[[], None]:
-        """Answer a service until this node ends; other processes are told what `kind` it is."""
+        """Answer a service until this node ends; `kind` is its type for other processes."""
         return self._until_end(self.world.serve(name, handler, kind, node=self.name))
 
     def serve_action(
@@ -125,11 +145,17 @@ class Node(Resident):
 
     def broadcast(self, *transforms: TransformStamped) -> bool:
         """Put transforms into the buffer, under this node's name; whether it took them all."""
+        self._enter_broadcaster("tf", TF)
         return self.world.broadcast(transforms, self.name)
 
     def broadcast_static(self, *transforms: TransformStamped) -> bool:
         """Put transforms that hold for all time into the buffer; whether it took them all."""
+        self._enter_broadcaster("tf_static", TF_STATIC)
         return self.world.broadcast(transforms, self.name, static=True)
+
+    def _enter_broadcaster(self, topic: str, quality: Quality) -> None:
+        if topic not in self._publishers:
+            self.publisher(topic, TransformMessage, quality)
 
     def info(self, text: str) -> None:
         """Log what happens."""
@@ -161,6 +187,7 @@ class Node(Resident):
         """Withdraw every subscription and service; the supervisor calls it at the end."""
         while self._stops:
             self._stops.pop()()
+        self._publishers.clear()
 
     def _until_end(self, stop: Callable[[], None]) -> Callable[[], None]:
         self._stops.append(stop)

@@ -1,4 +1,4 @@
-"""What a world knows of a service or an action that somebody answers."""
+"""What a world knows of a service or an action that is served."""
 
 from dataclasses import dataclass
 from typing import Any, Generic, TypeVar
@@ -13,9 +13,9 @@ class Offer(Generic[T]):
     Attributes:
         take: What answers requests, or takes goals.
         kind: What is asked: the type of our own requests or goals, or the ROS class of the
-            service or action. None where nobody says; it stays inside the process then.
-        node: The node that answers, "" where nobody says.
-        is_remote: Whether another process answers. Whoever wants to answer here goes first.
+            service or action. None where it is not stated; it stays inside the process then.
+        node: The node that answers, "" where it is not stated.
+        is_remote: Whether another process answers; a server here takes its place.
     """
 
     take: T

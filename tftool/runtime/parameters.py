@@ -10,7 +10,7 @@ Value = bool | int | float | str
 
 
 class Parameters:
-    """Declared names with typed values; whoever asked is told of each change."""
+    """Declared names with typed values, and callbacks for each change."""
 
     def __init__(self, owner: str) -> None:
         self._owner = owner

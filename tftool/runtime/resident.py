@@ -1,19 +1,23 @@
-"""What a world knows of those who live in it, and of whoever runs them.
+"""What a world knows of its nodes, and of the supervisor that runs them.
 
 Nodes know their world; the world knows them only as residents, so that neither
 module has to know the other.
 """
 
-from typing import ClassVar
+import asyncio
+from collections.abc import Coroutine
+from typing import Any, ClassVar, TypeVar
+
+T = TypeVar("T")
 
 
 class Resident:
-    """Somebody who lives in a world.
+    """Something that runs in a world under a name: a node, or a program that carries nodes.
 
     Attributes:
-        name: Who it is; no two residents of a world share a name.
-        rank: Its place among them: who joined first goes first within a phase.
-        is_shown: Whether lists of nodes name it; what only carries others stays out.
+        name: Its name; no two residents of a world share one.
+        rank: Its place among them: within a phase the one that joined first goes first.
+        is_shown: Whether lists of nodes name it; a program that only carries nodes stays out.
     """
 
     name: str
@@ -28,10 +32,16 @@ class Resident:
 
 
 class Supervision:
-    """What a world asks of whoever runs its residents."""
+    """What a world asks of the supervisor that runs its residents."""
 
     def start(self, resident: Resident) -> None:
         """Start one that joined."""
+        raise NotImplementedError
+
+    def start_soon(
+        self, resident: Resident, work: Coroutine[Any, Any, T]
+    ) -> "asyncio.Task[T | None]":
+        """Run something beside a resident's `run`, as a part of it."""
         raise NotImplementedError
 
     def end(self, resident: Resident) -> None:
@@ -44,4 +54,8 @@ class Supervision:
 
     def fail(self, resident: Resident, error: BaseException) -> None:
         """End the run because one raised."""
+        raise NotImplementedError
+
+    def end_by(self, error: Exception) -> None:
+        """End the run by an error that is of no resident."""
         raise NotImplementedError

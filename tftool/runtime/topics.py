@@ -1,7 +1,7 @@
 """Typed streams inside one process, and the questions that want an answer.
 
-Delivery is a direct call: whoever publishes has told every subscriber, in the
-order they subscribed, before `publish` returns.
+Delivery is a direct call: `publish` has called every subscriber, in the order they
+subscribed, when it returns.
 """
 
 import asyncio
@@ -10,6 +10,7 @@ from collections.abc import AsyncIterator, Awaitable, Callable
 from dataclasses import dataclass
 from typing import Any, Generic, Literal, TypeVar
 
+from tftool.listeners import Listeners, Report
 from tftool.runtime.endpoints import Endpoint
 
 T = TypeVar("T")
@@ -25,12 +26,12 @@ class Topic(Generic[T]):
         kind: The type every value has.
         latest: The value published last, None before the first.
         count: How many values were published.
-        on_demand: Called when somebody subscribes or stops to, None without anybody who cares.
-        sender: Who publishes the value that is being delivered; None when nobody says.
+        on_demand: Called when a subscriber comes or goes; None without a link.
+        sender: The publisher of the value that is being delivered; None when not known.
         relay: What carries values to other processes, told last; None without a link.
         far_subscribers: How many listen in other processes.
-        is_far: Whether it is here only to be seen: other processes have it, and nobody here
-            has asked for it by its name.
+        is_far: Whether it is here only to be listed: other processes have it, and it was not
+            asked for by its name here.
     """
 
     __slots__ = (
@@ -46,7 +47,8 @@ class Topic(Generic[T]):
         "sender",
     )
 
-    def __init__(self, name: str, kind: type[T]) -> None:
+    def __init__(self, name: str, kind: type[T], report: Report | None = None) -> None:
+        """Begin without a value; `report` takes what subscribers raise, see `Listeners`."""
         self.name = name
         self.kind = kind
         self.latest: T | None = None
@@ -56,7 +58,7 @@ class Topic(Generic[T]):
         self.relay: Callable[[T], object] | None = None
         self.far_subscribers = 0
         self.is_far = False
-        self._subscribers: tuple[Callable[[T], object], ...] = ()
+        self._subscribers: Listeners[T] = Listeners(report)
 
     def publish(self, value: T, sender: Endpoint | None = None) -> None:
         """Keep `value` and tell every subscriber at once, and who sent it if that is known.
@@ -72,28 +74,30 @@ class Topic(Generic[T]):
         self.count += 1
         before, self.sender = self.sender, sender
         try:
-            for subscriber in self._subscribers:
-                subscriber(value)
+            self._subscribers.call(value)
             if self.relay is not None:
                 self.relay(value)
         finally:
             self.sender = before
 
-    def subscribe(self, callback: Callable[[T], object]) -> Callable[[], None]:
-        """Have `callback` called with every value to come; call what is returned to stop."""
-        # A list that changes while it is walked would skip somebody; a new tuple cannot.
-        self._subscribers = (*self._subscribers, callback)
+    def subscribe(self, callback: Callable[[T], object], owner: str = "") -> Callable[[], None]:
+        """Have `callback` called with every value to come; call what is returned to stop.
+
+        What it raises is reported under the name of its `owner`, and does not reach the
+        publisher.
+        """
+        withdraw = self._subscribers.add(callback, owner)
+        is_there = True
         if self.on_demand is not None:
             self.on_demand()
 
         def stop() -> None:
-            kept = list(self._subscribers)
-            if callback not in kept:
-                return
-            kept.remove(callback)
-            self._subscribers = tuple(kept)
-            if self.on_demand is not None:
-                self.on_demand()
+            nonlocal is_there
+            if is_there:
+                is_there = False
+                withdraw()
+                if self.on_demand is not None:
+                    self.on_demand()
 
         return stop
 

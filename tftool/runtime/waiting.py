@@ -1,6 +1,6 @@
 """Await a transform, with a deadline on the clock's time.
 
-Nobody polls: the buffer's own requests wake a waiter from inside the set that
+Nothing is polled: the buffer's own requests wake a waiter from inside the set that
 makes its transform possible.
 """
 
@@ -60,7 +60,7 @@ async def wait_for_transform_full(
     """The transform between two moments, through a fixed frame, as soon as it can be given.
 
     Raises as `wait_for_transform` does, and LookupException at once if all three frames
-    are one that nobody knows.
+    are one that is unknown.
     """
     deadline = None if timeout is None else clock.now() + whole(timeout)
     while True:
@@ -103,12 +103,13 @@ async def _wait(
     def expired(timer: "asyncio.Future[None]") -> None:
         if answer.done() or timer.cancelled():
             return
-        late = TimeoutException("Timed out waiting for transform", target=target, source=source)
         try:
             answer.set_result(buffer.lookup_transform(target, source, time))
         except TransformException as refusal:
-            late.__cause__ = refusal
-            answer.set_exception(late)
+            late = "Timed out waiting for transform"
+            answer.set_exception(
+                TimeoutException(late, target=target, source=source, refusal=refusal)
+            )
 
     handle = buffer.request(answered, target, source, time)
     if handle in (0, NEVER):

@@ -1,17 +1,27 @@
 """The world nodes live in: one clock, one buffer, topics, services, actions, a log."""
 
+import asyncio
 import inspect
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Callable, Coroutine, Iterable, Mapping
 from dataclasses import dataclass
 from types import MappingProxyType
-from typing import Any, TypeVar, cast
+from typing import Any, ClassVar, Generic, TypeVar, cast
 
 from tftool.errors import NodeFailed, TftoolError
 from tftool.frames.buffer import Buffer
 from tftool.frames.sample import TransformStamped
+from tftool.listeners import Listeners, listener_text
 from tftool.runtime import waiting
 from tftool.runtime.clock import Clock
-from tftool.runtime.endpoints import Endpoints
+from tftool.runtime.endpoints import (
+    PUBLISHER,
+    SUBSCRIPTION,
+    USUAL,
+    Endpoint,
+    Endpoints,
+    Quality,
+    Role,
+)
 from tftool.runtime.log import Log
 from tftool.runtime.offers import Offer
 from tftool.runtime.resident import Resident, Supervision
@@ -25,8 +35,42 @@ T = TypeVar("T")
 class TransformMessage:
     """What travels on topics `tf` and `tf_static`: transforms and who sent them."""
 
+    interface__: ClassVar[str] = "tf2_msgs/msg/TFMessage"
+
     transforms: tuple[TransformStamped, ...]
     authority: str
+
+
+class TopicPublisher(Generic[T]):
+    """What one node publishes on one topic.
+
+    Attributes:
+        name: The topic's name, without a leading slash.
+        kind: The type of every value.
+    """
+
+    __slots__ = ("_endpoint", "_withdraw", "_world", "kind", "name")
+
+    def __init__(
+        self, world: "World", node: str, name: str, kind: type[T], quality: Quality
+    ) -> None:
+        self.name = name.removeprefix("/")
+        self.kind = kind
+        self._world = world
+        self._endpoint, self._withdraw = world.enter(PUBLISHER, node, self.name, kind, quality)
+
+    def publish(self, value: T) -> None:
+        """Publish a value, on a topic that is made anew where it was removed meanwhile."""
+        self._world.topic(self.name, self.kind).publish(value, self._endpoint)
+
+    @property
+    def subscribers(self) -> int:
+        """How many subscribe to the topic, those in other processes included."""
+        return self._world.topic(self.name, self.kind).subscribers
+
+    def close(self) -> None:
+        """Publish no more: the node is no publisher of that topic any longer."""
+        self._withdraw()
 
 
 class World:
@@ -36,8 +80,8 @@ class World:
         clock: Whose time everything here means.
         buffer: What is known of frames.
         log: What the nodes said.
-        nodes: Those who joined, in order.
-        endpoints: Who publishes and subscribes what, of those who say.
+        nodes: The nodes, in the order in which they joined.
+        endpoints: Which node publishes and subscribes what, of all processes.
         far_nodes: Names of the nodes of other processes, in alphabetical order.
         failure: The node that ended it by what it raised, as soon as that is known.
     """
@@ -50,8 +94,9 @@ class World:
         cache_time: Duration = seconds(10),
     ) -> None:
         self.clock = clock
-        self.log = Log(clock.now)
-        self.buffer = buffer or Buffer(cache_time, log=self._log_buffer)
+        self.log = Log(clock.now, report=self.report)
+        self._is_reporting = False
+        self.buffer = buffer or Buffer(cache_time, log=self._log_buffer, report=self.report)
         self.nodes: list[Resident] = []
         self._joined = 0
         self._topics: dict[str, Topic[Any]] = {}
@@ -62,7 +107,7 @@ class World:
         self.far_nodes: tuple[str, ...] = ()
         self.failure: NodeFailed | None = None
         self._supervisor: Supervision | None = None
-        self._watchers: tuple[Callable[[], object], ...] = ()
+        self._watchers: Listeners[()] = Listeners(self.report)
         self.endpoints = Endpoints(self._changed, self.log.warn)
         self.tf = self.topic("tf", TransformMessage)
         self.tf_static = self.topic("tf_static", TransformMessage)
@@ -78,19 +123,74 @@ class World:
         name = name.removeprefix("/")
         topic = self._topics.get(name)
         if topic is None:
-            topic = self._topics[name] = Topic(name, kind)
+            topic = self._topics[name] = Topic(name, kind, self.report)
             self._changed()
         elif topic.kind is not kind:
             raise TftoolError(f"topic '{name}' carries {topic.kind.__name__}, not {kind.__name__}")
         topic.is_far = False
         return cast("Topic[T]", topic)
 
+    def publisher(
+        self, node: str, name: str, kind: type[T], quality: Quality = USUAL
+    ) -> TopicPublisher[T]:
+        """Enter a node as a publisher of a topic.
+
+        Args:
+            node: Its name.
+            name: The topic's name.
+            kind: The type of what it publishes.
+            quality: What it offers.
+        """
+        return TopicPublisher(self, node, name, kind, quality)
+
+    def subscribe(
+        self,
+        node: str,
+        name: str,
+        kind: type[T],
+        callback: Callable[[T], object],
+        quality: Quality = USUAL,
+    ) -> Callable[[], None]:
+        """Enter a node as a subscriber of a topic; call what is returned to stop.
+
+        Args:
+            node: Its name, under which a failure of the callback is reported.
+            name: The topic's name.
+            kind: The type of what is published there.
+            callback: Called with every value to come.
+            quality: What it asks for.
+        """
+        topic = self.topic(name, kind)
+        # Entered first: the link shows a subscriber without a name for what is not.
+        _, withdraw = self.enter(SUBSCRIPTION, node, topic.name, kind, quality)
+        stop = topic.subscribe(callback, node)
+
+        def both() -> None:
+            stop()
+            withdraw()
+
+        return both
+
+    def enter(
+        self, role: Role, node: str, name: str, kind: type[Any], quality: Quality
+    ) -> tuple[Endpoint | None, Callable[[], None]]:
+        """Enter an end of a topic among the endpoints; what stays in the process has none.
+
+        Returns:
+            The endpoint, and what takes it out again.
+        """
+        interface = str(getattr(kind, "interface__", ""))
+        if not interface:
+            return None, _nothing
+        endpoint = Endpoint(role, node, name, interface, quality)
+        return endpoint, self.endpoints.add(endpoint)
+
     def topics(self) -> Mapping[str, Topic[Any]]:
         """Every topic by its name, read-only."""
         return MappingProxyType(self._topics)
 
     def remove_topic(self, name: str) -> None:
-        """Forget a topic; who still holds it talks to nobody."""
+        """Forget a topic; what is published on a `Topic` still held reaches no new subscriber."""
         if self._topics.pop(name.removeprefix("/"), None) is not None:
             self._changed()
 
@@ -115,13 +215,13 @@ class World:
             is_remote: Whether it answers from another process.
 
         Raises:
-            TftoolError: If somebody here serves that name already.
+            TftoolError: If a node here serves that name already.
         """
         offer = Offer(handler, kind, node, is_remote)
         return self._offer(self._services, name, offer, "service")
 
     def has_service(self, name: str) -> bool:
-        """Whether somebody answers that service."""
+        """Whether any node answers that service."""
         return name.removeprefix("/") in self._services
 
     def services(self) -> Mapping[str, Offer[Handler]]:
@@ -132,7 +232,7 @@ class World:
         """Ask a service and wait for its answer.
 
         Raises:
-            TftoolError: If nobody serves that name.
+            TftoolError: If no node serves that name.
         """
         offer = self._services.get(name.removeprefix("/"))
         if offer is None:
@@ -154,7 +254,7 @@ class World:
         The arguments are those of `serve`.
 
         Raises:
-            TftoolError: If somebody here serves that action already.
+            TftoolError: If a node here serves that action already.
         """
         offer = Offer(accept, kind, node, is_remote)
         return self._offer(self._actions, name, offer, "action")
@@ -169,7 +269,7 @@ class World:
         """Hand a goal to an action's server.
 
         Raises:
-            TftoolError: If nobody serves that action.
+            TftoolError: If no node serves that action.
         """
         offer = self._actions.get(name.removeprefix("/"))
         if offer is None:
@@ -178,21 +278,16 @@ class World:
         offer.take(handle)
         return handle
 
-    def watch(self, callback: Callable[[], object]) -> Callable[[], None]:
+    def watch(self, callback: Callable[[], object], owner: str = "") -> Callable[[], None]:
         """Have `callback` called when a topic, service, action or node comes or goes.
 
         It is called before the first value on a new topic. Call what is returned to stop.
+        What it raises is reported under the name of its `owner`.
         """
-        self._watchers = (*self._watchers, callback)
-
-        def stop() -> None:
-            self._watchers = tuple(one for one in self._watchers if one is not callback)
-
-        return stop
+        return self._watchers.add(callback, owner)
 
     def _changed(self) -> None:
-        for watcher in self._watchers:
-            watcher()
+        self._watchers.call()
 
     def _offer(
         self, offers: dict[str, Offer[T]], name: str, offer: Offer[T], what: str
@@ -215,7 +310,7 @@ class World:
     def broadcast(
         self, transforms: Iterable[TransformStamped], authority: str, *, static: bool = False
     ) -> bool:
-        """Put transforms into the buffer and tell whoever listens to `tf` or `tf_static`.
+        """Put transforms into the buffer and publish them on `tf` or `tf_static`.
 
         What the buffer refuses (and says why) goes no further. A static message always
         holds all statics of its sender, the newest of each child, as a late listener
@@ -228,7 +323,8 @@ class World:
         if static:
             held = self._statics.setdefault(authority, {})
             accepted = self._store_static(sent, authority, held)
-            self.tf_static.publish(TransformMessage(tuple(held.values()), authority))
+            if accepted:
+                self.tf_static.publish(TransformMessage(tuple(held.values()), authority))
         else:
             accepted = tuple(one for one in sent if self.buffer.set_transform(one, authority))
             if accepted:
@@ -238,7 +334,7 @@ class World:
     def receive_static(
         self, transforms: Iterable[TransformStamped], authority: str
     ) -> tuple[TransformStamped, ...]:
-        """Take in what another process's node holds for all time, for those who come late too.
+        """Store the statics of another process's node, for late subscribers here as well.
 
         Returns:
             What the buffer took.
@@ -314,6 +410,17 @@ class World:
         if self._supervisor is not None:
             self._supervisor.start(node)
 
+    def start_soon(self, node: Resident, work: Coroutine[Any, Any, T]) -> "asyncio.Task[T | None]":
+        """Run something as a part of a node; see `Node.start_soon`.
+
+        Raises:
+            TftoolError: If the world does not run.
+        """
+        if self._supervisor is None:
+            work.close()
+            raise TftoolError(f"node '{node.name}' can start no work: its world does not run")
+        return self._supervisor.start_soon(node, work)
+
     def free_name(self, wanted: str) -> str:
         """A name no node has: the wanted one, or that with a number behind it."""
         taken = {node.name for node in self.nodes}
@@ -358,11 +465,36 @@ class World:
         """Report that a node raised outside its `run`, in a callback for example.
 
         Raises:
-            BaseException: `error` itself, while nobody lives this world.
+            BaseException: `error` itself, while the world does not run.
         """
         if self._supervisor is None:
             raise error
         self._supervisor.fail(node, error)
+
+    def report(self, owner: str, failure: Exception) -> None:
+        """Take what a listener raised: its owner has failed if it is a node, else the log tells.
+
+        Args:
+            owner: The name of the listener's owner.
+            failure: What it raised.
+
+        Raises:
+            Exception: `failure` itself, if the owner is a node and the world does not run.
+        """
+        for node in self.nodes:
+            if node.name == owner:
+                self.fail(node, failure)
+                return
+        if isinstance(failure, BrokenPipeError) and self._supervisor is not None:
+            # The reader of what a listener prints has gone: the run has no purpose any more.
+            self._supervisor.end_by(failure)
+        elif not self._is_reporting:
+            # A listener of the log that fails at every line fails at this one, too.
+            self._is_reporting = True
+            try:
+                self.log.error(owner or "world", listener_text("", failure))
+            finally:
+                self._is_reporting = False
 
     def supervise(self, supervision: Supervision | None) -> None:
         """Name who starts and stops nodes from now on (the supervisor's own call)."""
@@ -373,3 +505,7 @@ class World:
             self.log.error("buffer", text)
         else:
             self.log.warn("buffer", text)
+
+
+def _nothing() -> None:
+    """Take nothing out."""

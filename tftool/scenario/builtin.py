@@ -1,4 +1,4 @@
-"""The scenarios that come with tftool, and the way from a word on the command line to a file."""
+"""The scenarios that come with tftool: their names and files."""
 
 import difflib
 from pathlib import Path
@@ -7,8 +7,6 @@ from tftool.errors import InputError
 from tftool.views.escaping import visible
 
 _PACKAGE = Path(__file__).resolve().parents[1]
-
-ENDINGS = (".yaml", ".yml")
 
 
 def folder() -> Path:
@@ -31,28 +29,24 @@ def names() -> list[str]:
     return sorted(path.stem for path in folder().glob("*.yaml"))
 
 
-def find(name_or_path: str | Path) -> Path:
-    """The file a word means: a built-in scenario's by its name, or the path itself.
+def path_of(name: str) -> Path | None:
+    """The file of a built-in scenario; None where none has that name.
 
-    A built-in name wins; `./turtles` and `turtles.yaml` are paths.
-
-    Raises:
-        InputError: If there is neither.
+    `./turtles` and `turtles.yaml` are paths, not names.
     """
-    word = str(name_or_path)
+    return folder() / f"{name}.yaml" if name in names() else None
+
+
+def is_like_a_name(word: str) -> bool:
+    """Whether a word that is no file was meant as a scenario's name."""
     path = Path(word)
-    is_name = path.name == word and path.suffix not in ENDINGS
-    if is_name and word in names():
-        return folder() / f"{word}.yaml"
-    try:
-        if path.is_dir():
-            raise InputError(f"'{visible(word)}' is a folder; give a scenario file in it")
-        if path.exists() or not is_name:
-            return path
-    except (OSError, ValueError) as error:
-        raise InputError(f"cannot read '{visible(word)}': {error}") from error
-    near = difflib.get_close_matches(word.lower(), names(), n=1)
+    return path.name == word and not path.suffix
+
+
+def unknown(word: str) -> str:
+    """The sentence about a word that names neither a built-in scenario nor a file."""
+    near = difflib.get_close_matches(word[:100].lower(), names(), n=1)
     hint = f"did you mean '{near[0]}'?" if near else f"there are {', '.join(names())}."
-    raise InputError(
-        f"no scenario is named '{visible(word)}'; {hint} A path to a file does as well."
-    )
+    shown = visible(word)
+    shown = f"{shown[:60]}…" if len(shown) > 60 else shown
+    return f"no scenario is named '{shown}'; {hint} A path to a file does as well."

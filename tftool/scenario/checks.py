@@ -12,8 +12,8 @@ from typing import Any
 from tftool.errors import TransformException
 from tftool.geometry.planar import wrap
 from tftool.scenario import values
-from tftool.scenario.document import Place
-from tftool.scenario.reading import Field, Reading, listed
+from tftool.scenario.document import TextPlace
+from tftool.scenario.reading import Key, Reading, listed
 from tftool.scenario.values import ANGLE, Unit
 
 NEAR = 1e-6
@@ -50,10 +50,10 @@ class Form(ABC):
         fields: What may stand beside the question.
     """
 
-    fields: Mapping[str, Field]
+    fields: Mapping[str, Key]
 
     @abstractmethod
-    def make(self, given: Mapping[str, Any], reading: Reading, place: Place) -> Check:
+    def make(self, given: Mapping[str, Any], reading: Reading, place: TextPlace) -> Check:
         """Make the check of what was given beside the question and in it."""
 
 
@@ -61,7 +61,7 @@ class Form(ABC):
 
 
 @dataclass(frozen=True, slots=True)
-class Range(Check):
+class RangeCheck(Check):
     """A number within bounds; bounds themselves are outside, except of `between`."""
 
     unit: Unit
@@ -106,21 +106,23 @@ class Range(Check):
 class RangeForm(Form):
     """below, above, between, is with a tolerance: at least one of them."""
 
-    def __init__(self, unit: Unit, default: Range | None = None, tolerance: float = NEAR) -> None:
+    def __init__(
+        self, unit: Unit, default: RangeCheck | None = None, tolerance: float = NEAR
+    ) -> None:
         """Numbers of one unit; `default` is what is meant when nothing is said."""
         self.unit = unit
         self.default = default
         self.tolerance = tolerance
         one = values.quantity(unit)
         self.fields = {
-            "below": Field(one, None),
-            "above": Field(one, None),
-            "between": Field(values.several(one, "lower and upper bound", 2), None),
-            "is": Field(one, None),
-            "tolerance": Field(values.quantity(unit, least=0.0), None),
+            "below": Key(one, None),
+            "above": Key(one, None),
+            "between": Key(values.several(one, "lower and upper bound", 2), None),
+            "is": Key(one, None),
+            "tolerance": Key(values.quantity(unit, least=0.0), None),
         }
 
-    def make(self, given: Mapping[str, Any], reading: Reading, place: Place) -> Range:
+    def make(self, given: Mapping[str, Any], reading: Reading, place: TextPlace) -> RangeCheck:
         """Make the check, or note what is wrong."""
         asked = [key for key in ("below", "above", "between", "is") if given[key] is not None]
         if not asked:
@@ -135,7 +137,9 @@ class RangeForm(Form):
         if between is not None and between[0] > between[1]:
             raise reading.refuse(place, f"between {between[0]:g} and {between[1]:g} lies nothing")
         tolerance = self.tolerance if given["tolerance"] is None else given["tolerance"]
-        return Range(self.unit, given["below"], given["above"], between, given["is"], tolerance)
+        return RangeCheck(
+            self.unit, given["below"], given["above"], between, given["is"], tolerance
+        )
 
 
 # Frames and names.
@@ -152,7 +156,7 @@ class FrameFacts:
 
 
 @dataclass(frozen=True, slots=True)
-class Facts(Check):
+class FrameCheck(Check):
     """A frame of which these facts hold; what is None is not looked at."""
 
     wanted: FrameFacts
@@ -183,26 +187,26 @@ class Facts(Check):
         return ", ".join(parts) or "exists"
 
 
-class FactsForm(Form):
+class FrameForm(Form):
     """exists, parent, static, broadcaster."""
 
-    fields: Mapping[str, Field] = {
-        "exists": Field(values.flag, True),
-        "parent": Field(values.frame, None),
-        "static": Field(values.flag, None),
-        "broadcaster": Field(values.name("a node"), None),
+    fields: Mapping[str, Key] = {
+        "exists": Key(values.flag, True),
+        "parent": Key(values.frame, None),
+        "static": Key(values.flag, None),
+        "broadcaster": Key(values.name("a node"), None),
     }
 
-    def make(self, given: Mapping[str, Any], reading: Reading, place: Place) -> Check:
+    def make(self, given: Mapping[str, Any], reading: Reading, place: TextPlace) -> Check:
         """Make the check, or note what is wrong."""
         facts = FrameFacts(**{key: given[key] for key in self.fields})
         if not facts.exists and facts != FrameFacts(False):
             raise reading.refuse(place, "a frame that does not exist has nothing else to it")
-        return Facts(facts)
+        return FrameCheck(facts)
 
 
 @dataclass(frozen=True, slots=True)
-class Names(Check):
+class NamesCheck(Check):
     """Exactly these names, in any order."""
 
     wanted: frozenset[str]
@@ -219,18 +223,18 @@ class Names(Check):
 class NamesForm(Form):
     """Nothing beside: the question holds the names."""
 
-    fields: Mapping[str, Field] = {}
+    fields: Mapping[str, Key] = {}
 
-    def make(self, given: Mapping[str, Any], reading: Reading, place: Place) -> Check:
+    def make(self, given: Mapping[str, Any], reading: Reading, place: TextPlace) -> Check:
         """Make the check, or note what is wrong."""
-        return Names(frozenset(given["names"]))
+        return NamesCheck(frozenset(given["names"]))
 
 
 class CountForm(Form):
     """Nothing beside: the question holds the count."""
 
-    fields: Mapping[str, Field] = {}
+    fields: Mapping[str, Key] = {}
 
-    def make(self, given: Mapping[str, Any], reading: Reading, place: Place) -> Check:
+    def make(self, given: Mapping[str, Any], reading: Reading, place: TextPlace) -> Check:
         """Make the check, or note what is wrong."""
-        return Range(values.NUMBER, equal=float(given["count"]), tolerance=0.0)
+        return RangeCheck(values.NUMBER, equal=float(given["count"]), tolerance=0.0)

@@ -12,10 +12,10 @@ from dataclasses import dataclass, replace
 from difflib import get_close_matches
 
 from tftool.errors import InputError, NodeFailed, UsageError
-from tftool.ros import hosting
-from tftool.ros.launching.engine import Launch
-from tftool.ros.program import Program
-from tftool.ros.workspace import Workspace
+from tftool.ros.host import hosting
+from tftool.ros.host.program import Program
+from tftool.ros.host.workspace import Workspace
+from tftool.ros.launch.engine import Launch
 from tftool.runtime.clock import SimClock, run
 from tftool.runtime.log import LogRecord
 from tftool.runtime.world import World
@@ -70,7 +70,7 @@ class Exercise:
             scenario = replace(scenario, nodes=())
         stand_ins = {one.node: self._starter(one, failures) for one in self.programs if one.node}
         play = Play(scenario, clock, stand_ins=stand_ins)
-        play.world.log.listen(self.tell)
+        play.world.log.listen(self.tell, "console")
         if self.launch:
             self._start_launch(play.world, failures)
         for one in self.programs:

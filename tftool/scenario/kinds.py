@@ -1,11 +1,11 @@
 """The kinds of nodes a scenario may start: one entry each.
 
-An entry names the class and the typed parameters that a scenario may give it;
-every parameter is handed on under its own name.
+An entry names the class and how each parameter that a scenario may give it is read;
+every parameter is handed on under its own name, and its default is the class's own.
 """
 
-from collections.abc import Callable, Mapping
-from dataclasses import dataclass
+import inspect
+from collections.abc import Callable, Collection, Mapping
 from types import MappingProxyType
 from typing import Any
 
@@ -14,23 +14,20 @@ from tftool.geometry.conversions import quaternion_from_rpy
 from tftool.geometry.rigid import Transform
 from tftool.messages import Color, Spawn
 from tftool.motion.pid import Gains
-from tftool.motion.pursuit import TUTORIAL_BEARING, TUTORIAL_DISTANCE
 from tftool.nodes.broadcasters import Broadcaster, DynamicCarrot, FixedCarrot, StaticBroadcaster
-from tftool.nodes.follower import TUTORIAL_SPAWN, Follower
+from tftool.nodes.follower import Follower
 from tftool.nodes.points import MessageBroadcaster, PointDrawer
 from tftool.nodes.robot import LaserPoint, MapCorrection, RobotOdometry
 from tftool.nodes.squares import DrawSquare, Mimic
-from tftool.nodes.teleop import SCALE_ANGULAR, SCALE_LINEAR, Teleop
-from tftool.nodes.turtlesim import BACKGROUND, Turtlesim
+from tftool.nodes.teleop import Teleop
+from tftool.nodes.turtlesim import Turtlesim
 from tftool.runtime.node import Node
 from tftool.runtime.world import World
 from tftool.scenario import document, values
-from tftool.scenario.reading import Field, Reader, Reading
-from tftool.stamps import seconds
+from tftool.scenario.reading import Key, Reader, Reading
 
 
-@dataclass(frozen=True, slots=True)
-class Kind:
+class NodeKind:
     """How a node of one kind is read and made.
 
     Attributes:
@@ -38,8 +35,30 @@ class Kind:
         fields: Its parameters, by their names.
     """
 
-    make: Callable[..., Node]
-    fields: Mapping[str, Field]
+    __slots__ = ("fields", "make")
+
+    def __init__(
+        self,
+        make: Callable[..., Node],
+        readers: Mapping[str, Reader],
+        *,
+        required: Collection[str] = (),
+    ) -> None:
+        """Describe a kind.
+
+        Args:
+            make: The class, or a function that does as a class does.
+            readers: How each parameter is read.
+            required: Parameters a scenario has to give, though the class has a default.
+        """
+        self.make = make
+        taken = inspect.signature(make).parameters
+        self.fields: Mapping[str, Key] = {
+            name: Key(read)
+            if name in required or taken[name].default is inspect.Parameter.empty
+            else Key(read, taken[name].default)
+            for name, read in readers.items()
+        }
 
     def defaults(self) -> dict[str, Any]:
         """The parameters of a node about which nothing is said."""
@@ -57,9 +76,9 @@ class Kind:
 def _triple(x: float, y: float, last: str, last_value: float) -> Reader:
     """A reader of {x, y, z} or {x, y, theta}, as a tuple."""
     known = {
-        "x": Field(values.length, x),
-        "y": Field(values.length, y),
-        last: Field(values.angle if last == "theta" else values.length, last_value),
+        "x": Key(values.length, x),
+        "y": Key(values.length, y),
+        last: Key(values.angle if last == "theta" else values.length, last_value),
     }
 
     def read(node: document.Node, reading: Reading) -> tuple[float, ...]:
@@ -74,27 +93,27 @@ def _gains(node: document.Node, reading: Reading) -> Gains:
         return Gains(values.number(node, reading))
     limit = values.or_none(values.positive)
     known = {
-        "kp": Field(values.number),
-        "ki": Field(values.number, 0.0),
-        "kd": Field(values.number, 0.0),
-        "integral_limit": Field(limit, None),
-        "output_limit": Field(limit, None),
+        "kp": Key(values.number),
+        "ki": Key(values.number, 0.0),
+        "kd": Key(values.number, 0.0),
+        "integral_limit": Key(limit, None),
+        "output_limit": Key(limit, None),
     }
     return Gains(**reading.record(node, known, "a set of gains"))
 
 
 def _color(node: document.Node, reading: Reading) -> Color:
-    channel = Field(values.whole(0, 255))
+    channel = Key(values.whole(0, 255))
     return Color(**reading.record(node, {"r": channel, "g": channel, "b": channel}, "a colour"))
 
 
 def _turtle(node: document.Node, reading: Reading) -> Spawn:
     """A turtle to begin with."""
     known = {
-        "name": Field(values.turtle),
-        "x": Field(values.length),
-        "y": Field(values.length),
-        "theta": Field(values.angle, 0.0),
+        "name": Key(values.turtle),
+        "x": Key(values.length),
+        "y": Key(values.length),
+        "theta": Key(values.angle, 0.0),
     }
     return Spawn(**reading.record(node, known, "a turtle"))
 
@@ -105,12 +124,12 @@ def _static(
     *,
     parent: str,
     child: str,
-    x: float,
-    y: float,
-    z: float,
-    roll: float,
-    pitch: float,
-    yaw: float,
+    x: float = 0.0,
+    y: float = 0.0,
+    z: float = 0.0,
+    roll: float = 0.0,
+    pitch: float = 0.0,
+    yaw: float = 0.0,
 ) -> StaticBroadcaster:
     """A static broadcaster of one transform, written out."""
     pose = Transform((x, y, z), quaternion_from_rpy(roll, pitch, yaw))
@@ -119,130 +138,129 @@ def _static(
 
 
 _PLACE = {
-    "x": Field(values.length, 0.0),
-    "y": Field(values.length, 0.0),
-    "z": Field(values.length, 0.0),
-    "roll": Field(values.angle, 0.0),
-    "pitch": Field(values.angle, 0.0),
-    "yaw": Field(values.angle, 0.0),
+    "x": values.length,
+    "y": values.length,
+    "z": values.length,
+    "roll": values.angle,
+    "pitch": values.angle,
+    "yaw": values.angle,
 }
 
-KINDS: Mapping[str, Kind] = MappingProxyType(
+KINDS: Mapping[str, NodeKind] = MappingProxyType(
     {
-        "turtlesim": Kind(
+        "turtlesim": NodeKind(
             Turtlesim,
             {
-                "holonomic": Field(values.flag, False),
-                "background": Field(_color, BACKGROUND),
-                "turtles": Field(values.several(_turtle, "one turtle an item"), ()),
+                "holonomic": values.flag,
+                "background": _color,
+                "turtles": values.several(_turtle, "one turtle an item"),
             },
         ),
-        "broadcaster": Kind(
+        "broadcaster": NodeKind(
             Broadcaster,
-            {"turtle": Field(values.turtle), "frame_id": Field(values.frame, "world")},
+            {"turtle": values.turtle, "frame_id": values.frame},
+            required=["turtle"],
         ),
-        "static": Kind(
-            _static, {"parent": Field(values.frame), "child": Field(values.frame), **_PLACE}
-        ),
-        "fixed_carrot": Kind(
+        "static": NodeKind(_static, {"parent": values.frame, "child": values.frame, **_PLACE}),
+        "fixed_carrot": NodeKind(
             FixedCarrot,
             {
-                "parent": Field(values.frame, "turtle1"),
-                "child": Field(values.frame, "carrot1"),
-                "offset": Field(_triple(0.0, 2.0, "z", 0.0), (0.0, 2.0, 0.0)),
-                "period": Field(values.period, seconds(0.1)),
+                "parent": values.frame,
+                "child": values.frame,
+                "offset": _triple(0.0, 2.0, "z", 0.0),
+                "period": values.period,
             },
         ),
-        "dynamic_carrot": Kind(
+        "dynamic_carrot": NodeKind(
             DynamicCarrot,
             {
-                "parent": Field(values.frame, "turtle1"),
-                "child": Field(values.frame, "carrot1"),
-                "radius": Field(values.distance, 10.0),
-                "whole_seconds": Field(values.flag, False),
-                "period": Field(values.period, seconds(0.1)),
+                "parent": values.frame,
+                "child": values.frame,
+                "radius": values.distance,
+                "whole_seconds": values.flag,
+                "period": values.period,
             },
         ),
-        "follower": Kind(
+        "follower": NodeKind(
             Follower,
             {
-                "leader": Field(values.frame, "turtle1"),
-                "follower": Field(values.turtle, "turtle2"),
-                "period": Field(values.period, seconds(1)),
-                "delay": Field(values.duration, 0),
-                "fixed_frame": Field(values.or_none(values.frame), "world"),
-                "distance_gains": Field(_gains, TUTORIAL_DISTANCE),
-                "bearing_gains": Field(_gains, TUTORIAL_BEARING),
-                "dead_band": Field(values.distance, 0.0),
-                "speed_limit": Field(values.or_none(values.top_speed), None),
-                "stale_after": Field(values.or_none(values.period), None),
-                "spawn": Field(values.or_none(_triple(4.0, 2.0, "theta", 0.0)), TUTORIAL_SPAWN),
+                "leader": values.frame,
+                "follower": values.turtle,
+                "period": values.period,
+                "delay": values.duration,
+                "fixed_frame": values.or_none(values.frame),
+                "distance_gains": _gains,
+                "bearing_gains": _gains,
+                "dead_band": values.distance,
+                "speed_limit": values.or_none(values.top_speed),
+                "stale_after": values.or_none(values.period),
+                "spawn": values.or_none(_triple(4.0, 2.0, "theta", 0.0)),
             },
         ),
-        "draw_square": Kind(
+        "draw_square": NodeKind(
             DrawSquare,
-            {"turtle": Field(values.turtle, "turtle1"), "reset": Field(values.flag, True)},
+            {"turtle": values.turtle, "reset": values.flag},
         ),
-        "mimic": Kind(
+        "mimic": NodeKind(
             Mimic,
-            {"leader": Field(values.turtle, "turtle1"), "copy": Field(values.turtle, "turtle2")},
+            {"leader": values.turtle, "copy": values.turtle},
         ),
-        "teleop": Kind(
+        "teleop": NodeKind(
             Teleop,
             {
-                "turtle": Field(values.turtle, "turtle1"),
-                "scale_linear": Field(values.speed, SCALE_LINEAR),
-                "scale_angular": Field(values.turn_rate, SCALE_ANGULAR),
+                "turtle": values.turtle,
+                "scale_linear": values.speed,
+                "scale_angular": values.turn_rate,
             },
         ),
-        "odometry": Kind(
+        "odometry": NodeKind(
             RobotOdometry,
             {
-                "odom": Field(values.frame, "odom"),
-                "base": Field(values.frame, "base_link"),
-                "start": Field(_triple(0.0, 0.0, "theta", 0.0), (0.0, 0.0, 0.0)),
-                "speed": Field(values.speed, 0.5),
-                "turn_rate": Field(values.turn_rate, 0.25),
-                "scale_error": Field(values.number, 0.02),
-                "turn_error": Field(values.turn_rate, 0.01),
-                "period": Field(values.period, seconds(0.02)),
+                "odom": values.frame,
+                "base": values.frame,
+                "start": _triple(0.0, 0.0, "theta", 0.0),
+                "speed": values.speed,
+                "turn_rate": values.turn_rate,
+                "scale_error": values.number,
+                "turn_error": values.turn_rate,
+                "period": values.period,
             },
         ),
-        "localization": Kind(
+        "localization": NodeKind(
             MapCorrection,
             {
-                "map_frame": Field(values.frame, "map"),
-                "odom": Field(values.frame, "odom"),
-                "base": Field(values.frame, "base_link"),
-                "correct_every": Field(values.period, seconds(2)),
-                "period": Field(values.period, seconds(0.1)),
+                "map_frame": values.frame,
+                "odom": values.frame,
+                "base": values.frame,
+                "correct_every": values.period,
+                "period": values.period,
             },
         ),
-        "laser": Kind(
+        "laser": NodeKind(
             LaserPoint,
             {
-                "landmark": Field(_triple(3.0, 1.0, "z", 0.2), (3.0, 1.0, 0.2)),
-                "base": Field(values.frame, "base_link"),
-                "laser": Field(values.frame, "laser_link"),
-                "child": Field(values.frame, "laser_point"),
-                "period": Field(values.period, seconds(0.1)),
+                "landmark": _triple(3.0, 1.0, "z", 0.2),
+                "base": values.frame,
+                "laser": values.frame,
+                "child": values.frame,
+                "period": values.period,
             },
         ),
-        "message_broadcaster": Kind(
+        "message_broadcaster": NodeKind(
             MessageBroadcaster,
             {
-                "turtle": Field(values.turtle, "turtle3"),
-                "frame_id": Field(values.frame, "world"),
-                "spawn": Field(_triple(4.0, 2.0, "theta", 0.0), TUTORIAL_SPAWN),
-                "period": Field(values.period, seconds(1)),
+                "turtle": values.turtle,
+                "frame_id": values.frame,
+                "spawn": _triple(4.0, 2.0, "theta", 0.0),
+                "period": values.period,
             },
         ),
-        "point_drawer": Kind(
+        "point_drawer": NodeKind(
             PointDrawer,
             {
-                "target_frame": Field(values.frame, "turtle1"),
-                "turtle": Field(values.turtle, "turtle3"),
-                "patience": Field(values.period, seconds(1)),
+                "target_frame": values.frame,
+                "turtle": values.turtle,
+                "patience": values.period,
             },
         ),
     }

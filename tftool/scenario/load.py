@@ -1,7 +1,7 @@
 """YAML in, a scenario out, or every mistake in it with its place.
 
-The kinds of nodes, actions and questions come from tables (`kinds.KINDS`,
-`script.ACTIONS`, `expectations.SUBJECTS`); nothing here knows any of them.
+The kinds of nodes, actions and subjects come from `kinds.KINDS`, `actions.ACTIONS` and
+`questions.SUBJECTS`; nothing here knows any of them.
 """
 
 import re
@@ -15,13 +15,13 @@ from tftool.errors import InputError, ScenarioError, TftoolError, UsageError
 from tftool.runtime.clock import SimClock
 from tftool.runtime.world import World
 from tftool.scenario import document, values
-from tftool.scenario.actions import StopNode
+from tftool.scenario.actions import ACTIONS, StopNode
 from tftool.scenario.document import Document, Node, Scalar
-from tftool.scenario.expectations import SUBJECTS
 from tftool.scenario.kinds import KINDS
+from tftool.scenario.questions import SUBJECTS
 from tftool.scenario.reading import (
     UNREAD,
-    Field,
+    Key,
     Reading,
     Unreadable,
     listed,
@@ -29,7 +29,6 @@ from tftool.scenario.reading import (
     suggest,
 )
 from tftool.scenario.schema import Expectation, NodeEntry, Scenario, Step, When
-from tftool.scenario.script import ACTIONS
 from tftool.scenario.tagged import tagged
 from tftool.stamps import Duration, as_seconds, seconds
 from tftool.views.escaping import visible
@@ -93,7 +92,7 @@ def parse(text: str, name: str, arguments: Mapping[str, str] = NO_ARGUMENTS) -> 
     try:
         root = source.read()
         reading.mistakes.extend(source.mistakes)
-        return _Loader(arguments).scenario(root, reading, name)
+        return _ScenarioReader(arguments).scenario(root, reading, name)
     except Unreadable as error:
         raise ScenarioError(name, sorted(reading.mistakes, key=_place)) from error
 
@@ -102,13 +101,13 @@ def _place(mistake: Any) -> tuple[int, int]:
     return mistake.line, mistake.column
 
 
-class _Loader:
+class _ScenarioReader:
     """One pass over a scenario; what is read early checks what is read late.
 
     Attributes:
         given: Arguments from outside.
         duration: How long the scenario lasts, once that is known.
-        names: Names of its nodes, once all are known.
+        names: NamesCheck of its nodes, once all are known.
         looks: How often its expectations look so far.
     """
 
@@ -121,13 +120,13 @@ class _Loader:
     def scenario(self, root: Node, reading: Reading, name: str) -> Scenario:
         """Read everything, in the order in which one thing checks another."""
         known = {
-            "about": Field(values.text, ""),
-            "arguments": Field(self.arguments, NO_ARGUMENTS),
-            "duration": Field(self.length),
-            "cache_time": Field(values.time(), seconds(10)),
-            "nodes": Field(self.nodes, ()),
-            "script": Field(self.script, ()),
-            "expect": Field(self.expect, ()),
+            "about": Key(values.text, ""),
+            "arguments": Key(self.arguments, NO_ARGUMENTS),
+            "duration": Key(self.length),
+            "cache_time": Key(values.time(), seconds(10)),
+            "nodes": Key(self.nodes, ()),
+            "script": Key(self.script, ()),
+            "expect": Key(self.expect, ()),
         }
         entries = reading.entries(root, listed(known))
         if "arguments" not in entries:
@@ -256,7 +255,7 @@ class _Loader:
                 else "begin each node with '- '"
             )
             reading.note(other, f"{quoted(word)} stands beside '{kind}', not in it; {hint}")
-        known = {**KINDS[kind].fields, "name": Field(values.name("a node"), "")}
+        known = {**KINDS[kind].fields, "name": Key(values.name("a node"), "")}
         parameters = reading.try_read(lambda node, r: r.record(node, known, f"a {kind}"), value)
         if parameters is UNREAD:
             return kind, self.name_of(value), UNREAD
@@ -288,9 +287,8 @@ class _Loader:
 
     def step(self, node: Node, reading: Reading) -> Step:
         """One action and its time."""
-        kinds = {name: kind for name, (kind, _) in ACTIONS.items()}
-        common = {"at": Field(self.moment), "fails": Field(values.flag, False)}
-        name, action, given = tagged(node, reading, "an action", kinds, common, {})
+        common = {"at": Key(self.moment), "fails": Key(values.flag, False)}
+        name, action, given = tagged(node, reading, "an action", ACTIONS, common, {})
         if isinstance(action, StopNode) and self.names is not None:
             known = (*self.names, "teleop")
             if action.node not in known:
@@ -308,14 +306,13 @@ class _Loader:
 
     def expectation(self, node: Node, reading: Reading) -> tuple[Expectation, ...]:
         """One question; several expectations when it is asked at several moments."""
-        kinds = {name: subject.question for name, subject in SUBJECTS.items()}
         beside = {name: subject.form.fields for name, subject in SUBJECTS.items()}
         common = {
-            "at": Field(self.moments, None),
-            "by": Field(self.moment, None),
-            "during": Field(values.several(self.moment, "first and last moment", 2), None),
-            "always": Field(values.flag, None),
-            "every": Field(values.period, None),
+            "at": Key(self.moments, None),
+            "by": Key(self.moment, None),
+            "during": Key(values.several(self.moment, "first and last moment", 2), None),
+            "always": Key(values.flag, None),
+            "every": Key(values.period, None),
         }
         said = [key for key in _WHEN if key in reading.entries(node, listed(_WHEN))]
         if len(said) != 1:
@@ -323,7 +320,7 @@ class _Loader:
             reading.note(
                 node, f"{wrong}; say one of at: 2 s, by: 20 s, during: [1 s, 5 s], always: true"
             )
-        name, question, given = tagged(node, reading, "an expectation", kinds, common, beside)
+        name, question, given = tagged(node, reading, "an expectation", SUBJECTS, common, beside)
         whens = reading.try_read(lambda _, r: self.whens(node.place, given, r), node)
         own = {field: getattr(question, field) for field in question.__dataclass_fields__}
         check = SUBJECTS[name].form.make({**own, **given}, reading, node.place)
@@ -342,7 +339,7 @@ class _Loader:
         return (self.moment(node, reading),)
 
     def whens(
-        self, place: document.Place, given: Mapping[str, Any], reading: Reading
+        self, place: document.TextPlace, given: Mapping[str, Any], reading: Reading
     ) -> tuple[When, ...]:
         """When an expectation is judged."""
         said = [key for key in _WHEN if given[key] is not None]

@@ -13,8 +13,8 @@ from tftool.geometry.rigid import Quaternion, Transform
 from tftool.messages import Pose2D
 from tftool.scenario import document, values
 from tftool.scenario.checks import NEAR, Check, Form, Judged
-from tftool.scenario.document import Node, Place
-from tftool.scenario.reading import Field, Reading, listed
+from tftool.scenario.document import Node, TextPlace
+from tftool.scenario.reading import Key, Reading, listed
 from tftool.views.escaping import visible
 
 SHORT = 30
@@ -52,8 +52,8 @@ def _tolerance(node: Node, reading: Reading) -> Tolerance:
         both = values.quantity(values.NUMBER, least=0.0)(node, reading)
         return Tolerance(both, both)
     known = {
-        "position": Field(values.quantity(values.LENGTH, least=0.0), NEAR),
-        "angle": Field(values.quantity(values.ANGLE, least=0.0), NEAR),
+        "position": Key(values.quantity(values.LENGTH, least=0.0), NEAR),
+        "angle": Key(values.quantity(values.ANGLE, least=0.0), NEAR),
     }
     return Tolerance(**reading.record(node, known, "a tolerance"))
 
@@ -68,7 +68,7 @@ _REFUSALS = tuple(
 
 
 @dataclass(frozen=True, slots=True)
-class Refusal(Check):
+class RefusalCheck(Check):
     """A lookup that must be refused, by an exception of this name or below it."""
 
     raises: str
@@ -90,7 +90,7 @@ class Refusal(Check):
 
 
 @dataclass(frozen=True, slots=True)
-class Pose(Check):
+class PoseCheck(Check):
     """A transform with these parts; what is None is not looked at."""
 
     x: float | None
@@ -136,17 +136,17 @@ def _pose_text(pose: Transform) -> str:
 
 
 _POSE_PARTS = {
-    "x": Field(values.length, None),
-    "y": Field(values.length, None),
-    "z": Field(values.length, None),
-    "roll": Field(values.angle, None),
-    "pitch": Field(values.angle, None),
-    "yaw": Field(values.angle, None),
-    "rotation": Field(values.several(values.number, "x, y, z, w", 4), None),
+    "x": Key(values.length, None),
+    "y": Key(values.length, None),
+    "z": Key(values.length, None),
+    "roll": Key(values.angle, None),
+    "pitch": Key(values.angle, None),
+    "yaw": Key(values.angle, None),
+    "rotation": Key(values.several(values.number, "x, y, z, w", 4), None),
 }
 
 
-def _value(node: Node, reading: Reading) -> tuple[Place, Mapping[str, Any]]:
+def _value(node: Node, reading: Reading) -> tuple[TextPlace, Mapping[str, Any]]:
     """The parts of a pose, and where they stand."""
     return node.place, reading.record(node, _POSE_PARTS, "a value")
 
@@ -157,31 +157,31 @@ class PoseForm(Form):
     def __init__(self) -> None:
         """Read poses in space."""
         self.fields = {
-            "value": Field(_value, None),
-            "tolerance": Field(_tolerance, None),
-            "raises": Field(values.choice(_REFUSALS, "a transform exception"), None),
-            "says": Field(values.text, None),
+            "value": Key(_value, None),
+            "tolerance": Key(_tolerance, None),
+            "raises": Key(values.choice(_REFUSALS, "a transform exception"), None),
+            "says": Key(values.text, None),
         }
 
-    def make(self, given: Mapping[str, Any], reading: Reading, place: Place) -> Check:
+    def make(self, given: Mapping[str, Any], reading: Reading, place: TextPlace) -> Check:
         """Make the check, or note what is wrong."""
         value = given["value"]
         if given["raises"] is not None:
             if value is not None:
                 raise reading.refuse(place, "a lookup that raises has no value; keep one of them")
-            return Refusal(given["raises"], given["says"])
+            return RefusalCheck(given["raises"], given["says"])
         if given["says"] is not None:
             raise reading.refuse(place, "'says' goes with 'raises'")
         if value is None:
-            return Pose(None, None, None, None, "", Tolerance())
+            return PoseCheck(None, None, None, None, "", Tolerance())
         place, parts = value
         rotation, words = _rotation(parts, reading, place)
         tolerance = given["tolerance"] or Tolerance()
-        return Pose(parts["x"], parts["y"], parts["z"], rotation, words, tolerance)
+        return PoseCheck(parts["x"], parts["y"], parts["z"], rotation, words, tolerance)
 
 
 def _rotation(
-    parts: Mapping[str, Any], reading: Reading, place: Place
+    parts: Mapping[str, Any], reading: Reading, place: TextPlace
 ) -> tuple[Quaternion | None, str]:
     """The rotation of a value, and how it was said; angles left out are 0."""
     angles = {key: parts[key] for key in ("roll", "pitch", "yaw") if parts[key] is not None}
@@ -202,7 +202,7 @@ def _rotation(
 
 
 @dataclass(frozen=True, slots=True)
-class TurtlePose(Check):
+class TurtlePoseCheck(Check):
     """A turtle's published pose with these parts; what is not named is not looked at."""
 
     wanted: Mapping[str, float]
@@ -236,11 +236,11 @@ class TurtlePose(Check):
 
 
 _TURTLE_PARTS = {
-    "x": Field(values.length, None),
-    "y": Field(values.length, None),
-    "theta": Field(values.angle, None),
-    "linear": Field(values.speed, None),
-    "angular": Field(values.turn_rate, None),
+    "x": Key(values.length, None),
+    "y": Key(values.length, None),
+    "theta": Key(values.angle, None),
+    "linear": Key(values.speed, None),
+    "angular": Key(values.turn_rate, None),
 }
 
 
@@ -253,13 +253,13 @@ class TurtlePoseForm(Form):
     def __init__(self) -> None:
         """Read poses of turtles."""
         self.fields = {
-            "value": Field(lambda node, reading: reading.record(node, _TURTLE_PARTS, "a value")),
-            "tolerance": Field(_tolerance, Tolerance()),
+            "value": Key(lambda node, reading: reading.record(node, _TURTLE_PARTS, "a value")),
+            "tolerance": Key(_tolerance, Tolerance()),
         }
 
-    def make(self, given: Mapping[str, Any], reading: Reading, place: Place) -> Check:
+    def make(self, given: Mapping[str, Any], reading: Reading, place: TextPlace) -> Check:
         """Make the check, or note what is wrong."""
         wanted = {key: want for key, want in given["value"].items() if want is not None}
         if not wanted:
             raise reading.refuse(place, f"a value needs one of {listed(_TURTLE_PARTS)}")
-        return TurtlePose(wanted, given["tolerance"])
+        return TurtlePoseCheck(wanted, given["tolerance"])

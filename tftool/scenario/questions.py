@@ -1,33 +1,153 @@
-"""What may be asked of a scenario: the questions of its expectations, as dataclasses.
+"""What may be asked of a scenario: the subjects of its expectations, each with its answer.
 
-Each field names the reader of its value. `expectations` answers them.
+A subject is a dataclass: each field names the reader of its value, `key` is what a
+scenario calls it, `form` says what its answer may be held to, and `answer` finds the
+answer. To add one: write it, and name it in `SUBJECTS`.
 """
 
+import math
+from abc import ABC, abstractmethod
+from collections.abc import Mapping
 from dataclasses import dataclass
-from typing import ClassVar
+from types import MappingProxyType
+from typing import Any, ClassVar
 
-from tftool.runtime.log import LEVELS
+from tftool.errors import LookupException
+from tftool.frames.sample import FrameInfo
+from tftool.frames.velocity import Velocity
+from tftool.geometry import planar
+from tftool.geometry.rigid import Transform
+from tftool.messages import Pose2D
+from tftool.runtime.log import LEVELS, LogRecord
+from tftool.runtime.world import World
 from tftool.scenario import values
+from tftool.scenario.checks import (
+    CountForm,
+    Form,
+    FrameFacts,
+    FrameForm,
+    NamesForm,
+    RangeCheck,
+    RangeForm,
+)
+from tftool.scenario.pose_checks import PoseForm, TurtlePoseForm
 from tftool.scenario.reading import reads
-from tftool.scenario.values import Moment
-from tftool.stamps import Duration, seconds
+from tftool.scenario.values import (
+    ANGLE,
+    DURATION,
+    LENGTH,
+    NUMBER,
+    RATE,
+    SPEED,
+    TURN_RATE,
+    RelativeMoment,
+)
+from tftool.stamps import Duration, Stamp, as_seconds, seconds
+
+
+class ScenarioWorld:
+    """What questions are asked of.
+
+    Attributes:
+        world: Where the scenario lives.
+        start: The moment it began.
+    """
+
+    def __init__(self, world: World, start: Stamp) -> None:
+        self.world = world
+        self.start = start
+        self.lines: dict[Logged, int] = {}
+
+    @property
+    def now(self) -> Stamp:
+        """The moment it is."""
+        return self.world.clock.now()
+
+    def lookup(self, target: str, source: str, time: RelativeMoment) -> Transform:
+        """Look up a pose, at a moment of the scenario."""
+        stamp = time.stamp(self.start, self.now)
+        return self.world.buffer.lookup_transform(target, source, stamp).transform
+
+    def frame(self, name: str) -> FrameInfo:
+        """All about one frame.
+
+        Raises:
+            LookupException: If there is none.
+        """
+        snapshot = self.world.buffer.snapshot(self.now)
+        if name not in snapshot:
+            raise LookupException(f'frame "{name}" does not exist', frame=name)
+        return snapshot.frame(name)
+
+    def roots(self) -> tuple[str, ...]:
+        """The frames without a parent."""
+        return self.world.buffer.snapshot(self.now).roots()
+
+    def count(self, record: LogRecord) -> None:
+        """Count a line of the log for the questions it answers."""
+        for question in self.lines:
+            if question.counts(record):
+                self.lines[question] += 1
+
+
+class Subject(ABC):
+    """Something that is asked of a scenario, at a moment of it.
+
+    Attributes:
+        key: What a scenario calls it.
+        form: What its answer may be held to.
+    """
+
+    __slots__ = ()
+
+    key: ClassVar[str]
+    form: ClassVar[Form]
+
+    @abstractmethod
+    def answer(self, scene: ScenarioWorld) -> Any:
+        """Find the answer, now.
+
+        Raises:
+            TransformException: If there is none.
+        """
+
+    @property
+    def problem(self) -> str:
+        """What is wrong with its fields together; empty when nothing is."""
+        return ""
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class Lookup:
+class Lookup(Subject):
     """The pose of `source` in `target` at a moment, or through a fixed frame at two."""
 
+    key: ClassVar[str] = "lookup"
+    form: ClassVar[Form] = PoseForm()
     target: str = reads(values.frame)
     source: str = reads(values.frame)
-    time: Moment | None = reads(values.moment, None)
-    target_time: Moment | None = reads(values.moment, None)
-    source_time: Moment | None = reads(values.moment, None)
+    time: RelativeMoment | None = reads(values.moment, None)
+    target_time: RelativeMoment | None = reads(values.moment, None)
+    source_time: RelativeMoment | None = reads(values.moment, None)
     fixed: str | None = reads(values.frame, None)
 
     @property
     def problem(self) -> str:
         """What is wrong with the whole, empty when nothing is."""
         return _two_times(self.time, self.target_time, self.source_time, self.fixed)
+
+    def answer(self, scene: ScenarioWorld) -> Transform:
+        """Find the answer, now."""
+        if self.fixed is None:
+            return scene.lookup(self.target, self.source, self.time or RelativeMoment())
+        latest = RelativeMoment()
+        found = scene.world.buffer.lookup_transform_full(
+            self.target,
+            (self.target_time or latest).stamp(scene.start, scene.now),
+            self.source,
+            (self.source_time or latest).stamp(scene.start, scene.now),
+            self.fixed,
+        )
+        return found.transform
 
     def __str__(self) -> str:
         if self.fixed is None:
@@ -42,14 +162,14 @@ class Lookup:
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class Between:
+class Between(Subject, ABC):
     """Two frames, the second one seen from the first; see `Lookup` for the times."""
 
     start: str = reads(values.frame, key="from")
     end: str = reads(values.frame, key="to")
-    time: Moment | None = reads(values.moment, None)
-    start_time: Moment | None = reads(values.moment, None, key="from_time")
-    end_time: Moment | None = reads(values.moment, None, key="to_time")
+    time: RelativeMoment | None = reads(values.moment, None)
+    start_time: RelativeMoment | None = reads(values.moment, None, key="from_time")
+    end_time: RelativeMoment | None = reads(values.moment, None, key="to_time")
     fixed: str | None = reads(values.frame, None)
 
     @property
@@ -73,6 +193,13 @@ class Between:
 class Distance(Between):
     """How far the origins of two frames are apart."""
 
+    key: ClassVar[str] = "distance"
+    form: ClassVar[Form] = RangeForm(LENGTH)
+
+    def answer(self, scene: ScenarioWorld) -> float:
+        """Find the answer, now."""
+        return math.hypot(*self.lookup.answer(scene).translation)
+
     def __str__(self) -> str:
         if self.fixed is None:
             return f"distance from {self.start} to {self.end}{self.lookup.when}"
@@ -83,6 +210,13 @@ class Distance(Between):
 class Bearing(Between):
     """In which direction, seen from one frame, another one lies."""
 
+    key: ClassVar[str] = "bearing"
+    form: ClassVar[Form] = RangeForm(ANGLE)
+
+    def answer(self, scene: ScenarioWorld) -> float:
+        """Find the answer, now."""
+        return planar.bearing(self.lookup.answer(scene))
+
     def __str__(self) -> str:
         if self.fixed is None:
             return f"bearing of {self.end} from {self.start}{self.lookup.when}"
@@ -90,12 +224,15 @@ class Bearing(Between):
         return f"bearing of {end} from {start}, through {self.fixed},"
 
 
-def _at(frame: str, time: Moment | None) -> str:
-    return f"{frame} ({time or Moment()})"
+def _at(frame: str, time: RelativeMoment | None) -> str:
+    return f"{frame} ({time or RelativeMoment()})"
 
 
 def _two_times(
-    time: Moment | None, target_time: Moment | None, source_time: Moment | None, fixed: str | None
+    time: RelativeMoment | None,
+    target_time: RelativeMoment | None,
+    source_time: RelativeMoment | None,
+    fixed: str | None,
 ) -> str:
     if fixed is None and (target_time or source_time):
         return "two times need a fixed frame to go through: 'fixed'"
@@ -105,32 +242,51 @@ def _two_times(
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class PointOf:
+class PointOf(Subject):
     """Where a point fixed in one frame lies in another."""
 
+    key: ClassVar[str] = "point"
+    form: ClassVar[Form] = PoseForm()
     frame: str = reads(values.frame, key="of")
     target: str = reads(values.frame, key="in")
     x: float = reads(values.length, 0.0)
     y: float = reads(values.length, 0.0)
     z: float = reads(values.length, 0.0)
-    time: Moment = reads(values.moment, Moment())
+    time: RelativeMoment = reads(values.moment, RelativeMoment())
+
+    def answer(self, scene: ScenarioWorld) -> Transform:
+        """Find the answer, now."""
+        target_from_frame = scene.lookup(self.target, self.frame, self.time)
+        return Transform(target_from_frame.apply((self.x, self.y, self.z)))
 
     def __str__(self) -> str:
         return f"point ({self.x:g}, {self.y:g}, {self.z:g}) of {self.frame} in {self.target}"
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class Motion:
+class Motion(Subject, ABC):
     """How one frame moves in another, taken over a while."""
 
     frame: str = reads(values.frame, key="of")
     target: str = reads(values.frame, key="in")
-    time: Moment = reads(values.moment, Moment())
+    time: RelativeMoment = reads(values.moment, RelativeMoment())
     over: Duration = reads(values.period, seconds(0.1))
+
+    def velocity(self, scene: ScenarioWorld) -> Velocity:
+        """The velocity asked about, now."""
+        stamp = self.time.stamp(scene.start, scene.now)
+        return scene.world.buffer.lookup_twist(self.frame, self.target, stamp, self.over)
 
 
 class SpeedOf(Motion):
     """How fast the origin of a frame moves."""
+
+    key: ClassVar[str] = "speed"
+    form: ClassVar[Form] = RangeForm(SPEED)
+
+    def answer(self, scene: ScenarioWorld) -> float:
+        """Find the answer, now."""
+        return math.hypot(*self.velocity(scene).linear)
 
     def __str__(self) -> str:
         return f"speed of {self.frame} in {self.target}"
@@ -139,107 +295,210 @@ class SpeedOf(Motion):
 class TurnRateOf(Motion):
     """How fast a frame turns about the z axis, anticlockwise."""
 
+    key: ClassVar[str] = "turn_rate"
+    form: ClassVar[Form] = RangeForm(TURN_RATE)
+
+    def answer(self, scene: ScenarioWorld) -> float:
+        """Find the answer, now."""
+        return self.velocity(scene).angular.z
+
     def __str__(self) -> str:
         return f"turn rate of {self.frame} in {self.target}"
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class RateOf:
+class RateOf(Subject):
     """At which rate a frame comes in."""
 
+    key: ClassVar[str] = "rate"
+    form: ClassVar[Form] = RangeForm(RATE)
     short: ClassVar[str] = "frame"
     frame: str = reads(values.frame)
+
+    def answer(self, scene: ScenarioWorld) -> float:
+        """Find the answer, now."""
+        return scene.frame(self.frame).rate
 
     def __str__(self) -> str:
         return f"rate of {self.frame}"
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class AgeOf:
+class AgeOf(Subject):
     """How old a frame's newest sample is."""
 
+    key: ClassVar[str] = "age"
+    form: ClassVar[Form] = RangeForm(DURATION)
     short: ClassVar[str] = "frame"
     frame: str = reads(values.frame)
+
+    def answer(self, scene: ScenarioWorld) -> float:
+        """Find the answer, now."""
+        return as_seconds(scene.frame(self.frame).age)
 
     def __str__(self) -> str:
         return f"age of {self.frame}"
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class MemoryOf:
+class MemoryOf(Subject):
     """How far back a frame is remembered: newest minus oldest sample."""
 
+    key: ClassVar[str] = "memory"
+    form: ClassVar[Form] = RangeForm(DURATION)
     short: ClassVar[str] = "frame"
     frame: str = reads(values.frame)
+
+    def answer(self, scene: ScenarioWorld) -> float:
+        """Find the answer, now."""
+        return as_seconds(scene.frame(self.frame).buffer_length)
 
     def __str__(self) -> str:
         return f"remembered span of {self.frame}"
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class FrameOf:
+class FrameOf(Subject):
     """Whether a frame is known, under which parent, from whom."""
 
+    key: ClassVar[str] = "frame"
+    form: ClassVar[Form] = FrameForm()
     short: ClassVar[str] = "name"
     name: str = reads(values.frame)
+
+    def answer(self, scene: ScenarioWorld) -> FrameFacts:
+        """Find the answer, now."""
+        snapshot = scene.world.buffer.snapshot(scene.now)
+        if self.name not in snapshot:
+            return FrameFacts(False)
+        info = snapshot.frame(self.name)
+        return FrameFacts(True, info.parent, info.is_static, info.authority)
 
     def __str__(self) -> str:
         return f"frame {self.name}"
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class Trees:
+class Trees(Subject):
     """How many trees the frames make."""
 
+    key: ClassVar[str] = "trees"
+    form: ClassVar[Form] = CountForm()
     short: ClassVar[str] = "count"
     count: int = reads(values.whole(0, 100_000))
+
+    def answer(self, scene: ScenarioWorld) -> int:
+        """Find the answer, now."""
+        return len(scene.roots())
 
     def __str__(self) -> str:
         return "number of trees"
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class Roots:
+class Roots(Subject):
     """Which frames hang from nothing."""
 
+    key: ClassVar[str] = "roots"
+    form: ClassVar[Form] = NamesForm()
     short: ClassVar[str] = "names"
     names: tuple[str, ...] = reads(values.several(values.frame, "frames"))
+
+    def answer(self, scene: ScenarioWorld) -> tuple[str, ...]:
+        """Find the answer, now."""
+        return scene.roots()
 
     def __str__(self) -> str:
         return "roots"
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class Turtles:
+class Turtles(Subject):
     """Which turtles are on the field."""
 
+    key: ClassVar[str] = "turtles"
+    form: ClassVar[Form] = NamesForm()
     short: ClassVar[str] = "names"
     names: tuple[str, ...] = reads(values.several(values.turtle, "turtles"))
+
+    def answer(self, scene: ScenarioWorld) -> list[str]:
+        """Find the answer, now."""
+        # Topics outlive turtles and come before them; a turtle's services do neither.
+        ending = "/teleport_absolute"
+        services = scene.world.services()
+        return [name.removesuffix(ending) for name in services if name.endswith(ending)]
 
     def __str__(self) -> str:
         return "turtles"
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class PoseOf:
+class PoseOf(Subject):
     """The pose a turtle published last."""
 
+    key: ClassVar[str] = "pose"
+    form: ClassVar[Form] = TurtlePoseForm()
     short: ClassVar[str] = "turtle"
     turtle: str = reads(values.turtle)
+
+    def answer(self, scene: ScenarioWorld) -> Pose2D | None:
+        """Find the answer, now."""
+        topic = scene.world.topics().get(f"{self.turtle}/pose")
+        latest = topic.latest if topic is not None else None
+        return latest if isinstance(latest, Pose2D) else None
 
     def __str__(self) -> str:
         return f"pose of {self.turtle}"
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
-class Logged:
+class Logged(Subject):
     """How many lines of the log hold a text."""
 
+    key: ClassVar[str] = "logged"
+    form: ClassVar[Form] = RangeForm(NUMBER, default=RangeCheck(NUMBER, above=0.0), tolerance=0.0)
     short: ClassVar[str] = "text"
     text: str = reads(values.text)
     node: str | None = reads(values.name("a node"), None)
     level: str | None = reads(values.choice(LEVELS, "a level"), None)
 
+    def answer(self, scene: ScenarioWorld) -> int:
+        """Find the answer, now."""
+        return scene.lines.get(self, 0)
+
+    def counts(self, record: LogRecord) -> bool:
+        """Whether it counts a line of the log."""
+        return (
+            self.text in record.text
+            and self.node in (None, record.node)
+            and self.level in (None, record.level)
+        )
+
     def __str__(self) -> str:
         by = f" by {self.node}" if self.node else ""
         return f"log lines{by} with '{self.text}'"
+
+
+SUBJECTS: Mapping[str, type[Subject]] = MappingProxyType(
+    {
+        kind.key: kind
+        for kind in (
+            Lookup,
+            Distance,
+            Bearing,
+            PointOf,
+            SpeedOf,
+            TurnRateOf,
+            RateOf,
+            AgeOf,
+            MemoryOf,
+            FrameOf,
+            Trees,
+            Roots,
+            Turtles,
+            PoseOf,
+            Logged,
+        )
+    }
+)
+"""Every subject, by its key."""

@@ -1,7 +1,7 @@
 """Reading a document by what is wanted, with every mistake told at once.
 
 A reader is a function from a node to a value. It notes what is wrong and
-raises `Unreadable`; whoever reads several things catches that and goes on with
+raises `Unreadable`; what reads several things catches that and goes on with
 the next, so that one pass finds all mistakes. The readers of single values are
 in `values`.
 """
@@ -14,7 +14,7 @@ from typing import Any, TypeAlias, TypeVar
 
 from tftool.errors import Mistake
 from tftool.scenario import document
-from tftool.scenario.document import Document, Node, Place, Scalar
+from tftool.scenario.document import Document, Node, Scalar, TextPlace
 from tftool.views.escaping import visible
 
 T = TypeVar("T")
@@ -35,7 +35,7 @@ class Unreadable(Exception):
 
 
 @dataclass(frozen=True, slots=True)
-class Field:
+class Key:
     """What one key may hold, and what it means when it is left out."""
 
     read: Reader
@@ -49,16 +49,16 @@ class Reading:
         self.source = source
         self.arguments: dict[str, str] = {}
         self.mistakes: list[Mistake] = []
-        self._noted: set[tuple[Place, str]] = set()
+        self._noted: set[tuple[TextPlace, str]] = set()
 
-    def note(self, where: Node | Place, text: str) -> None:
+    def note(self, where: Node | TextPlace, text: str) -> None:
         """Note a mistake; the same one is noted once, however often an alias repeats it."""
-        place = where if isinstance(where, Place) else where.place
+        place = where if isinstance(where, TextPlace) else where.place
         if (place, text) not in self._noted:
             self._noted.add((place, text))
             self.mistakes.append(self.source.mistake(place, text))
 
-    def refuse(self, where: Node | Place, text: str) -> Unreadable:
+    def refuse(self, where: Node | TextPlace, text: str) -> Unreadable:
         """Note a mistake, and give the exception to raise."""
         self.note(where, text)
         return Unreadable()
@@ -134,7 +134,7 @@ class Reading:
             raise self.refuse(node, f"a list ({wanted}) is wanted here; begin each item with '- '")
         return node.items
 
-    def record(self, node: Node, known: Mapping[str, Field], what: str) -> dict[str, Any]:
+    def record(self, node: Node, known: Mapping[str, Key], what: str) -> dict[str, Any]:
         """Read a mapping with known keys.
 
         Args:
@@ -150,9 +150,9 @@ class Reading:
 
     def values(
         self,
-        place: Place,
+        place: TextPlace,
         entries: Mapping[str, tuple[Scalar, Node]],
-        known: Mapping[str, Field],
+        known: Mapping[str, Key],
         what: str,
     ) -> dict[str, Any]:
         """Read entries that are keys and values already; see `record`."""
@@ -196,14 +196,14 @@ def reads(read: Reader, *default: Any, key: str | None = None, beside: bool = Fa
     return field(default=default[0], metadata=metadata) if default else field(metadata=metadata)
 
 
-def parts_of(kind: type) -> dict[str, tuple[Field, bool]]:
+def parts_of(kind: type) -> dict[str, tuple[Key, bool]]:
     """What a dataclass that is read may hold, by key, and whether that stands beside it."""
     parts = {}
     for one in fields(kind):
         if "read" in one.metadata:
             default = REQUIRED if one.default is MISSING else one.default
             key = one.metadata.get("key", one.name)
-            parts[key] = Field(one.metadata["read"], default), one.metadata["beside"]
+            parts[key] = Key(one.metadata["read"], default), one.metadata["beside"]
     return parts
 
 

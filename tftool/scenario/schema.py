@@ -2,10 +2,14 @@
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from tftool.scenario.checks import Check
 from tftool.stamps import Duration
+
+if TYPE_CHECKING:
+    from tftool.scenario.actions import Action
+    from tftool.scenario.questions import Subject
 
 
 @dataclass(frozen=True, slots=True)
@@ -29,14 +33,14 @@ class Step:
 
     Attributes:
         at: When.
-        action: What: one of `actions`.
+        action: What.
         line: Its line in the file.
         name: Its name there: "spawn".
         fails: Whether it is to be refused.
     """
 
     at: Duration
-    action: Any
+    action: "Action"
     line: int
     name: str
     fails: bool = False
@@ -70,13 +74,13 @@ class Expectation:
 
     Attributes:
         when: When it is judged.
-        question: What is asked: one of `questions`.
+        question: What is asked.
         check: What the answer must be, from `checks`.
         line: Its line in the file.
     """
 
     when: When
-    question: Any
+    question: "Subject"
     check: Check
     line: int
 

@@ -7,7 +7,7 @@ from tftool.scenario import document
 from tftool.scenario.document import Node, Scalar
 from tftool.scenario.reading import (
     UNREAD,
-    Field,
+    Key,
     Reader,
     Reading,
     Unreadable,
@@ -24,8 +24,8 @@ def tagged(
     reading: Reading,
     what: str,
     kinds: Mapping[str, type],
-    common: Mapping[str, Field],
-    beside: Mapping[str, Mapping[str, Field]],
+    common: Mapping[str, Key],
+    beside: Mapping[str, Mapping[str, Key]],
 ) -> tuple[str, Any, dict[str, Any]]:
     """Read a mapping in which one key says what it is, and the others stand beside it.
 
@@ -73,8 +73,8 @@ def _tag(
     reading: Reading,
     what: str,
     kinds: Mapping[str, type],
-    common: Mapping[str, Field],
-    beside: Mapping[str, Mapping[str, Field]],
+    common: Mapping[str, Key],
+    beside: Mapping[str, Mapping[str, Key]],
 ) -> str:
     """The one key that says what a mapping is, or what is wrong with its keys."""
     entries = reading.entries(node, "")

@@ -259,7 +259,7 @@ def several(read_one: Reader, what: str, count: int | None = None) -> Reader:
 
 
 @dataclass(frozen=True, slots=True)
-class Moment:
+class RelativeMoment:
     """A moment in a question: relative to the start, to the asking, or just the latest.
 
     Attributes:
@@ -288,17 +288,17 @@ class Moment:
 _AGO = re.compile(r"\s*now\s*(?:-\s*(.+))?")
 
 
-def moment(node: Node, reading: Reading) -> Moment:
+def moment(node: Node, reading: Reading) -> RelativeMoment:
     """`latest`, `now`, `now - 5 s`, or a time since the scenario's start."""
     value = reading.text(node, "a moment")
     if value.strip() == "latest":
-        return Moment()
+        return RelativeMoment()
     ago = _AGO.fullmatch(value)
     if ago is not None and ago[1] is None:
-        return Moment("now")
+        return RelativeMoment("now")
     if ago is not None:
-        return Moment("now", -duration(reading.part(node, ago[1]), reading))
+        return RelativeMoment("now", -duration(reading.part(node, ago[1]), reading))
     if _NUMBER.fullmatch(value) is None:
         near = suggest(value, ("latest", "now")) or "; it may be latest, now, now - 5 s, or 12.5 s"
         raise reading.refuse(node, f"{quoted(value)} is not a moment{near}")
-    return Moment("start", duration(node, reading))
+    return RelativeMoment("start", duration(node, reading))

@@ -2,7 +2,7 @@
 
 from dataclasses import dataclass
 
-from tftool.messages import Finding, Report
+from tftool.messages import Judgement, Report
 from tftool.stamps import Duration, as_seconds
 
 
@@ -33,9 +33,9 @@ class Outcome:
         """Whether its time came."""
         return self.at is not None
 
-    def finding(self) -> Finding:
+    def judgement(self) -> Judgement:
         """The same, fit for tables and test reports."""
-        return Finding(
+        return Judgement(
             subject=f"{self.when}: {self.expectation} {self.expected}",
             ok=self.ok,
             expected=self.expected,
@@ -71,5 +71,5 @@ class Verdict:
 
     def report(self) -> Report:
         """The same, fit for tables and test reports."""
-        findings = tuple(outcome.finding() for outcome in self.outcomes)
-        return Report(self.scenario, self.file, findings, as_seconds(self.lasted), self.failure)
+        judgements = tuple(outcome.judgement() for outcome in self.outcomes)
+        return Report(self.scenario, self.file, judgements, as_seconds(self.lasted), self.failure)

@@ -16,7 +16,7 @@ BLOCK_LINES, BLOCK_WIDTH = 12, 62
 
 
 @dataclass(frozen=True, slots=True)
-class Layout:
+class ScreenLayout:
     """Sizes with their borders, in cells; 0 for whatever is left.
 
     Attributes:
@@ -36,7 +36,7 @@ class Layout:
     pair: int = 0
 
 
-def arranged(width: int, height: int, banner: int, frames: int) -> Layout:
+def arranged(width: int, height: int, banner: int, frames: int) -> ScreenLayout:
     """Share a screen out.
 
     Args:
@@ -46,16 +46,16 @@ def arranged(width: int, height: int, banner: int, frames: int) -> Layout:
         frames: How many lines the tree would like.
     """
     if width < SMALLEST[0] or height < SMALLEST[1]:
-        return Layout(small=True)
+        return ScreenLayout(small=True)
     if width < WITH_PANELS:
-        return Layout(alone=True)
+        return ScreenLayout(alone=True)
     # A top line and a line of keys; and every panel has a border.
     room = height - 2 - banner
     beside = min(room - 2, (width - (28 if width < 84 else 38)) // 2)
     under = min((width - 2) // 2, room - 12)
     if under > 1.15 * beside:
-        return Layout(portrait=True, field=(0, under + 2))
+        return ScreenLayout(portrait=True, field=(0, under + 2))
     pair = (BLOCK_LINES if room >= 40 else PAIR_LINES) + 2
     least_log = max(3, room // 4)
     tree = min(max(4, frames + 3), max(5, room - pair - least_log))
-    return Layout(field=(2 * beside + 2, 0), tree=tree, pair=pair)
+    return ScreenLayout(field=(2 * beside + 2, 0), tree=tree, pair=pair)

@@ -8,7 +8,7 @@ from rich.text import Text
 
 from tftool.messages import Color
 from tftool.views import theme
-from tftool.views.plain import fitted, plain
+from tftool.views.fixed_width import fitted, plain
 
 
 class Look(NamedTuple):

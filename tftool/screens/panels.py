@@ -14,7 +14,7 @@ from tftool.screens.look import Look, wrapped
 from tftool.screens.scene import Moment
 from tftool.stamps import as_seconds
 from tftool.views import echo, theme
-from tftool.views.plain import fitted, padded
+from tftool.views.fixed_width import fitted, padded
 
 
 class Row(NamedTuple):

@@ -1,4 +1,4 @@
-"""What a screen asks of its scene: which pair of frames, at which moment."""
+"""What a screen shows of its scene: which pair of frames, at which moment."""
 
 from dataclasses import replace
 
@@ -80,7 +80,7 @@ class Question:
         return found
 
     def _other_pair(self, moment: Moment) -> tuple[str, str]:
-        """The pair asked for, until its frames are overdue and nobody picked another."""
+        """The pair asked for, until its frames are overdue and no other was picked."""
         asked, snapshot = (self.target, self.source), moment.snapshot
         names = [info.frame for info in snapshot.frames if info.parent is not None]
         simulator = self.scene.simulator

@@ -14,7 +14,7 @@ from tftool.nodes.trail import Trail
 from tftool.runtime.world import World
 from tftool.stamps import LATEST, Duration, Stamp, as_seconds, seconds
 from tftool.views import canvas
-from tftool.views.ink import Stroke
+from tftool.views.braille_trail import Stroke
 
 FLASH = seconds(0.4)
 """How long a wall stays lit after it was run into."""
@@ -49,7 +49,7 @@ class Moment:
     elapsed: Duration
     snapshot: Snapshot
     ages: dict[str, float]
-    picture: canvas.Picture
+    picture: canvas.FieldPicture
     pair: Pair
 
 
@@ -89,7 +89,7 @@ class _Seen:
     """What only the simulator knows of the field at `stamp`: the trail by its length."""
 
     stamp: Stamp
-    turtles: tuple[canvas.Turtle, ...]
+    turtles: tuple[canvas.DrawnTurtle, ...]
     walls: frozenset[str]
     background: Color
     wipes: int
@@ -97,7 +97,7 @@ class _Seen:
 
 
 class Scene:
-    """Looks at a world whenever it is told to, and remembers what only a simulator knows.
+    """Looks at a world on request, and remembers what only a simulator knows.
 
     Args:
         world: The world to look at.
@@ -133,7 +133,7 @@ class Scene:
                 self._wiped[before.wipes] = before.drawn, self._strokes
             self._strokes = tuple(trail.segments)
         turtles = tuple(
-            canvas.Turtle(turtle.name, turtle.pose.x, turtle.pose.y, turtle.pose.theta)
+            canvas.DrawnTurtle(turtle.name, turtle.pose.x, turtle.pose.y, turtle.pose.theta)
             for turtle in simulator.turtles.values()
         )
         for turtle in simulator.turtles.values():
@@ -201,7 +201,7 @@ class Scene:
     def _ages(self, snapshot: Snapshot, now: Stamp, at: Stamp | None) -> dict[str, float]:
         """Give the age of every frame as rviz counts it: since its stamp last changed.
 
-        In the past what counts is the stamp itself: nobody noted when it came.
+        In the past what counts is the stamp itself: its time of arrival is not recorded.
         """
         ages: dict[str, float] = {}
         for info in snapshot.frames:
@@ -220,18 +220,18 @@ class Scene:
 
     def _picture(
         self, snapshot: Snapshot, ages: dict[str, float], at: Stamp | None
-    ) -> canvas.Picture:
+    ) -> canvas.FieldPicture:
         seen = self._at(at)
         if seen is None:
             marks = _marks(snapshot, ages, frozenset())
             left, bottom, size = self._fit(marks)
-            return canvas.Picture(marks=marks, left=left, bottom=bottom, size=size)
+            return canvas.FieldPicture(marks=marks, left=left, bottom=bottom, size=size)
         turtles = seen.turtles
         if at is not None:
             turtles = tuple(_placed(turtle, snapshot) for turtle in turtles)
         drawn, strokes = self._wiped.get(seen.wipes, (self._seen[-1].drawn, self._strokes))
         forgotten = drawn - len(strokes)
-        return canvas.Picture(
+        return canvas.FieldPicture(
             turtles=turtles,
             marks=_marks(snapshot, ages, frozenset(turtle.name for turtle in turtles)),
             strokes=strokes[: max(0, seen.drawn - forgotten)] if at is not None else strokes,
@@ -268,7 +268,7 @@ def _sides(x: float, y: float) -> list[str]:
     return [side for side, met in sides.items() if met]
 
 
-def _placed(turtle: canvas.Turtle, snapshot: Snapshot) -> canvas.Turtle:
+def _placed(turtle: canvas.DrawnTurtle, snapshot: Snapshot) -> canvas.DrawnTurtle:
     """Put a turtle where its frame was: between two looks the buffer knows better."""
     pose = snapshot.frame(turtle.name).root_from_frame if turtle.name in snapshot else None
     if pose is None:

@@ -1,10 +1,12 @@
 """A screen and the life of its world, side by side until one of them ends."""
 
 import asyncio
+import os
 from collections.abc import Coroutine
 from typing import Any
 
 from tftool.errors import TftoolError
+from tftool.runtime.stopping import leave_screen
 from tftool.screens.terminal import TurtleApp
 
 
@@ -23,6 +25,9 @@ async def show(app: TurtleApp, life: Coroutine[Any, Any, None], *, headless: boo
         TftoolError: If the screen itself failed.
         KeyboardInterrupt: If the user pressed Ctrl-C.
     """
+    # Ctrl-C as a signal, not as a key: the loop, which reads keys, may be held up by a node.
+    os.environ.setdefault("TEXTUAL_ALLOW_SIGNALS", "1")
+    undo = app.scene.world.clock.when_killed.add(leave_screen, "screen")
     screen = asyncio.ensure_future(app.run_async(headless=headless))
 
     async def lived() -> None:
@@ -41,6 +46,7 @@ async def show(app: TurtleApp, life: Coroutine[Any, Any, None], *, headless: boo
         living.cancel()
         await asyncio.wait({living})
         life.close()
+        undo()
     if not living.cancelled():
         living.result()
     if app.failure is not None:

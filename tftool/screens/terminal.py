@@ -15,10 +15,12 @@ from textual import events
 from textual.app import App, ComposeResult
 from textual.binding import Binding, BindingType
 from textual.containers import Container
+from textual.driver import Driver
 
 from tftool.errors import TftoolError
 from tftool.screens import keys, panels
 from tftool.screens.journal import Journal
+from tftool.screens.keyboard import tolerant
 from tftool.screens.layout import SMALLEST, arranged
 from tftool.screens.look import Look, wrapped
 from tftool.screens.panel import Panel, themes
@@ -117,9 +119,13 @@ class TurtleApp(App[None]):
         self._rest_until = 0.0
         self._canvas = canvas.Canvas(0, 0)
         self._journal = Journal(scene.world.log.records)
-        self._unlisten = scene.world.log.listen(self._journal.add)
+        self._unlisten = scene.world.log.listen(self._journal.add, "screen")
 
     # Building
+
+    def get_driver_class(self) -> type[Driver]:
+        """Give what reads the keys."""
+        return tolerant(super().get_driver_class())
 
     def compose(self) -> ComposeResult:
         """Make the panels; `_arrange` gives them their sizes."""

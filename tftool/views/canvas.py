@@ -2,7 +2,7 @@
 
 Trails are drawn in braille (eight dots to a cell), turtles in blocks or as
 arrows, so that a metre is as long across as it is up on cells twice as high as
-wide. What is drawn is a frozen `Picture`; nothing here knows a simulator.
+wide. What is drawn is a frozen `FieldPicture`; nothing here knows a simulator.
 """
 
 import math
@@ -18,8 +18,8 @@ from rich.style import Style
 
 from tftool.messages import Color
 from tftool.views import sprites, theme
-from tftool.views.ink import Ink, Stroke
-from tftool.views.plain import fitted
+from tftool.views.braille_trail import Ink, Stroke
+from tftool.views.fixed_width import fitted
 from tftool.views.sprites import Cell
 
 EDGE = 11.088889122009277
@@ -30,7 +30,7 @@ _Overlay: TypeAlias = dict[int, dict[int, Cell]]
 
 
 @dataclass(frozen=True, slots=True)
-class Turtle:
+class DrawnTurtle:
     """A turtle to draw: metres, radians; its colour comes from its name."""
 
     name: str
@@ -43,7 +43,7 @@ class Turtle:
 class Mark:
     """A frame that is no turtle, seen from above: a carrot, a laser.
 
-    Metres, radians, and seconds since it was last heard of: it fades as `theme` says.
+    Metres, radians, and seconds since its last sample: it fades as `theme` says.
     """
 
     name: str
@@ -54,7 +54,7 @@ class Mark:
 
 
 @dataclass(frozen=True, slots=True)
-class Picture:
+class FieldPicture:
     """What there is to see at one moment.
 
     Attributes:
@@ -64,13 +64,13 @@ class Picture:
         forgotten: How many strokes of this trail were there before the first of `strokes`.
         wipes: How often the trail was wiped so far: strokes of another wipe are another trail.
         background: Colour of the field.
-        walls: The sides somebody just ran into: "left", "right", "bottom", "top".
+        walls: The sides a turtle just ran into: "left", "right", "bottom", "top".
         left: Where the field begins, metres.
         bottom: Where the field begins, metres.
         size: How long its sides are, metres.
     """
 
-    turtles: tuple[Turtle, ...] = ()
+    turtles: tuple[DrawnTurtle, ...] = ()
     marks: tuple[Mark, ...] = ()
     strokes: Sequence[Stroke] = ()
     forgotten: int = 0
@@ -111,7 +111,7 @@ class Canvas:
         self._ink = Ink(self.columns, self.rows, 0.0, 0.0, EDGE)
         self._kept: list[tuple[tuple[int, Color], Line] | None] = [None] * self.rows
 
-    def lines(self, picture: Picture) -> list[Line]:
+    def lines(self, picture: FieldPicture) -> list[Line]:
         """Draw `picture`: `rows` lines, each exactly `columns` cells wide."""
         if not self.columns or not self.rows:
             return [[] for _ in range(self.rows)]
@@ -124,7 +124,7 @@ class Canvas:
             for row in range(self.rows)
         ]
 
-    def _follow_trail(self, picture: Picture) -> None:
+    def _follow_trail(self, picture: FieldPicture) -> None:
         """Draw what the trail has grown by; begin anew when it is another one, or shorter."""
         ink, total = self._ink, picture.forgotten + len(picture.strokes)
         view = picture.left, picture.bottom, picture.size
@@ -154,13 +154,13 @@ class Canvas:
             line[column] = cell
         return _line(line, ground)
 
-    def _overlay(self, picture: Picture) -> _Overlay:
+    def _overlay(self, picture: FieldPicture) -> _Overlay:
         overlay: _Overlay = {}
         for column, row, cell in self._walls(picture.walls):
             overlay.setdefault(row, {})[column] = cell
         names: list[tuple[str, int, int, int, Color]] = []
         per_metre = self.rows / picture.size
-        everything: tuple[Mark | Turtle, ...] = (*picture.marks, *picture.turtles)
+        everything: tuple[Mark | DrawnTurtle, ...] = (*picture.marks, *picture.turtles)
         for shown in everything:
             place = self._place(shown.x, shown.y)
             if place is None:
@@ -305,10 +305,10 @@ def _style(ink: Color | None, ground: Color, bold: bool) -> Style:
 
 
 @dataclass(frozen=True, slots=True)
-class Field:
-    """A `Picture` as a rich renderable: the largest square field there is room for."""
+class FieldView:
+    """A `FieldPicture` as a rich renderable: the largest square field there is room for."""
 
-    picture: Picture
+    picture: FieldPicture
     ascii_only: bool = False
 
     def __rich_console__(self, console: Console, options: ConsoleOptions) -> RenderResult:

@@ -12,8 +12,8 @@ from tftool.frames.sample import Snapshot
 from tftool.views import pdf as pdf_writer
 from tftool.views import svg as svg_writer
 from tftool.views.escaping import distinct, shorten, visible
-from tftool.views.facts import facts, recorded_at
 from tftool.views.forest import Forest, grow
+from tftool.views.link_facts import facts, recorded_at
 from tftool.views.picture import MOST_DRAWN, lay_out
 
 

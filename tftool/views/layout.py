@@ -30,16 +30,14 @@ class Item:
 
 
 @dataclass(frozen=True, slots=True)
-class Place:
+class Spot:
     """Where an item stands: the middle of its breadth, and its level."""
 
     middle: float
     level: int
 
 
-def tidy(
-    items: Sequence[Item], roots: Sequence[int], *, gap: float, tree_gap: float
-) -> list[Place]:
+def tidy(items: Sequence[Item], roots: Sequence[int], *, gap: float, tree_gap: float) -> list[Spot]:
     """Place a forest of items, the leftmost edge at 0.
 
     Args:
@@ -64,7 +62,7 @@ def tidy(
         (middle - item.breadth / 2 for item, middle in zip(items, middles, strict=True)),
         default=0.0,
     )
-    return [Place(middle - edge, level) for middle, level in zip(middles, levels, strict=True)]
+    return [Spot(middle - edge, level) for middle, level in zip(middles, levels, strict=True)]
 
 
 def _parents_first(items: Sequence[Item], roots: Sequence[int]) -> list[int]:

@@ -8,7 +8,7 @@ from rich.console import Group, RenderableType
 from rich.table import Table
 from rich.text import Text
 
-from tftool.frames.traffic import Link, NetDelay, Series, Traffic
+from tftool.frames.traffic import FrameTraffic, NetDelay, Series, Traffic
 from tftool.stamps import Stamp
 from tftool.views.echo import in_words
 from tftool.views.escaping import visible
@@ -63,7 +63,7 @@ def lines(traffic: Traffic, chain: Chain | None = None, *, as_tf2: bool = False)
     return "\n".join(found) + "\n"
 
 
-def frame_line(link: Link, *, as_tf2: bool = False) -> str:
+def frame_line(link: FrameTraffic, *, as_tf2: bool = False) -> str:
     """One frame, as tf2_monitor writes it."""
     average, maximum = _delays(link.series, as_tf2)
     return (
@@ -136,7 +136,7 @@ def as_object(now: Stamp, traffic: Traffic, chain: Chain | None = None) -> dict[
     return result
 
 
-def _links(traffic: Traffic, chain: Chain | None) -> list[Link]:
+def _links(traffic: Traffic, chain: Chain | None) -> list[FrameTraffic]:
     wanted: Collection[str] = traffic.links if chain is None else chain.frames
     return [link for name, link in sorted(traffic.links.items()) if name in wanted]
 

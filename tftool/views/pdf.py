@@ -7,7 +7,7 @@ other letter is written as its number, <U+4E16>, so that nothing vanishes in sil
 import zlib
 
 from tftool.views.font import fit, width
-from tftool.views.picture import Box, Link, Picture, Text
+from tftool.views.picture import Box, Curve, Picture, Text
 
 _LARGEST = 14_400.0
 """Readers refuse pages longer than this many points; larger drawings are scaled down."""
@@ -83,7 +83,7 @@ def _file(objects: list[bytes]) -> bytes:
     return bytes(out)
 
 
-def _link(link: Link) -> str:
+def _link(link: Curve) -> str:
     x0, y0, x1, y1 = link.x0, link.y0, link.x1, link.y1
     if link.down:
         half = (y0 + y1) / 2

@@ -6,24 +6,25 @@ readable. What the shapes look like is the business of `svg` and `pdf`.
 """
 
 import math
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from typing import Literal
 
 from tftool.frames.sample import Snapshot
 from tftool.views.escaping import distinct, visible
-from tftool.views.facts import facts, recorded_at
 from tftool.views.font import fit, width
 from tftool.views.forest import Forest, grow
 from tftool.views.layout import Item, tidy
+from tftool.views.link_facts import facts, recorded_at
 
 MOST_DRAWN = 1000
-"""Frames in one picture; more could not be read by anybody."""
+"""Frames in one picture; more could not be read."""
 
 FOLD = 8
 """More leaves than this under one parent are drawn as a group."""
 
 CARD_HEIGHT = 92.0
 ROOT_HEIGHT = 36.0
+STATIC_HEIGHT = 46.0
 LEAST_WIDTH = 132.0
 MOST_WIDTH = 268.0
 PADDING = 12.0
@@ -55,17 +56,18 @@ class Box:
 
 @dataclass(frozen=True, slots=True)
 class Text:
-    """One line of text, from its left end on its baseline."""
+    """One line of text, from its left end on its baseline; `room` is how long it may be."""
 
     x: float
     y: float
     text: str
     size: float
     kind: Literal["name", "fact", "note"]
+    room: float = math.inf
 
 
 @dataclass(frozen=True, slots=True)
-class Link:
+class Curve:
     """A link between two points; it leaves and arrives downwards, or to the right."""
 
     x0: float
@@ -82,7 +84,7 @@ class Picture:
 
     width: float
     height: float
-    links: tuple[Link, ...]
+    links: tuple[Curve, ...]
     boxes: tuple[Box, ...]
     texts: tuple[Text, ...]
     left_out: int
@@ -123,7 +125,8 @@ def _cards(forest: Forest) -> dict[str, _Card]:
     for name in forest.children:
         frame = forest.info[name]
         root = frame.parent is None
-        told = () if root else facts(frame).lines(units=True)
+        # What is static has no rate and no age: tf2 counts 10000 Hz and 0 s for it.
+        told = () if root else facts(frame).lines(units=True)[: 1 if frame.is_static else None]
         lines = tuple(fit(visible(line), FACT_SIZE, room) for line in told)
         written = fit(shown[name], NAME_SIZE, room, bold=True)
         kind: Kind = "root" if root else "static" if frame.is_static else "dynamic"
@@ -146,7 +149,8 @@ def _card(kind: Kind, name: str, lines: tuple[str, ...], title: str) -> _Card:
     if kind == "static":
         widest = max(widest, width(name, NAME_SIZE, bold=True) + width("static", FACT_SIZE) + 10)
     breadth = min(MOST_WIDTH, max(LEAST_WIDTH, widest + 2 * PADDING))
-    return _Card(kind, name, lines, breadth, ROOT_HEIGHT if kind == "root" else CARD_HEIGHT, title)
+    height = {"root": ROOT_HEIGHT, "static": STATIC_HEIGHT}.get(kind, CARD_HEIGHT)
+    return _Card(kind, name, lines, breadth, height, title)
 
 
 @dataclass(frozen=True, slots=True)
@@ -157,6 +161,7 @@ class _Group:
     members: tuple[str, ...]
     columns: int
     cell: float
+    row: float
     width: float
     height: float
 
@@ -172,17 +177,21 @@ class _Sheet:
     height: float = 0.0
     boxes: list[Box] = field(default_factory=list)
     texts: list[Text] = field(default_factory=list)
-    links: list[Link] = field(default_factory=list)
+    links: list[Curve] = field(default_factory=list)
 
     def __post_init__(self) -> None:
         widest = max((card.width for card in self.cards.values()), default=LEAST_WIDTH)
-        self.pitch = CARD_HEIGHT + DOWN_GAP if self.down else widest + ACROSS_GAP
+        tallest = max(
+            (card.height for card in self.cards.values() if card.kind != "root"),
+            default=ROOT_HEIGHT,
+        )
+        self.pitch = tallest + DOWN_GAP if self.down else widest + ACROSS_GAP
         self.subjects: list[_Card | _Group] = []
         items = self._items()
         roots = tuple(range(len(self.forest.roots)))
         places = tidy(items, roots, gap=GAP, tree_gap=TREE_GAP)
         # A root's card is lower than the others: the first level gives that back.
-        spare = CARD_HEIGHT - ROOT_HEIGHT if self.down and not self.forest.loops else 0.0
+        spare = tallest - ROOT_HEIGHT if self.down and not self.forest.loops else 0.0
         corners = []
         for subject, place in zip(self.subjects, places, strict=True):
             if self.down:
@@ -256,15 +265,17 @@ class _Sheet:
 
     def _group(self, parent: str, members: tuple[str, ...]) -> _Group:
         cell = max(self.cards[name].width for name in members)
-        columns = math.ceil(math.sqrt(1.6 * len(members) * CARD_HEIGHT / cell))
+        row = max(self.cards[name].height for name in members)
+        columns = math.ceil(math.sqrt(1.6 * len(members) * row / cell))
         rows = math.ceil(len(members) / columns)
         return _Group(
             parent,
             members,
             columns,
             cell,
+            row,
             width=columns * (cell + GROUP_GAP) + GROUP_GAP,
-            height=rows * (CARD_HEIGHT + GROUP_GAP) + GROUP_GAP,
+            height=rows * (row + GROUP_GAP) + GROUP_GAP,
         )
 
     def finish(self, snapshot: Snapshot) -> Picture:
@@ -309,7 +320,7 @@ class _Sheet:
             x0, y0, x1 = x0 + parent.width / 2, y0 + parent.height, x1 + child.width / 2
         else:
             x0, y0, y1 = x0 + parent.width, y0 + parent.height / 2, y1 + child.height / 2
-        self.links.append(Link(x0, y0, x1, y1, static, self.down))
+        self.links.append(Curve(x0, y0, x1, y1, static, self.down))
 
     def _draw_card(self, card: _Card, x: float, y: float) -> None:
         self.boxes.append(Box(x, y, card.width, card.height, card.kind, card.title))
@@ -317,25 +328,26 @@ class _Sheet:
             indent = (card.width - width(card.name, NAME_SIZE, bold=True)) / 2
             self.texts.append(Text(x + indent, y + 22.5, card.name, NAME_SIZE, "name"))
             return
-        self.texts.append(Text(x + PADDING, y + 20.0, card.name, NAME_SIZE, "name"))
+        room = card.width - 2 * PADDING
+        mark = width("static", FACT_SIZE)
+        beside = room - mark - 10 if card.kind == "static" else room
+        self.texts.append(Text(x + PADDING, y + 20.0, card.name, NAME_SIZE, "name", beside))
         if card.kind == "static":
-            end = x + card.width - PADDING - width("static", FACT_SIZE)
-            self.texts.append(Text(end, y + 20.0, "static", FACT_SIZE, "note"))
+            end = x + card.width - PADDING - mark
+            self.texts.append(Text(end, y + 20.0, "static", FACT_SIZE, "note", mark))
         for number, line in enumerate(card.lines):
             baseline = y + 35.0 + 12.0 * number
-            self.texts.append(Text(x + PADDING, baseline, line, FACT_SIZE, "fact"))
+            self.texts.append(Text(x + PADDING, baseline, line, FACT_SIZE, "fact", room))
 
     def _draw_group(self, group: _Group, x: float, y: float) -> None:
         self.boxes.append(Box(x, y, group.width, group.height, "group"))
         for number, name in enumerate(group.members):
             row, column = divmod(number, group.columns)
             left = x + GROUP_GAP + column * (group.cell + GROUP_GAP)
-            top = y + GROUP_GAP + row * (CARD_HEIGHT + GROUP_GAP)
+            top = y + GROUP_GAP + row * (group.row + GROUP_GAP)
             card = self.cards[name]
-            same_width = _Card(
-                card.kind, card.name, card.lines, group.cell, CARD_HEIGHT, card.title
-            )
-            self._draw_card(same_width, left, top)
+            same_size = replace(card, width=group.cell, height=group.row)
+            self._draw_card(same_size, left, top)
 
     def _notes(self, snapshot: Snapshot) -> list[str]:
         frames = len(snapshot.frames)
@@ -368,7 +380,7 @@ class _Sheet:
         line = MARGIN + 27.0
         x = MARGIN
         for static, word in ((False, "dynamic"), (True, "static")):
-            self.links.append(Link(x, line, x + 34.0, line, static, down=False))
+            self.links.append(Curve(x, line, x + 34.0, line, static, down=False))
             self.texts.append(Text(x + 41.0, line + 3.2, word, FACT_SIZE, "fact"))
             x += 100.0
         for number, note in enumerate(notes):

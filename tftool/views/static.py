@@ -1,4 +1,4 @@
-"""One fixed pose in words, so that nobody is surprised by what was published."""
+"""One fixed pose in words, so that a wrong order of arguments shows at once."""
 
 import math
 

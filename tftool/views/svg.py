@@ -3,7 +3,7 @@
 from xml.sax.saxutils import escape
 
 from tftool.views.font import width
-from tftool.views.picture import MOST_WIDTH, Box, Link, Picture, Text
+from tftool.views.picture import Box, Curve, Picture, Text
 
 _STYLE = """\
 svg { background: #fbfbfd; font-family: Helvetica, Arial, sans-serif; }
@@ -32,7 +32,7 @@ path.still { stroke: #b4964a; }
 }"""
 
 
-_NEARLY_FULL = 0.7 * MOST_WIDTH
+_NEARLY_FULL = 0.75
 
 
 def render(picture: Picture) -> str:
@@ -51,7 +51,7 @@ def render(picture: Picture) -> str:
     return "\n".join(parts) + "\n"
 
 
-def _link(link: Link) -> str:
+def _link(link: Curve) -> str:
     x0, y0, x1, y1 = link.x0, link.y0, link.x1, link.y1
     if link.down:
         half = (y0 + y1) / 2
@@ -75,11 +75,11 @@ def _box(box: Box) -> str:
 
 def _text(text: Text) -> str:
     length = width(text.text, text.size, bold=text.kind == "name")
-    # A viewer's font may be wider than Helvetica: what nearly fills its box is kept inside.
+    # A viewer's font may be wider than Helvetica: what nearly fills its room is kept inside.
     fitted = f' textLength="{_number(length)}" lengthAdjust="spacingAndGlyphs"'
     return (
         f'<text class="{text.kind}" x="{_number(text.x)}" y="{_number(text.y)}" '
-        f'font-size="{_number(text.size)}"{fitted if length > _NEARLY_FULL else ""}>'
+        f'font-size="{_number(text.size)}"{fitted if length > _NEARLY_FULL * text.room else ""}>'
         f"{escape(text.text)}</text>"
     )
 

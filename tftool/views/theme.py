@@ -56,7 +56,7 @@ NAME = Rgba(1.0, 1.0, 1.0)
 
 
 def stale_fade(color: Rgba, age: float, timeout: float = FRAME_TIMEOUT) -> Rgba | None:
-    """Fade the colour of a frame nothing was heard of for a while, in rviz's three stages.
+    """Fade the colour of a frame without a new sample, in rviz's three stages.
 
     Args:
         color: The colour of a fresh frame.

@@ -3,7 +3,8 @@
 import asyncio
 import threading
 
-from tftool.cli.session import open_session
+from tftool.cli.connection import Connection
+from tftool.cli.hosting import open_session
 from tftool.frames.sample import TransformStamped
 from tftool.geometry.rigid import Transform
 from tftool.runtime.clock import WallClock, run
@@ -70,7 +71,7 @@ class Stage:
 
     def _run(self):
         if self._scenario is not None:
-            session = open_session(self._scenario, head_start=self._lived)
+            session = open_session(Connection(), self._scenario, head_start=self._lived)
             session.run(self._serve(session.world))
             return
         clock = WallClock()

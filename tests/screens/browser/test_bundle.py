@@ -3,7 +3,11 @@
 import hashlib
 import json
 import re
+import shutil
+import subprocess
 from pathlib import Path
+
+import pytest
 
 import tftool
 
@@ -11,6 +15,7 @@ import tftool
 PAGE = Path(__file__).parents[3] / "tftool" / "screens" / "browser" / "page"
 BUNDLE = Path(tftool.__file__).parent / "screens" / "browser" / "bundle"
 REBUILD = "run `npm install --no-package-lock && npm run build` in tftool/screens/browser/page"
+NPM = shutil.which("npm")
 
 
 def test_the_bundle_was_built_from_these_scripts():
@@ -22,6 +27,29 @@ def test_the_bundle_was_built_from_these_scripts():
 
     with (BUNDLE / "page.js").open(encoding="utf-8") as script:
         assert digest.hexdigest() in script.readline(), REBUILD
+
+
+def npm(*words, cwd):
+    return subprocess.run([NPM, *words], cwd=cwd, capture_output=True, text=True, check=False)
+
+
+@pytest.mark.skipif(NPM is None, reason="npm is not installed")
+def test_the_bundle_built_anew_is_the_one_shipped_and_its_types_hold(tmp_path):
+    page = shutil.copytree(PAGE, tmp_path / "page", ignore=shutil.ignore_patterns("node_modules"))
+    # A copy that was fetched before is good enough: the versions are exact.
+    fetched = npm("install", "--no-package-lock", "--no-audit", "--prefer-offline", cwd=page)
+    if fetched.returncode:
+        pytest.skip(
+            "npm cannot fetch what the page is built with: " + fetched.stderr.strip()[-200:]
+        )
+    checked = npm("run", "check", cwd=page)
+    built = npm("run", "build", cwd=page)
+
+    assert checked.returncode == 0, checked.stdout
+    assert built.returncode == 0, built.stderr
+    for name in ("page.js", "three-LICENSE.txt"):
+        same = (tmp_path / "bundle" / name).read_bytes() == (BUNDLE / name).read_bytes()
+        assert same, f"{name}: {REBUILD}"
 
 
 def test_versions_are_exact_and_the_licence_of_three_is_shipped():

@@ -239,6 +239,24 @@ def test_scrubbing_shows_the_asked_moment_and_live_returns(chromium, stage):
     page.until(lambda: page.text("#status") == "live")
 
 
+def test_the_sliders_bounds_are_there_before_anything_is_drawn(chromium, stage):
+    # A scrub between two messages would otherwise be clamped to bounds of before.
+    frozen = {"source": "window.requestAnimationFrame = () => 0"}
+    script = chromium.execute_cdp_cmd("Page.addScriptToEvaluateOnNewDocument", frozen)
+    try:
+        for second in (1.0, 3.0):
+            stage.put(second, at=second)
+        page = Page(chromium, stage)
+        page.until(lambda: page.said("globalThis.tftool && tftool.reach().newest") == 3.0)
+
+        line = page.find("#scrub")
+        assert [line.get_attribute(name) for name in ("min", "max")] == ["1", "3"]
+        page.scrub(2.0)
+        page.until(lambda: "at=2&" in f"{chromium.current_url}&")
+    finally:
+        chromium.execute_cdp_cmd("Page.removeScriptToEvaluateOnNewDocument", script)
+
+
 def test_playing_runs_through_the_past_into_the_present(chromium, stage):
     for second in (1.0, 2.0):
         stage.put(second, at=second)

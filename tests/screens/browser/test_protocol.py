@@ -12,7 +12,7 @@ from tftool.frames.buffer import Buffer
 from tftool.frames.sample import TransformStamped
 from tftool.geometry.rigid import Transform
 from tftool.screens.browser import protocol
-from tftool.screens.browser.protocol import Got, Pair, Past, Show, parse
+from tftool.screens.browser.protocol import Got, PairRequest, Past, Show, parse
 from tftool.stamps import seconds
 
 EPOCH = seconds(1000)
@@ -24,8 +24,8 @@ EPOCH = seconds(1000)
         ('{"type": "show", "at": 1.5}', Show(1.5)),
         ('{"type": "show", "at": null}', Show(None)),
         ('{"type": "show"}', Show(None)),
-        ('{"type": "pair", "target": "a", "source": "b"}', Pair(("a", "b"))),
-        ('{"type": "pair", "target": null, "source": null}', Pair(None)),
+        ('{"type": "pair", "target": "a", "source": "b"}', PairRequest(("a", "b"))),
+        ('{"type": "pair", "target": null, "source": null}', PairRequest(None)),
         ('{"type": "got", "sequence": 7}', Got(7)),
         ('{"type": "past"}', Past()),
     ],

@@ -14,7 +14,7 @@ IN_FLIGHT = 2
 
 
 @dataclass(frozen=True, slots=True)
-class Tree:
+class TreeMessage:
     """The names of one shape of the tree, as they are sent.
 
     Attributes:
@@ -44,20 +44,20 @@ class Poses:
 
 
 @dataclass(frozen=True, slots=True)
-class Picture:
+class SharedMoment:
     """What pages that look at the same moment are all sent."""
 
     snapshot: Snapshot
-    tree: Tree
+    tree: TreeMessage
     poses: Poses
 
 
-class Client:
+class PageClient:
     """One open page: what it looks at, and what it is sent next.
 
     Attributes:
         at: The moment it looks at; None follows the present.
-        pair: Target and source whose transform it is told.
+        pair: Target and source whose transform it is sent.
         sent: Poses sent so far.
         skipped: Poses not sent because the page was busy.
     """
@@ -75,12 +75,12 @@ class Client:
         self._word: str | None = None
         self._wake = asyncio.Event()
 
-    def hear(self, said: protocol.Show | protocol.Pair | protocol.Got, epoch: Stamp) -> None:
+    def hear(self, said: protocol.Show | protocol.PairRequest | protocol.Got, epoch: Stamp) -> None:
         """Take in what the page said."""
         if isinstance(said, protocol.Got):
             self._drawn = max(self._drawn, min(said.sequence, self.sent))
             self._wake.set()
-        elif isinstance(said, protocol.Pair):
+        elif isinstance(said, protocol.PairRequest):
             self.pair = said.frames
             self._asked = True
         else:
@@ -92,7 +92,7 @@ class Client:
         asked, self._asked = self._asked, False
         return asked or self.at is None
 
-    def offer(self, tree: Tree, pair: str | None, poses: Poses) -> None:
+    def offer(self, tree: TreeMessage, pair: str | None, poses: Poses) -> None:
         """Put up the newest picture; one that was not taken yet is dropped."""
         if self._next:
             self.skipped += 1

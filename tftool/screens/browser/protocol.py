@@ -61,7 +61,7 @@ class Show:
 
 
 @dataclass(frozen=True, slots=True)
-class Pair:
+class PairRequest:
     """Tell the transform of this pair from now on; None ends it."""
 
     frames: tuple[str, str] | None
@@ -79,7 +79,7 @@ class Past:
     """Send poses from all over the buffer once."""
 
 
-def parse(message: str | bytes) -> Show | Pair | Got | Past:
+def parse(message: str | bytes) -> Show | PairRequest | Got | Past:
     """Read what a page sent.
 
     Raises:
@@ -97,9 +97,9 @@ def parse(message: str | bytes) -> Show | Pair | Got | Past:
     if kind == "pair":
         target, source = said.get("target"), said.get("source")
         if target is None and source is None:
-            return Pair(None)
+            return PairRequest(None)
         if isinstance(target, str) and isinstance(source, str):
-            return Pair((target, source))
+            return PairRequest((target, source))
         raise InputError("a pair is two names of frames, or null twice")
     if kind == "got":
         sequence = said.get("sequence")

@@ -26,7 +26,7 @@ from tftool.frames.buffer import Buffer
 from tftool.frames.sample import Snapshot
 from tftool.runtime.clock import Clock, Phase
 from tftool.screens.browser import assets, protocol
-from tftool.screens.browser.client import Client, Picture, Poses, Tree
+from tftool.screens.browser.client import PageClient, Poses, SharedMoment, TreeMessage
 from tftool.stamps import NANOSECONDS, Stamp
 from tftool.views.forest import grow
 
@@ -49,7 +49,7 @@ _LOGGER.addHandler(logging.NullHandler())
 _LOGGER.propagate = False
 
 
-class Source(Protocol):
+class ShownWorld(Protocol):
     """What is shown: a clock and a buffer. Every `World` is one."""
 
     @property
@@ -72,7 +72,7 @@ class PageServer:
         clients: The pages that are open.
     """
 
-    def __init__(self, source: Source, *, port: int = PORT, rate: float = 30.0) -> None:
+    def __init__(self, source: ShownWorld, *, port: int = PORT, rate: float = 30.0) -> None:
         """Prepare to serve.
 
         Args:
@@ -82,11 +82,11 @@ class PageServer:
         """
         self.source = source
         self.asked_port = self.port = port
-        self.clients: set[Client] = set()
+        self.clients: set[PageClient] = set()
         self._period = _period(source.clock, rate)
         self._server: Server | None = None
         self._files = assets.load()
-        self._trees: dict[object, Tree] = {}
+        self._trees: dict[object, TreeMessage] = {}
         self._revision = 0
         self._ticks = 0
 
@@ -150,7 +150,7 @@ class PageServer:
 
     def _tick(self, now: Stamp) -> None:
         self._ticks += 1
-        following: Picture | None = None
+        following: SharedMoment | None = None
         for client in list(self.clients):
             if client.wants():
                 if client.at is not None:
@@ -162,15 +162,15 @@ class PageServer:
                 following = following or self._picture(now, 0)
                 client.tell(protocol.encode_range(self.source.clock.epoch, following.snapshot))
 
-    def _picture(self, now: Stamp, at: Stamp) -> Picture:
+    def _picture(self, now: Stamp, at: Stamp) -> SharedMoment:
         snapshot = self.source.buffer.snapshot(now, at)
         tree = self._tree(snapshot)
         frames = [snapshot.frames[index] for index in tree.shown]
-        return Picture(
+        return SharedMoment(
             snapshot, tree, Poses(self.source.clock.epoch, tree.revision, snapshot, frames)
         )
 
-    def _tree(self, snapshot: Snapshot) -> Tree:
+    def _tree(self, snapshot: Snapshot) -> TreeMessage:
         """The names as they were sent before, if the tree had that shape before."""
         key = protocol.names_key(snapshot.frames)
         tree = self._trees.get(key)
@@ -184,7 +184,7 @@ class PageServer:
                 len(snapshot.frames),
                 self.source.clock.rate,
             )
-            tree = Tree(self._revision, text, shown)
+            tree = TreeMessage(self._revision, text, shown)
             # One page may look at a past in which a frame had another parent: not one shape
             # alone is in use, yet they are few.
             while len(self._trees) >= TREES_KEPT:
@@ -192,7 +192,7 @@ class PageServer:
             self._trees[key] = tree
         return tree
 
-    def _offer(self, client: Client, picture: Picture) -> None:
+    def _offer(self, client: PageClient, picture: SharedMoment) -> None:
         pair = None
         if client.pair is not None:
             pair = protocol.encode_pair(
@@ -222,7 +222,7 @@ class PageServer:
         return _answer(HTTPStatus.OK, found.kind, found.content)
 
     async def _talk(self, socket: ServerConnection) -> None:
-        client = Client(socket)
+        client = PageClient(socket)
         self.clients.add(client)
         feeding = asyncio.ensure_future(client.feed())
         telling: asyncio.Future[None] | None = None

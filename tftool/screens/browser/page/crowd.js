@@ -1,3 +1,4 @@
+// @ts-check
 // Many small things as one mesh. A processor that plays graphics card pays for every instance as
 // for a picture of its own; put together here, hundreds of frames are drawn at once.
 import { BufferAttribute, BufferGeometry, DoubleSide, DynamicDrawUsage, Mesh, MeshBasicMaterial } from "three";
@@ -9,7 +10,10 @@ export class Crowd {
     const material = new MeshBasicMaterial({ vertexColors: true, transparent: true, side: DoubleSide });
     this.mesh = new Mesh(new BufferGeometry(), material);
     this.mesh.frustumCulled = false;
-    this.room = 0;
+    this.room = 0; // corners that fit
+    this.count = 0;
+    this.places = new Float32Array(0);
+    this.colors = new Float32Array(0);
     this.begin();
   }
 
@@ -52,7 +56,7 @@ export class Crowd {
     this.room = Math.max(4096, 2 ** Math.ceil(Math.log2(least)));
     const wider = (old, size) => {
       const array = new Float32Array(size * this.room);
-      if (old) array.set(old);
+      array.set(old);
       return array;
     };
     this.places = wider(this.places, 3);

@@ -1,6 +1,8 @@
+// @ts-check
 // Rigid transforms in plain numbers: [x, y, z, qx, qy, qz, qw]. NaN means unknown and spreads.
 
-export const IDENTITY = Object.freeze([0, 0, 0, 0, 0, 0, 1]);
+/** @type {number[]} */
+export const IDENTITY = [0, 0, 0, 0, 0, 0, 1];
 
 export function rotate(t, x, y, z) {
   const [, , , qx, qy, qz, qw] = t;

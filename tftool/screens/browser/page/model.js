@@ -1,10 +1,11 @@
+// @ts-check
 // What is known of the frames: tree, poses in the fixed frame, ages, trails.
 import { IDENTITY, compose, invert, known, normalized } from "./maths.js";
 
 const HISTORY_SECONDS = 60;
 const HISTORY_BYTES = 48e6;
 
-/** The three stages of a frame that is not heard of: normal, turning grey, turning transparent. */
+/** The three stages of a frame without new samples: normal, turning grey, turning transparent. */
 export function fade(age, timeout) {
   const share = age / timeout;
   if (share > 1) return { grey: 1, alpha: 0 };
@@ -17,23 +18,41 @@ const moment = (poses) => poses.at ?? poses.now;
 
 export class Model {
   constructor() {
+    /** @type {string[]} */
     this.names = [];
-    this.parents = [];
+    /** @type {number[]} */
+    this.parents = []; // by index; -1 for a root
+    /** @type {boolean[]} */
     this.statics = [];
+    /** @type {string[]} */
     this.authorities = [];
+    /** @type {number[][]} */
     this.children = [];
+    /** @type {number[]} */
     this.roots = [];
-    this.order = [];
+    /** @type {number[]} */
+    this.order = []; // parents before their children
+    /** @type {number[]} */
+    this.looped = []; // what no root reaches
+    /** @type {number[]} */
+    this.rootOf = [];
+    /** @type {Map<string | undefined, number>} */
     this.index = new Map();
+    /** @type {(number[] | null)[]} */
+    this.absolute = []; // poses in the fixed frame
     this.total = 0;
+    /** @type {number | null} */
     this.epoch = null;
     this.rate = 1;
     this.revision = -1;
+    /** @type {import("./wire.js").Poses | null} */
     this.poses = null;
+    /** @type {Map<string, { stamp: number, when: number }>} */
     this.heard = new Map(); // name → { stamp, when }: when the latest common stamp last changed
+    this.heardAt = 0; // when poses of the present came last, milliseconds
+    /** @type {import("./wire.js").Poses[]} */
     this.history = [];
     this.historyBytes = 0;
-    this.clockOffset = 0;
   }
 
   /** Take in the names; true if another session speaks now. */
@@ -98,8 +117,29 @@ export class Model {
       this.history.length > 1 &&
       (moment(this.history[0]) < newest - HISTORY_SECONDS * this.rate || this.historyBytes > HISTORY_BYTES)
     ) {
-      this.historyBytes -= this.history.shift().numbers.byteLength;
+      this.historyBytes -= this.history[0].numbers.byteLength;
+      this.history.shift();
     }
+  }
+
+  /** Whether a frame can move against its root. */
+  moves(index) {
+    for (let frame = index; this.parents[frame] >= 0; frame = this.parents[frame]) {
+      if (!this.statics[frame]) return true;
+    }
+    return false;
+  }
+
+  /** The root of the tree with the most frames: where a first picture starts. */
+  biggestRoot() {
+    const sizes = new Map();
+    for (const index of this.order) {
+      const root = this.rootOf[index];
+      sizes.set(root, (sizes.get(root) ?? 0) + 1);
+    }
+    let best = this.roots[0];
+    for (const [root, size] of sizes) if (size > sizes.get(best)) best = root;
+    return this.names[best];
   }
 
   /** Compute every pose in the fixed frame; null where it is not known. */
@@ -107,13 +147,15 @@ export class Model {
     const count = this.names.length;
     this.absolute = new Array(count).fill(null);
     if (!this.poses || this.poses.count !== count) return;
+    /** @type {(number[] | null)[]} */
     const inRoot = new Array(count).fill(null);
     for (const index of this.order) {
       const parent = this.parents[index];
+      const above = inRoot[parent];
       if (parent < 0) inRoot[index] = IDENTITY;
-      else if (inRoot[parent]) {
+      else if (above) {
         const pose = this.poses.relative(index);
-        inRoot[index] = known(pose) ? compose(inRoot[parent], normalized(pose)) : null;
+        inRoot[index] = known(pose) ? compose(above, normalized(pose)) : null;
       }
     }
     const base = this.index.get(fixed);
@@ -130,8 +172,9 @@ export class Model {
 
   /** Note for which frames the latest stamp they have in common with the fixed frame has changed. */
   listen(base) {
-    if (this.poses.at !== null) return;
-    const newest = (index) => (this.statics[index] ? Infinity : this.poses.newestOf(index));
+    const { poses } = this;
+    if (!poses || poses.at !== null) return;
+    const newest = (index) => (this.statics[index] ? Infinity : poses.newestOf(index));
     // The least stamp on the way from the fixed frame up to each of its ancestors.
     const upward = new Map();
     let least = Infinity;
@@ -152,7 +195,7 @@ export class Model {
     }
   }
 
-  /** Seconds since the frame was last heard of; 0 for static chains and for past moments. */
+  /** Seconds since the frame's last new sample; 0 for static chains and for past moments. */
   age(index) {
     if (!this.poses || this.poses.at !== null) return 0;
     const heard = this.heard.get(this.names[index]);

@@ -1,17 +1,17 @@
-// The panel of the chosen frame, and the panel of the pair.
+// @ts-check
+// Everything on the page that is words and numbers.
+import { number } from "./format.js";
 import { degrees, rpy } from "./maths.js";
 
-const $ = (id) => document.getElementById(id);
-
-export function number(value, digits) {
-  if (value === null || !Number.isFinite(value)) return "–";
-  const text = Math.abs(value) >= 1e7 ? value.toExponential(3) : value.toFixed(digits);
-  return /^-0(\.0*)?$/.test(text) ? text.slice(1) : text;
-}
+/**
+ * An element by its id. Of any kind: the page is ours, and its tests click everything.
+ * @type {(id: string) => any}
+ */
+export const $ = (id) => document.getElementById(id);
 
 /** Put rows of term and values into a list; a value is text, or an array of numbers. */
 export function fill(list, rows) {
-  while (list.children.length > 2 * rows.length) list.lastChild.remove();
+  while (list.children.length > 2 * rows.length) list.lastElementChild.remove();
   rows.forEach(([term, value, digits = 4], at) => {
     let name = list.children[2 * at];
     if (!name) {
@@ -22,7 +22,7 @@ export function fill(list, rows) {
     if (name.textContent !== term) name.textContent = term;
     const texts = typeof value === "string" ? [value] : value.map((one) => number(one, digits));
     cell.className = texts.length === 1 ? "one" : "";
-    while (cell.children.length > texts.length) cell.lastChild.remove();
+    while (cell.children.length > texts.length) cell.lastElementChild.remove();
     texts.forEach((text, place) => {
       if (!cell.children[place]) cell.append(document.createElement("span"));
       if (cell.children[place].textContent !== text) cell.children[place].textContent = text;
@@ -87,3 +87,85 @@ export function showPair(pair) {
   $("chain").textContent =
     pair.chain.length > 1 ? `Chain, source to target: ${pair.chain.join(" · ")}` : "One and the same frame";
 }
+
+/**
+ * Set a text that seldom changes: a browser lays out anew what is set, equal or not.
+ * @param {HTMLElement} element
+ * @param {string} text
+ */
+function setText(element, text) {
+  if (element.textContent !== text) element.textContent = text;
+}
+
+/**
+ * @param {"wait" | "open" | "ended"} connection
+ * @param {import("./timeline.js").Timeline} timeline
+ */
+export function showStatus(connection, timeline) {
+  const { past, playing } = timeline;
+  document.body.classList.toggle("past", past);
+  const [state, text] =
+    connection === "open" ? (past ? ["past", playing ? "replay" : "past"] : ["live", "live"])
+    : connection === "ended" ? ["ended", "session ended, waiting for it to come back"]
+    : ["wait", "connecting"];
+  $("status").dataset.state = state;
+  setText($("status"), text);
+}
+
+/** What stands in place of a picture while there is none. */
+export function showEmpty(connection, model, fixed) {
+  const missing = fixed && model.names.length && !model.index.has(fixed);
+  $("empty").hidden = connection === "wait" ? false : model.names.length > 0 && !missing;
+  $("empty").textContent =
+    connection === "wait" ? "Connecting to the session…"
+    : missing ? `Frame [${fixed}] does not exist.\nChoose another fixed frame.`
+    : "No tf data.  Actual error: no frame exists yet.\nFrames appear here as soon as a transform is broadcast.";
+}
+
+export function showCounts(model, hidden) {
+  setText($("count"), model.names.length ? String(model.names.length) : "");
+  $("all").checked = hidden.size === 0;
+  $("left-out").hidden = model.total <= model.names.length;
+  setText(
+    $("left-out"),
+    `${model.names.length} of ${model.total} frames shown; those farthest from their root are left out.`,
+  );
+}
+
+/**
+ * Set the slider to what the buffer holds. Never under a hand that holds it.
+ * @param {import("./timeline.js").Timeline} timeline
+ */
+export function showReach({ at, reach: { oldest, newest } }) {
+  const line = $("scrub");
+  line.disabled = newest <= oldest;
+  if (line.matches(":active")) return;
+  line.min = String(oldest);
+  line.max = String(newest);
+  line.value = String(at ?? newest);
+}
+
+/** @param {import("./timeline.js").Timeline} timeline */
+export function showTime(timeline) {
+  const { at, playing, reach: { oldest, newest, now }, forgotten } = timeline;
+  showReach(timeline);
+  $("moment").textContent =
+    at !== null ? `${number(at, 3)} s (${number(at - newest, 2)})${forgotten ? ", left the buffer" : ""}`
+    : `${number(now, 2)} s, buffer ${number(newest - oldest, 1)} s`;
+  $("live").setAttribute("aria-pressed", String(at === null));
+  const label = playing ? "Pause" : "Play";
+  if ($("play").getAttribute("aria-label") !== label) {
+    $("play").setAttribute("aria-label", label);
+    $("play").textContent = playing ? "❚❚" : "▶";
+  }
+}
+
+/** A word that goes away by itself; an empty one goes at once. */
+export function toast(text) {
+  clearTimeout(toast.timer);
+  $("toast").textContent = text;
+  $("toast").hidden = !text;
+  if (text) toast.timer = setTimeout(() => toast(""), 3000);
+}
+/** @type {number | undefined} */
+toast.timer = undefined;

@@ -1,3 +1,4 @@
+// @ts-check
 // The picture: three.js for what has depth, two flat canvases for trails, names and the chain.
 import {
   Color,
@@ -48,10 +49,19 @@ const GREY = new Color(0.7, 0.7, 0.7).convertSRGBToLinear().r; // what stale fra
 /** Whether pictures are made by the processor, where every pixel and corner is dear. */
 function drawsInSoftware() {
   const gl = document.createElement("canvas").getContext("webgl2");
-  const known = gl?.getExtension("WEBGL_debug_renderer_info");
-  const name = String(known ? gl.getParameter(known.UNMASKED_RENDERER_WEBGL) : gl?.getParameter(gl.RENDERER));
-  gl?.getExtension("WEBGL_lose_context")?.loseContext();
+  if (!gl) return false;
+  const known = gl.getExtension("WEBGL_debug_renderer_info");
+  const name = String(gl.getParameter(known ? known.UNMASKED_RENDERER_WEBGL : gl.RENDERER));
+  gl.getExtension("WEBGL_lose_context")?.loseContext();
   return /swiftshader|llvmpipe|softpipe|software|basic render/i.test(name);
+}
+
+/**
+ * The pen of a flat canvas.
+ * @param {HTMLCanvasElement} canvas
+ */
+function flat(canvas) {
+  return /** @type {CanvasRenderingContext2D} */ (canvas.getContext("2d"));
 }
 
 function fading(mesh) {
@@ -99,17 +109,27 @@ export class Stage {
       controls.zoomToCursor = true;
       controls.enabled = false;
       controls.addEventListener("change", () => this.changed());
-      controls.addEventListener("start", () => this.taken());
+      controls.addEventListener("start", () => (this.taken = true));
       this.controls[name] = controls;
     }
     this.controls.top.enableRotate = false;
     this.controls.top.screenSpacePanning = true;
     this.controls.top.mouseButtons = { LEFT: MOUSE.PAN, MIDDLE: MOUSE.DOLLY, RIGHT: MOUSE.PAN };
     this.controls.top.touches = { ONE: TOUCH.PAN, TWO: TOUCH.DOLLY_PAN };
+    this.width = this.height = 0; // of the window, CSS pixels
+    this.ratio = 1; // canvas pixels per CSS pixel
+    this.extent = 5; // how far the frames reach from the origin, metres
+    this.gridSize = 0;
+    /** @type {GridHelper | null} */
+    this.grid = null;
+    this.theme = THEMES.dark;
     this.capacity = 0;
+    /** @type {any[]} */
+    this.meshes = [];
+    this.point = new Vector3();
     this.signs = new Map(); // names as they were painted
     this.changed = () => {}; // the camera has moved
-    this.taken = () => {}; // somebody took the camera
+    this.taken = false; // whether a person moves the camera, and not the page
     this.view = "top";
     this.setView("top");
   }
@@ -204,9 +224,9 @@ export class Stage {
   }
 
   grow(count) {
-    if (this.meshes && count <= this.capacity) return;
+    if (this.meshes.length && count <= this.capacity) return;
     this.capacity = Math.max(64, 2 ** Math.ceil(Math.log2(count)));
-    for (const mesh of this.meshes ?? []) {
+    for (const mesh of this.meshes) {
       this.scene.remove(mesh);
       mesh.geometry.dispose();
       mesh.material.dispose();
@@ -251,6 +271,9 @@ export class Stage {
   draw(frames, look) {
     this.resize();
     this.grow(frames.length);
+    if (frames.length) {
+      this.extent = Math.max(1, ...frames.map(({ pose }) => Math.max(Math.abs(pose[0]), Math.abs(pose[1]))));
+    }
     this.drawGrid(look);
     const [xs, ys, zs, hubs, shafts, heads] = this.meshes;
     const length = 0.2 * look.scale;
@@ -318,8 +341,8 @@ export class Stage {
 
   drawGrid(look) {
     let cell = 1;
-    while (look.extent / cell > 40) cell *= 10;
-    const cells = Math.max(10, 2 * Math.ceil((look.extent * 1.1) / cell));
+    while (this.extent / cell > 40) cell *= 10;
+    const cells = Math.max(10, 2 * Math.ceil((this.extent * 1.1) / cell));
     if (this.gridSize !== cells * cell) {
       if (this.grid) {
         this.scene.remove(this.grid);
@@ -332,12 +355,12 @@ export class Stage {
       this.grid.position.z = -1e-4;
       this.scene.add(this.grid);
     }
-    this.grid.visible = look.grid;
+    if (this.grid) this.grid.visible = look.grid;
   }
 
   /** Pixels from the top left corner, or null for what lies behind the camera. */
   project(x, y, z) {
-    const point = this.point ?? (this.point = new Vector3());
+    const { point } = this;
     point.set(x, y, z).applyMatrix4(this.camera.matrixWorldInverse);
     if (this.view === "orbit" && point.z > -0.01) return null;
     point.applyMatrix4(this.camera.projectionMatrix);
@@ -349,7 +372,7 @@ export class Stage {
     // A layer less to put together while there is nothing on it.
     this.under.hidden = !trails.length;
     if (!trails.length) return;
-    const pen = this.under.getContext("2d");
+    const pen = flat(this.under);
     pen.setTransform(this.ratio, 0, 0, this.ratio, 0, 0);
     pen.clearRect(0, 0, this.width, this.height);
     pen.lineCap = pen.lineJoin = "round";
@@ -377,7 +400,7 @@ export class Stage {
 
   /** Names, the chosen frame's ring and the pair's chain. Names are only ever painted as text. */
   drawOver(labels, chain, ring) {
-    const pen = this.over.getContext("2d");
+    const pen = flat(this.over);
     pen.setTransform(this.ratio, 0, 0, this.ratio, 0, 0);
     pen.clearRect(0, 0, this.width, this.height);
     const spots = chain.map((pose) => this.project(pose[0], pose[1], pose[2]));
@@ -435,7 +458,7 @@ export class Stage {
     const text = name.length > 48 ? `${name.slice(0, 30)}…${name.slice(-16)}` : name;
     const font = "600 12px system-ui, -apple-system, 'Segoe UI', Roboto, 'DejaVu Sans', sans-serif";
     const sheet = document.createElement("canvas");
-    const pen = sheet.getContext("2d");
+    const pen = flat(sheet);
     pen.font = font;
     sheet.width = Math.ceil((pen.measureText(text).width + 8) * this.ratio);
     sheet.height = Math.ceil(22 * this.ratio);
@@ -458,7 +481,7 @@ export class Stage {
     const sheet = document.createElement("canvas");
     sheet.width = this.under.width;
     sheet.height = this.under.height;
-    const pen = sheet.getContext("2d");
+    const pen = flat(sheet);
     pen.fillStyle = this.theme.background;
     pen.fillRect(0, 0, sheet.width, sheet.height);
     for (const layer of [this.under, this.main, this.over]) {

@@ -1,3 +1,4 @@
+// @ts-check
 // The view as part of the page's address, so that a link shows just this.
 
 const NUMBERS = ["scale", "interval", "timeout", "length", "speed", "at"];

@@ -1,3 +1,4 @@
+// @ts-check
 // The nested list of frames. Names go in by textContent and no other way.
 
 export class Tree {

@@ -1,3 +1,4 @@
+// @ts-check
 // The connection to the server: decodes what comes, connects again when it ends.
 
 const HEADER = 48;
@@ -25,8 +26,16 @@ export function decode(buffer) {
 }
 
 export class Poses {
+  /** @param {NonNullable<ReturnType<typeof decode>>} packet */
   constructor(packet) {
-    Object.assign(this, packet);
+    this.sequence = packet.sequence; // 0 for poses of the past
+    this.revision = packet.revision;
+    this.count = packet.count;
+    this.now = packet.now;
+    this.at = packet.at; // null for the present
+    this.oldest = packet.oldest;
+    this.newest = packet.newest;
+    this.numbers = packet.numbers;
   }
 
   /** Pose of frame `index` in its parent, numbers in a fresh array; NaN without data. */
@@ -61,13 +70,12 @@ export class Wire {
   constructor(handlers) {
     this.handlers = handlers;
     this.wanted = new Map(); // what to say again after a reconnection, by type
-    this.connect();
+    this.socket = this.connect();
   }
 
   connect() {
     const socket = new WebSocket(`ws://${location.host}/frames`);
     socket.binaryType = "arraybuffer";
-    this.socket = socket;
     socket.onopen = () => {
       for (const message of this.wanted.values()) socket.send(message);
       this.handlers.open();
@@ -84,8 +92,9 @@ export class Wire {
     };
     socket.onclose = ({ code, reason }) => {
       this.handlers.ended({ code, reason });
-      setTimeout(() => this.connect(), RETRY);
+      setTimeout(() => (this.socket = this.connect()), RETRY);
     };
+    return socket;
   }
 
   /** Say something now, and again whenever the connection is made anew. */

@@ -1,0 +1,263 @@
+"""Recordings read into the buffer: against `rosbags`, `mcap` and `transform_tree`, where installed.
+
+Each side runs in a process of its own, so that its memory is its own; sides take turns.
+"""
+
+import importlib.util
+import statistics
+import struct
+import subprocess
+import sys
+import tempfile
+import time
+from collections.abc import Callable, Iterator
+from pathlib import Path
+
+import numpy as np
+
+from tftool.frames.sample import TransformStamped
+from tftool.geometry.rigid import Transform
+from tftool.wire.layouts import CDR, ROS1
+from tftool.wire.rows import walk
+from tftool.wire.transforms import encode_transforms
+
+SECOND = 10**9
+TRANSFORMS = 1_000_000
+TURNS = 3
+BIG = 2_000_000_000
+_STAMP = struct.Struct("<II")
+
+
+def _messages(layout: str, per_message: int, transforms: int) -> Iterator[tuple[int, bytes]]:
+    """Log time and bytes of each message: an odometry and joints, as a robot sends them."""
+    draw = np.random.default_rng(7)
+    count = transforms // per_message
+    kinds = min(count, 5000)
+    noise = draw.normal(size=(kinds, per_message, 3))
+    angles = draw.uniform(-1.0, 1.0, size=(kinds, per_message))
+    turns = np.stack([0 * angles, 0 * angles, np.sin(angles / 2), np.cos(angles / 2)], axis=-1)
+    pairs = [("odom", "base_link")] + [("base_link", f"joint_{k}_link") for k in range(1, 5)]
+    made = []
+    for row in range(kinds):
+        frames = [
+            (*pairs[(k + row) % 5 if per_message == 1 else k], noise[row, k], turns[row, k])
+            for k in range(per_message)
+        ]
+        payload = _payload(layout, frames)
+        places = walk(CDR if layout == "cdr" else ROS1, payload).places
+        made.append((bytearray(payload), [place.stamp for place in places]))
+    for tick in range(count):
+        stamp = 1_750_000_000 * SECOND + tick * 5_000_000
+        payload, places = made[tick % kinds]
+        for place in places:
+            _STAMP.pack_into(payload, place, stamp // SECOND, stamp % SECOND)
+        yield stamp + 2_000_000, bytes(payload)
+
+
+def _payload(layout: str, frames: list) -> bytes:
+    if layout == "cdr":
+        return encode_transforms(
+            [
+                TransformStamped(0, p, c, Transform(tuple(t.tolist()), tuple(q.tolist())))
+                for p, c, t, q in frames
+            ]
+        )
+    parts = [struct.pack("<I", len(frames))]
+    for parent, child, place, turn in frames:
+        parts.append(bytes(12))
+        parts += [struct.pack("<I", len(name)) + name.encode() for name in (parent, child)]
+        parts.append(struct.pack("<7d", *place, *turn))
+    return b"".join(parts)
+
+
+def _write(kind: str, path: Path, per_message: int) -> None:
+    from tests.sources import writers
+
+    messages = _messages("ros1" if kind.startswith("ros1") else "cdr", per_message, TRANSFORMS)
+    if kind.startswith("mcap"):
+        compression = getattr(writers.CompressionType, kind.split()[1].upper())
+        with path.open("wb") as stream:
+            writer = writers.McapWriter(stream, 1 << 20, compression, enable_crcs=False)
+            writer.start("ros2")
+            text = writers.ROS2.generate_msgdef(writers.TF, ros_version=2)[0]
+            schema = writer.register_schema(writers.TF, "ros2msg", text.encode())
+            channel = writer.register_channel("/tf", "cdr", schema)
+            for log_time, payload in messages:
+                writer.add_message(channel, log_time, payload, log_time)
+            writer.finish()
+    elif kind == "db3":
+        with writers.Rosbag2Writer(path, version=9) as bag:
+            connection = bag.add_connection("/tf", writers.TF, typestore=writers.ROS2)
+            for log_time, payload in messages:
+                bag.write(connection, log_time, payload)
+    else:
+        bag1 = writers.Rosbag1Writer(path)
+        if kind != "ros1 none":
+            bag1.set_compression(bag1.CompressionFormat[kind.split()[1].upper()])
+        with bag1:
+            connection = bag1.add_connection("/tf", writers.TF, typestore=writers.ROS1)
+            for log_time, payload in messages:
+                bag1.write(connection, log_time, payload)
+
+
+def _write_big(path: Path, method: str) -> None:
+    """2 GB of images, of which a thousandth is transforms."""
+    from tests.sources import writers
+
+    image = np.random.default_rng(3).integers(0, 255, 500_000, dtype=np.uint8).tobytes()
+    compression = getattr(writers.CompressionType, method.upper())
+    with path.open("wb") as stream:
+        writer = writers.McapWriter(stream, 1 << 20, compression, enable_crcs=False)
+        writer.start("ros2")
+        text = writers.ROS2.generate_msgdef(writers.TF, ros_version=2)[0]
+        schema = writer.register_schema(writers.TF, "ros2msg", text.encode())
+        channel = writer.register_channel("/tf", "cdr", schema)
+        pictures = writer.register_channel("/image", "raw", 0)
+        for log_time, payload in _messages("cdr", 5, 5 * BIG // 500_000):
+            writer.add_message(pictures, log_time, image, log_time)
+            writer.add_message(channel, log_time, payload, log_time)
+        writer.finish()
+
+
+# The sides
+
+
+def _ours(path: Path, most: int) -> int:
+    from tftool.sources.recording import open_recording
+
+    with open_recording(path) as recording:
+        assert recording.buffer.frames()
+        return len(recording.transforms)
+
+
+def _rosbags(path: Path, most: int) -> int:
+    """Decode with rosbags, up to so many transforms: it is slow."""
+    from rosbags.highlevel import AnyReader
+
+    from tests.sources import writers
+
+    count = 0
+    with AnyReader([path], default_typestore=writers.ROS2) as reader:
+        wanted = [one for one in reader.connections if one.topic == "/tf"]
+        for connection, _, raw in reader.messages(wanted):
+            count += len(reader.deserialize(raw, connection.msgtype).transforms)
+            if count >= most:
+                break
+    return count
+
+
+def _mcap(path: Path, most: int) -> int:
+    from mcap.reader import make_reader
+
+    with path.open("rb") as stream:
+        return 5 * sum(1 for _ in make_reader(stream).iter_messages(topics=["/tf"]))
+
+
+def _transform_tree(path: Path, most: int) -> int:
+    import tf_tree
+
+    tf_tree.ingest_bag(str(path))
+    return TRANSFORMS
+
+
+SIDES: dict[str, Callable[[Path, int], int]] = {
+    "ours": _ours,
+    "rosbags": _rosbags,
+    "mcap": _mcap,
+    "transform_tree": _transform_tree,
+}
+
+
+def _side(name: str, path: str, most: str) -> None:
+    """Run one side and print processor seconds a transform, megabytes, and transforms."""
+    # What a first call imports is no reading; and numpy's own memory is not counted.
+    import rosbags.highlevel  # noqa: F401
+
+    import tftool.sources.recording  # noqa: F401
+
+    before = _peak()
+    # Not wall time: other work on the machine would count for the slower side alone.
+    begin = time.process_time()
+    count = SIDES[name](Path(path), int(most))
+    spent = time.process_time() - begin
+    print(spent / count, _peak() - before, count)  # noqa: T201
+
+
+def _peak() -> float:
+    """Megabytes that this process ever had at once."""
+    lines = Path("/proc/self/status").read_text().splitlines()
+    return next(int(line.split()[1]) / 1e3 for line in lines if line.startswith("VmHWM"))
+
+
+def _measured(name: str, path: Path, most: int = TRANSFORMS) -> tuple[float, float, float]:
+    words = [sys.executable, "-m", "tests.benchmarks.recordings", name, str(path), str(most)]
+    done = subprocess.run(words, capture_output=True, text=True, check=True)
+    spent, memory, count = map(float, done.stdout.split())
+    return spent, memory, count
+
+
+def report() -> str:
+    """Millions of transforms a processor second, and how many times each peer."""
+    lines = ["recordings: 1 000 000 transforms into the buffer"]
+    with tempfile.TemporaryDirectory() as folder:
+        for kind, per_message, peers in (
+            ("mcap zstd", 5, ("rosbags", "transform_tree")),
+            ("mcap zstd", 1, ("rosbags",)),
+            ("mcap lz4", 5, ()),
+            ("mcap none", 5, ()),
+            ("db3", 5, ("rosbags",)),
+            ("ros1 none", 5, ("rosbags",)),
+            ("ros1 lz4", 5, ("rosbags",)),
+            ("ros1 bz2", 5, ("rosbags",)),
+        ):
+            suffix = {"mcap": ".mcap", "db3": "", "ros1": ".bag"}[kind.split()[0]]
+            path = Path(folder) / f"{kind.replace(' ', '_')}_{per_message}{suffix}"
+            _write(kind, path, per_message)
+            there = [one for one in peers if one != "transform_tree" or _installed("tf_tree")]
+            spent: dict[str, list[float]] = {one: [] for one in ("ours", *there)}
+            memory = []
+            for _ in range(TURNS):
+                for one, times in spent.items():
+                    took, used, _ = _measured(one, path, 50_000 if one == "rosbags" else TRANSFORMS)
+                    times.append(took)
+                    if one == "ours":
+                        memory.append(used)
+            ours = statistics.median(spent.pop("ours"))
+            ratios = "".join(
+                f", {statistics.median(times) / ours:.0f} times {one}"
+                for one, times in spent.items()
+            )
+            lines.append(
+                f"  {kind}, {per_message} a message: {1e-6 / ours:.1f} M/s, "
+                f"{statistics.median(memory):.0f} MB{ratios}"
+            )
+            if path.is_file():
+                path.unlink()
+        lines += _big(Path(folder))
+    return "\n".join(lines)
+
+
+def _big(folder: Path) -> list[str]:
+    lines = []
+    path = folder / "big.mcap"
+    _write_big(path, "none")
+    _measured("ours", path)  # warm
+    for one in ("ours", "rosbags", "mcap"):
+        took, _, count = _measured(one, path)
+        lines.append(f"  2 GB uncompressed, 0.1 % tf, {one}: {took * count:.2f} s")
+    from tftool.sources.mcap import Mcap
+    from tftool.sources.reading import Recorded
+
+    container = Mcap(path)
+    Recorded("big", container).transforms()
+    lines.append(f"  of which read: {container.bytes_read / 1e6:.1f} MB")
+    container.close()
+    return lines
+
+
+def _installed(module: str) -> bool:
+    return importlib.util.find_spec(module) is not None
+
+
+if __name__ == "__main__":
+    _side(*sys.argv[1:])

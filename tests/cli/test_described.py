@@ -1,0 +1,84 @@
+import json
+
+import pytest
+
+ROBOT = """<robot name="post">
+  <link name="foot"/><link name="arm"/><link name="lamp"/>
+  <joint name="turn" type="revolute">
+    <origin xyz="0 0 2"/><parent link="foot"/><child link="arm"/><axis xyz="0 0 1"/>
+    <limit lower="-1" upper="1" effort="1" velocity="1"/>
+  </joint>
+  <joint name="bolt" type="fixed">
+    <origin xyz="1 0 0"/><parent link="arm"/><child link="lamp"/>
+  </joint>
+</robot>"""
+
+
+@pytest.fixture
+def robot(tmp_path):
+    path = tmp_path / "post.urdf"
+    path.write_text(ROBOT)
+    return path
+
+
+def test_tree_shows_the_links_of_a_description(tftool, robot):
+    result = tftool("tree", str(robot))
+
+    assert result.status == 0
+    assert "└── arm" in result.out
+    assert "└── lamp" in result.out
+    assert f"at rest, 1 of them: 'tftool info {robot}' says where." in result.err
+
+
+def test_echo_answers_between_two_links(tftool, robot):
+    result = tftool("echo", "foot", "lamp", str(robot), "--once")
+
+    assert result.status == 0
+    assert "- Translation: [1.000, 0.000, 2.000]" in result.out
+
+
+def test_a_mistake_in_a_description_is_shown_with_its_line(tftool, robot):
+    robot.write_text(ROBOT.replace('child link="lamp"', 'child link="lmap"'))
+
+    result = tftool("tree", str(robot))
+
+    assert result.status == 3
+    assert "post.urdf:8:" in result.err
+    assert "did you mean 'lamp'?" in result.err
+
+
+def test_info_shows_joints_with_their_limits(tftool, robot):
+    result = tftool("info", str(robot))
+
+    assert result.status == 0
+    assert "3 links, 2 joints of which 1 move" in result.out
+    assert "Root: foot" in result.out
+    (turn,) = [line for line in result.out.splitlines() if line.startswith("  turn ")]
+    assert "arm in foot" in turn
+    assert "-1 rad … 1 rad" in turn
+
+
+def test_info_for_programs_holds_the_same(tftool, robot):
+    told = json.loads(tftool("info", str(robot), "--json").out)
+
+    assert told["root"] == "foot"
+    assert [(one["name"], one["upper"]) for one in told["joints"]] == [
+        ("turn", 1.0),
+        ("bolt", None),
+    ]
+
+
+@pytest.mark.parametrize(
+    ("words", "told"),
+    [
+        (["doctor"], "publishes nothing to judge"),
+        (["monitor"], "no message arrives"),
+        (["demo"], "a scenario is needed here"),
+    ],
+)
+def test_commands_that_need_more_than_frames_refuse_a_description(tftool, robot, words, told):
+    result = tftool(*words, str(robot))
+
+    assert result.status == 2
+    assert told in result.err
+    assert "Traceback" not in result.err

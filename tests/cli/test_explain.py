@@ -1,0 +1,49 @@
+import json
+
+import pytest
+
+
+def test_a_lookup_between_two_samples_is_refused_with_the_wait_it_needs(tftool):
+    result = tftool("explain", "turtle2", "turtle1", "turtles", "--at", "5")
+    assert result.status == 4
+    lines = result.out.splitlines()
+    assert lines[0] == ("turtle1 in turtle2 at 1005.000000000: refused, would answer 8 ms later")
+    assert "REFUSES: newest is 8 ms too old" in result.out
+    assert "cure   a timeout of 10 ms (least: 8.0)" in result.out
+
+
+def test_what_answers_is_status_0(tftool):
+    result = tftool("explain", "turtle2", "turtle1", "turtles", "--at", "5", "--timeout", "0.01")
+    assert result.status == 0
+    assert result.out.startswith("turtle1 in turtle2 at 1005.000000000: answers\n")
+    assert tftool("explain", "turtle2", "turtle1", "turtles").status == 0
+
+
+def test_programs_get_whole_nanoseconds(tftool):
+    result = tftool("explain", "turtle2", "turtle1", "turtles", "--at", "5", "--json")
+    found = json.loads(result.out)
+    assert found["schema"] == "tftool.explain/1"
+    assert (found["stamp"], found["asked"]) == (1_005_000_000_000, 1_005_000_000_000)
+    assert [link["publisher"] for link in found["links"]] == ["broadcaster1", "broadcaster2"]
+    assert found["remedies"][0]["least"] == 8_000_000
+
+
+def test_a_name_that_is_none_is_explained_too(tftool):
+    result = tftool("explain", "turtle2", "turtle9", "turtles", "--at", "5")
+    assert result.status == 4
+    assert "no transform names turtle9" in result.out
+
+
+@pytest.mark.parametrize(
+    ("words", "status", "told"),
+    [
+        (["a", "b", "turtles", "--message", "/scan@4", "--at", "4"], 2, "leave out --at"),
+        (["a", "b", "turtles", "--message", "/scan@x"], 2, "'x' is no moment"),
+        (["a", "b", "turtles", "--message", "/scan"], 3, "No message with a header"),
+        (["a", "b", "nothing.mcap"], 3, "There is no file"),
+    ],
+)
+def test_what_cannot_be_asked_is_refused(tftool, words, status, told):
+    result = tftool("explain", *words)
+    assert result.status == status
+    assert told in result.err

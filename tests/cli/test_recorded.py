@@ -1,0 +1,150 @@
+"""Commands take a real recording as FROM."""
+
+import json
+
+import numpy as np
+import pytest
+
+pytest.importorskip("rosbags", reason="writes the test files")
+pytest.importorskip("mcap", reason="writes the test files")
+pytest.importorskip("zstandard", reason="the extra 'recordings' is not installed")
+
+from tests.sources.writers import SECOND, Sent, content, numbers, write_mcap, write_rosbag1
+from tftool import open_recording
+
+SENT = content()
+
+
+@pytest.fixture
+def run(tmp_path):
+    return write_mcap(tmp_path / "run.mcap", SENT)
+
+
+def test_tree_shows_the_edges_of_a_recording(tftool, run):
+    result = tftool("tree", run, "--format", "json")
+
+    frames = {one["frame"]: one for one in json.loads(result.out)["frames"]}
+    assert result.status == 0
+    assert result.err == ""
+    assert {name: one["parent"] for name, one in frames.items()} == {
+        "map": None,
+        "odom": "map",
+        "base_link": "odom",
+        "arm": "base_link",
+        "laser": "base_link",
+        "camera": "base_link",
+    }
+
+
+def test_echo_at_a_moment_is_the_lookup(tftool, run):
+    result = tftool("echo", "odom", "laser", run, "--at", "0.5", "--json")
+
+    with open_recording(run) as recording:
+        stamp = recording.start + SECOND // 2
+        found = recording.buffer.lookup_transform("odom", "laser", stamp)
+    told = json.loads(result.out)
+    assert result.status == 0
+    assert told["stamp_ns"] == stamp
+    assert tuple(told["translation"].values()) == found.transform.translation
+
+
+def test_a_cut_recording_is_answered_with_a_warning(tftool, run):
+    run.write_bytes(run.read_bytes()[:6000])
+
+    result = tftool("tree", run)
+
+    assert result.status == 0
+    assert "base_link" in result.out
+    assert "The recording breaks off at byte" in result.err
+
+
+@pytest.mark.parametrize("command", [["info"], ["tree"], ["echo", "a", "b"]])
+def test_what_cannot_be_read_is_one_sentence(tftool, tmp_path, command):
+    file = tmp_path / "run.mcap"
+    file.write_bytes(b"\x89MCAP0\n and so on")
+
+    result = tftool(*command, file)
+
+    assert result.status == 3
+    assert "line ends were converted" in result.err
+    assert result.out == ""
+
+
+def test_info_tells_topics_edges_and_publishers(tftool, tmp_path):
+    bag = write_rosbag1(tmp_path / "run.bag", SENT)
+
+    told = json.loads(tftool("info", bag, "--json").out)
+    text = tftool("info", bag).out
+
+    edges = {(one["child"], one["parent"]): one for one in told["edges"]}
+    count = sum(t[2] == "arm" for one in SENT for t in one.transforms)
+    assert told["kind"] == "ROS 1 bag"
+    assert {one["name"]: one["count"] for one in told["topics"]}["/scan"] == 15
+    assert edges["arm", "base_link"]["count"] == count
+    assert edges["arm", "base_link"]["publishers"] == ["/robot"]
+    assert edges["laser", "base_link"]["static"] is True
+    assert edges["arm", "base_link"]["offset_ns"]["median"] == 2_000_000 + 1000
+    assert [tree["root"] for tree in told["trees"]] == ["map"]
+    assert told["odd"] == []
+    assert "arm in base_link" in text
+    assert "/state_publisher" in text
+
+
+def test_info_tells_what_is_odd(tftool, tmp_path):
+    start = 1_750_000_000 * SECOND
+    sent = [
+        Sent(start, "/tf_static", ((0, "base", "lidar", numbers(1)),)),
+        Sent(start + 1, "/tf_static", ((0, "base", "lidar", numbers(2)),)),
+        Sent(start + 2, "/tf", ((12 * SECOND, "map", "base", numbers(3)),)),
+        Sent(start + 3, "/tf", ((start + 3, "camera", "marker", numbers(4)),)),
+        Sent(start + SECOND, "/tf", ((start + SECOND, "camera", "marker", numbers(4)),)),
+    ]
+    run = write_mcap(tmp_path / "run.mcap", sent)
+
+    odd = "\n".join(json.loads(tftool("info", run, "--json").out)["odd"])
+
+    assert "'lidar' has 2 different static values" in odd
+    assert "Two clocks" in odd
+    assert "2 trees" in odd
+
+
+def test_info_of_a_scenario_says_what_plays_it(tftool):
+    result = tftool("info", "turtles")
+
+    assert result.status == 2
+    assert "tftool check turtles" in result.err
+
+
+def test_echo_prints_the_whole_span_at_a_rate(tftool, run):
+    result = tftool("echo", "odom", "laser", run, "--rate", "10", "--json")
+
+    with open_recording(run) as recording:
+        stamps = recording.buffer.samples("base_link").stamps
+        first, last = int(stamps[0]), int(stamps[-1])
+        begin = recording.start
+    told = [json.loads(line) for line in result.out.splitlines()]
+    expected = np.arange(begin, last + 1, SECOND // 10)
+    assert [one["stamp_ns"] for one in told] == expected[expected >= first].tolist()
+
+
+def test_echo_of_a_pair_without_an_answer_says_why(tftool, run):
+    result = tftool("echo", "odom", "nowhere", run)
+
+    assert result.status == 4
+    assert "nowhere" in result.err
+    assert tftool("echo", "odom", "laser", run, "--join").status == 2
+
+
+def test_echo_answers_at_the_moments_of_messages(tftool, run):
+    result = tftool("echo", "odom", "laser", run, "--at-stamps-of", "/scan", "--json")
+
+    told = [json.loads(line)["stamp_ns"] for line in result.out.splitlines()]
+    scans = [one.scan[0] for one in SENT if one.scan]
+    with open_recording(run) as recording:
+        valid = recording.buffer.lookup_transforms("odom", "laser", scans, missing="nan").valid
+    assert told == np.array(scans)[valid].tolist()
+    assert valid.all()
+    missing = tftool("echo", "map", "laser", run, "--at-stamps-of", "/scan")
+    assert "At 1 of 15 moments there is no answer." in missing.err
+    assert tftool("echo", "odom", "laser", run, "--at-stamps-of", "/scam").status == 3
+    assert tftool("echo", "odom", "laser", "--at-stamps-of", "/scan").status == 2

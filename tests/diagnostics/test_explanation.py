@@ -1,0 +1,205 @@
+"""Why a lookup refuses: the link, the amount, and what would let it through."""
+
+import pytest
+
+from tests.diagnostics.robots import LASTS, NO_TURN, START, Robot, robot, stands
+from tftool import Buffer, Transform, TransformStamped, diagnose, explain
+from tftool.diagnostics.explanation import Cause, Explanation, Question, Verdict, message_of, traced
+from tftool.diagnostics.model import Model, Settings
+from tftool.errors import InputError
+from tftool.stamps import seconds
+
+T = seconds(START)
+
+
+def asked(made: Robot, target: str, source: str, at: float, **more: object) -> Explanation:
+    model = Model(made.material())
+    return traced(model, Question(target, source, T + seconds(at), **more))
+
+
+def test_what_has_not_come_yet_is_told_with_the_wait_that_serves_it():
+    made = robot(odometry=False, scans=False)
+    made.moving("odom", "base_link", hz=5, latency=0.25)
+    made.hears("/scan", "laser", hz=20)
+
+    found = asked(made, "odom", "laser", 4.25)
+
+    assert not found.available
+    assert found.exception == "ForwardExtrapolationException"
+    assert "latest data is at time 1750000004.000000" in found.text
+    assert found.because == "when /scan of that stamp arrived"
+    assert found.asked == T + seconds(4.265)
+    assert found.refusing == ("odom", "base_link")
+    assert [link.verdict for link in found.links] == [Verdict.ANSWERS, Verdict.FORWARD]
+    assert found.links[1].short_by == seconds(0.25)
+    assert (found.cause, found.check) == (Cause.LATE, "sensor-outruns-tf")
+    # The sample for 4.4 arrives at 4.65; a wait of 385 ms, 390 as tf2 asks every 10 ms.
+    assert found.answerable_from == T + seconds(4.65)
+    assert (found.remedies[0].least, found.remedies[0].advised) == (seconds(0.385), seconds(0.39))
+    assert not found.remedies[1].possible
+
+
+def test_waiting_so_long_answers():
+    made = robot(odometry=False, scans=False)
+    made.moving("odom", "base_link", hz=5, latency=0.25)
+    made.hears("/scan", "laser", hz=20)
+
+    assert asked(made, "odom", "laser", 4.25, timeout=seconds(0.385)).available
+    assert not asked(made, "odom", "laser", 4.25, timeout=seconds(0.384)).available
+
+
+def test_what_was_dropped_needs_a_larger_cache_and_that_much_is_enough():
+    made = robot(odometry=False, scans=False)
+    made.moving("odom", "base_link", end=20.0)
+    made.hears("/cloud", "laser", kind="sensor_msgs/PointCloud2", hz=1, end=6.0, latency=13.0)
+
+    found = asked(made, "odom", "laser", 5.0)
+
+    assert (found.cause, found.links[1].verdict) == (Cause.CACHE, Verdict.PRUNED)
+    least = found.remedies[0].least
+    # Asked at 18.0, when the newest sample is that of 17.98; tf2 pruned before it came.
+    assert least == seconds(12.96)
+    for cache, answers in ((least, True), (least - seconds(0.02), False)):
+        again = asked(made, "odom", "laser", 5.0, settings=Settings(cache_time=cache))
+        assert again.available is answers
+
+
+def test_a_text_that_quotes_a_link_off_the_way_is_said_to_mislead():
+    made = robot(odometry=False, scans=False)
+    made.moving("odom", "base_link", end=20.0)
+    made.moving("map", "odom", hz=20, pose=stands, end=20.0, offset=1.0)
+    made.hears("/cloud", "laser", kind="sensor_msgs/PointCloud2", hz=1, end=6.0, latency=13.0)
+
+    found = asked(made, "odom", "laser", 5.0)
+
+    assert found.remedies[0].least == seconds(12.96)
+    # What odom in map, dated a second ahead, begins with; tf2 pruned before the last came.
+    assert "earliest data is at time 1750000008.900000" in found.text
+    assert "quotes 1750000008.900, a time of odom, which is not on the way" in found.why[-1]
+
+
+def test_what_is_older_than_the_first_data_can_never_be_placed():
+    made = robot()
+    made.moving("map", "odom", hz=20, pose=stands, offset=1.0)
+
+    found = asked(made, "map", "laser", 0.3)
+
+    assert (found.cause, found.refusing) == (Cause.BEFORE_START, ("map", "odom"))
+    assert found.answerable_from is None
+    assert found.links[-1].short_by == seconds(0.7)
+    assert "the first 10 messages of /scan are lost" in found.remedies[0].text
+
+
+def test_an_edge_that_ended_does_not_come_back():
+    made = robot(odometry=False)
+    made.moving("odom", "base_link", end=5.0)
+
+    found = asked(made, "odom", "laser", 6.0)
+
+    assert (found.cause, found.answerable_from) == (Cause.STOPPED, None)
+    assert found.links[1].short_by == seconds(1.02)
+
+
+def test_a_moment_in_a_hole_waits_for_its_end():
+    made = robot(odometry=False)
+    made.moving("odom", "base_link", without=(3.0, 5.0))
+
+    found = asked(made, "odom", "laser", 4.0)
+
+    assert found.cause is Cause.GAP
+    assert found.answerable_from == T + seconds(5.005)
+
+
+def test_a_mount_sent_once_answers_for_its_own_stamp():
+    made = robot()
+    made.sent("base_link", "gps", 0.5)
+    assert asked(made, "base_link", "gps", 4.0).cause is Cause.SINGLE
+    assert asked(made, "base_link", "gps", 0.5, asked=T + seconds(1)).available
+
+
+def test_two_clocks_never_meet():
+    made = robot(start=136.0, log_from=START)
+    made.start = START
+    made.moving("base_link", "wheel", hz=30)
+    model = Model(made.material())
+
+    found = traced(model, Question("odom", "wheel", seconds(140)))
+
+    assert found.cause is Cause.CLOCK_MIXTURE
+    assert found.refusing == ("base_link", "wheel")
+    assert found.remedies[0].text.startswith("use_sim_time: true")
+
+
+@pytest.mark.parametrize(
+    ("target", "source", "cause", "told"),
+    [
+        ("odom", "lasre", Cause.UNKNOWN_FRAME, "set frame_id of the driver to laser"),
+        ("odom", "/laser", Cause.NAME, 'frame_id "laser"'),
+        ("odom", "camera_link", Cause.SPLIT, "publish it:"),
+    ],
+)
+def test_names_and_joins_that_are_missing(target, source, cause, told):
+    made = robot()
+    made.static("camera_link", "lens")
+
+    found = asked(made, target, source, 4.0)
+
+    assert (found.cause, found.available) == (cause, False)
+    assert found.remedies[0].text == told
+
+
+def test_what_works_says_what_cannot_be_seen_from_here():
+    found = asked(robot(), "odom", "laser", 4.0)
+    assert (found.available, found.cause, found.check) == (True, Cause.WORKS, None)
+    assert "is there a listener" in found.why[0]
+
+
+def test_inside_a_circle_it_answers_and_the_circle_is_told():
+    made = Robot()
+    made.moving("odom", "body")
+    made.moving("body", "odom")
+    found = asked(made, "odom", "body", 4.0, asked=T + seconds(5))
+    assert (found.available, found.cause) == (True, Cause.LOOP)
+
+
+def test_a_static_that_comes_later_is_waited_for():
+    made = robot(laser=False)
+    made.static("base_link", "laser", at=3.0)
+    found = asked(made, "odom", "laser", 2.0)
+    assert found.cause in (Cause.LATE,)
+    assert found.answerable_from == T + seconds(3.005)
+
+
+def test_the_message_nearest_to_a_moment_is_found():
+    model = Model(robot().material())
+    heard, stamp = message_of(model, "/scan", T + seconds(4.04))
+    assert (heard.frame, stamp) == ("laser", T + seconds(4))
+    with pytest.raises(InputError, match="There are /scan"):
+        message_of(model, "/scam", None)
+
+
+def test_a_buffer_can_be_asked_too():
+    buffer = Buffer()
+    for tick in range(100):
+        pose = Transform((0.1 * tick, 0.0, 0.0), NO_TURN)
+        buffer.set_transform(
+            TransformStamped(T + seconds(0.1 * tick), "odom", "base_link", pose), "ekf"
+        )
+    buffer.set_transform(TransformStamped(T, "base_link", "gps", Transform()), "gps_node")
+
+    (finding,) = [one for one in diagnose(buffer) if one.id == "single-sample"]
+    assert finding.publishers == ("gps_node",)
+
+    found = explain(buffer, "odom", "gps", T + seconds(5))
+    assert (found.cause, found.refusing) == (Cause.SINGLE, ("base_link", "gps"))
+    assert found.links[1].publisher == "ekf"
+    assert explain(buffer, "odom", "base_link", T + seconds(5)).available
+
+
+def test_values_are_frozen():
+    (finding,) = [one for one in robot(laser=False).judged().findings if one.id == "static-missing"]
+    with pytest.raises(AttributeError):
+        finding.id = "other"
+    with pytest.raises(TypeError):
+        finding.facts["frames"] = []
+    assert asked(robot(), "odom", "laser", LASTS / 2) == asked(robot(), "odom", "laser", LASTS / 2)

@@ -1,0 +1,202 @@
+"""Parts of launch and launch_ros that official tutorials and larger systems use."""
+
+import pytest
+
+from tests.ros.test_launch import described
+from tests.ros.tutorial import launch
+from tftool.errors import InputError, NodeFailed
+
+ECHO = "ExecuteProcess(cmd=['echo', 'hello there'])"
+
+
+def test_what_a_command_writes_is_an_event(tmp_path):
+    done = described(
+        tmp_path,
+        "RegisterEventHandler(OnProcessIO(on_stdout=lambda event: "
+        "LogInfo(msg=f'{event.process_name} wrote {event.text.decode().strip()}')))",
+        ECHO,
+    )
+
+    assert "echo-1 wrote hello there" in done.said("launch")
+
+
+def test_what_a_node_logs_is_an_event_of_its_standard_error(tmp_path):
+    (tmp_path / "talk.py").write_text(
+        "import rclpy\nrclpy.init()\nnode = rclpy.create_node('talk')\n"
+        "node.get_logger().info('ready')\nrclpy.spin(node)\n"
+    )
+    done = described(
+        tmp_path,
+        f"node := Node(executable={str(tmp_path / 'talk.py')!r})",
+        "RegisterEventHandler(OnProcessIO(target_action=node, on_stdout=[LogInfo(msg='no')], "
+        "on_stderr=lambda event: Shutdown(reason='it is ready') if b'ready' in event.text "
+        "else None))",
+        "TimerAction(period=9.0, actions=[])",
+        seconds=10.0,
+    )
+
+    assert done.said("launch") == ["shutting down: it is ready"]
+
+
+def test_a_process_is_ended_by_an_event_that_matches_its_action(tmp_path):
+    (tmp_path / "stay.py").write_text(
+        "import rclpy\nrclpy.init()\nrclpy.spin(rclpy.create_node('stay'))\n"
+    )
+    done = described(
+        tmp_path,
+        f"node := Node(executable={str(tmp_path / 'stay.py')!r})",
+        "TimerAction(period=1.0, actions=[EmitEvent(event=launch.events.process.ShutdownProcess("
+        "process_matcher=launch.events.matches_action(node)))])",
+        seconds=10.0,
+    )
+
+    assert done.said("stay.py-1")[-1] == "process has finished cleanly"
+    assert done.elapsed < 2.0
+
+
+LIFECYCLE = """
+import rclpy
+from rclpy.lifecycle import LifecycleNode, TransitionCallbackReturn
+
+
+class Machine(LifecycleNode):
+    def on_configure(self, state):
+        self.get_logger().info('configured')
+        return TransitionCallbackReturn.SUCCESS
+
+    def on_activate(self, state):
+        self.get_logger().info('activated')
+        return super().on_activate(state)
+
+
+rclpy.init()
+rclpy.spin(Machine('machine'))
+"""
+
+
+@pytest.mark.parametrize(
+    "how",
+    [
+        "LifecycleTransition(lifecycle_node_names=['/machine'], transition_labels=['configure', "
+        "'activate'])",
+        "GroupAction([RegisterEventHandler(OnStateTransition(target_lifecycle_node=node, "
+        "goal_state='inactive', entities=[EmitEvent(event=ChangeState("
+        "lifecycle_node_matcher=launch.events.matches_action(node), transition_id=3))])), "
+        "EmitEvent(event=ChangeState(lifecycle_node_matcher=matches_node_name('/machine'), "
+        "transition_id=1))])",
+    ],
+)
+def test_a_node_with_a_life_cycle_is_configured_and_activated(tmp_path, how):
+    (tmp_path / "machine.py").write_text(LIFECYCLE)
+    done = described(
+        tmp_path,
+        f"node := LifecycleNode(executable={str(tmp_path / 'machine.py')!r}, name='machine', "
+        "namespace='')",
+        how,
+        seconds=5.0,
+    )
+
+    assert done.texts("machine") == ["configured", "activated"]
+
+
+def test_a_transition_that_does_not_exist_is_named(tmp_path):
+    with pytest.raises(NodeFailed, match="no transition 'activated': there are create, configure"):
+        described(
+            tmp_path,
+            "LifecycleTransition(lifecycle_node_names=['x'], transition_labels=['activated'])",
+        )
+
+
+def test_a_context_of_ones_own_makes_texts():
+    from tftool.ros.host.importing import ros_free
+
+    with ros_free():
+        import launch
+        from launch.substitutions import EnvironmentVariable, LaunchConfiguration
+
+        context = launch.LaunchContext()
+        context.launch_configurations["name"] = "value"
+        context.environment["TFTOOL_TEST"] = "here"
+
+        assert context.perform_substitution(LaunchConfiguration("name")) == "value"
+        assert EnvironmentVariable("TFTOOL_TEST").perform(context) == "here"
+        launch.actions.SetLaunchConfiguration("name", "other").visit(context)
+        assert context.launch_configurations["name"] == "other"
+
+
+def test_a_program_may_launch_by_itself(ros_runtime, tmp_path, capfd):
+    file = tmp_path / "service.py"
+    file.write_text(
+        "import sys\nimport launch\nimport launch.logging\n"
+        "service = launch.LaunchService(argv=sys.argv[1:])\n"
+        "service.include_launch_description(launch.LaunchDescription([\n"
+        "    launch.actions.TimerAction(period=3.0, actions=[\n"
+        "        launch.actions.LogInfo(msg='three seconds')])]))\n"
+        "launch.logging.get_logger('mine').info('before')\n"
+        "sys.exit(service.run())\n"
+    )
+    program = ros_runtime.start(file)
+    ros_runtime.sleep(2.0)
+    assert program.status is None
+    ros_runtime.sleep(2.0)
+
+    assert program.status == 0
+    assert "[INFO] [launch]: three seconds" in capfd.readouterr().err
+
+
+def test_xml_keeps_resets_and_reads_files(tmp_path):
+    (tmp_path / "text.txt").write_text("of the file")
+    file = tmp_path / "a.launch.xml"
+    file.write_text(
+        "<launch><let name='a' value='1'/><let name='b' value='2'/>"
+        "<group forwarding='false'><keep name='a' value='$(var a)'/>"
+        '<log message="a $(var a) b $(var b none)"/></group>'
+        "<reset><keep name='b' value='$(var b)'/></reset>"
+        '<log message="a $(var a none) b $(var b)"/>'
+        f'<log message="text $(file-content {tmp_path}/text.txt)"/></launch>'
+    )
+    done = launch(file, seconds=1)
+
+    assert done.said("launch") == ["a 1 b none", "a none b 2", "text of the file"]
+
+
+def test_yaml_gives_a_command_its_environment(tmp_path):
+    file = tmp_path / "a.launch.yaml"
+    file.write_text(
+        "launch:\n- executable:\n    cmd: sh -c 'echo $WHAT'\n"
+        "    env:\n    - name: WHAT\n      value: this\n"
+    )
+    done = launch(file, seconds=1)
+
+    assert "this" in done.said("sh-1")
+
+
+def test_an_executable_in_a_package_is_found(tmp_path):
+    scripts = tmp_path / "mine" / "scripts"
+    scripts.mkdir(parents=True)
+    (tmp_path / "mine" / "package.xml").write_text("<package><name>mine</name></package>")
+    (scripts / "tool.py").write_text("print('tool')\n")
+    text = "LogInfo(msg=ExecutableInPackage(package='mine', executable='{}'))"
+    done = described(tmp_path, text.format("tool.py"), start=tmp_path)
+
+    assert done.said("launch") == [str(scripts / "tool.py")]
+    with pytest.raises(NodeFailed, match="package 'mine' has no file 'other' to run"):
+        described(tmp_path, text.format("other"), start=tmp_path)
+
+
+def test_environments_are_pushed_popped_and_reset(tmp_path):
+    done = described(
+        tmp_path,
+        "PushEnvironment()",
+        "SetEnvironmentVariable('TFTOOL_X', 'inner')",
+        "LogInfo(msg=EnvironmentVariable('TFTOOL_X'))",
+        "PopEnvironment()",
+        "LogInfo(msg=EnvironmentVariable('TFTOOL_X', default_value='gone'))",
+        "SetEnvironmentVariable('TFTOOL_X', 'again')",
+        "ResetEnvironment()",
+        "LogInfo(msg=EnvironmentVariable('TFTOOL_X', default_value='gone'))",
+    )
+
+    assert done.said("launch") == ["inner", "gone", "gone"]
+    with pytest.raises((NodeFailed, InputError), match="no PushEnvironment before"):
+        described(tmp_path, "PopEnvironment()")

@@ -1,0 +1,185 @@
+"""`ros2` as launch files and people call it."""
+
+import pytest
+
+from tests.ros.test_launch import described
+from tftool.errors import NodeFailed, UsageError
+from tftool.nodes.turtlesim import Turtlesim
+from tftool.ros import ros2
+from tftool.ros.host import ros2_words, user_code
+from tftool.ros.host.workspace import Workspace
+
+SIM = "Node(package='turtlesim', executable='turtlesim_node', name='sim')"
+
+
+def ran(ros_runtime, tmp_path, *words, seconds=5.0):
+    """Run a command beside the simulator; its status and lines."""
+    from tftool.ros.host.program import Program
+
+    lines, ended = [], []
+    if not any(isinstance(node, Turtlesim) for node in ros_runtime.world.nodes):
+        ros_runtime.ask(lambda: Turtlesim(ros_runtime.world))
+    body = user_code.whole(ros2.body(words, Workspace(tmp_path), lines.append))
+    (program,) = ros_runtime.ask(
+        lambda: [Program(ros_runtime.world, "ros2", body, on_exit=ended.append)]
+    )
+    ros_runtime.sleep(seconds)
+    ros_runtime.ask(lambda: ros_runtime.world.remove(program))
+    if not ended:
+        return None, lines
+    failed = isinstance(ended[0].failure, UsageError)
+    return ended[0].failure if failed else ended[0].status, lines
+
+
+def test_the_tutorials_event_handlers_spawn_and_set_by_ros2(tmp_path):
+    done = described(
+        tmp_path,
+        SIM,
+        "ExecuteProcess(cmd=[[FindExecutable(name='ros2'), ' service call ', '/spawn ', "
+        "'turtlesim/srv/Spawn ', '\"{x: 2, y: 3, theta: 0.2}\"']], shell=True)",
+        "ExecuteProcess(cmd=['ros2', 'param', 'set', 'sim', 'background_r', '120'])",
+        "RegisterEventHandler(OnProcessExit(on_exit=LogInfo(msg='one has ended')))",
+        seconds=5.0,
+    )
+
+    assert done.places["turtle2"][:2] == (2.0, 3.0)
+    assert done.failed == []
+    assert "response:" in done.said("ros2-2")
+    assert "turtlesim.srv.Spawn_Response(name='turtle2')" in done.said("ros2-2")
+    assert "Set parameter successful" in done.said("ros2-3")
+    assert done.said("launch").count("one has ended") >= 2
+
+
+def test_ros2_run_in_a_launch_file_starts_a_node(tmp_path):
+    done = described(
+        tmp_path,
+        "ExecuteProcess(cmd=['ros2', 'run', 'turtlesim', 'turtlesim_node', '--ros-args', '-r', "
+        "'__node:=mine'])",
+    )
+
+    assert "mine" in done.nodes
+
+
+def test_a_wrong_command_in_a_launch_file_is_named_with_its_line(tmp_path):
+    with pytest.raises(NodeFailed, match=r"some\.launch\.py:\d+: ros2 service: .*invalid choice"):
+        described(tmp_path, "ExecuteProcess(cmd=['ros2', 'service', 'cal', '/spawn'])")
+
+
+def test_lists_name_what_is_there_and_hide_what_is_hidden(ros_runtime, tmp_path):
+    _, topics = ran(ros_runtime, tmp_path, "topic", "list", "-t")
+    _, services = ran(ros_runtime, tmp_path, "service", "list")
+    _, nodes = ran(ros_runtime, tmp_path, "node", "list")
+    _, actions = ran(ros_runtime, tmp_path, "action", "list", "-t")
+
+    assert "/turtle1/cmd_vel [geometry_msgs/msg/Twist]" in topics
+    assert "/spawn" in services
+    assert nodes == ["/turtlesim"]
+    assert actions == ["/turtle1/rotate_absolute [turtlesim/action/RotateAbsolute]"]
+
+
+def test_a_topic_is_echoed_as_yaml(ros_runtime, tmp_path):
+    status, lines = ran(ros_runtime, tmp_path, "topic", "echo", "--once", "/turtle1/pose")
+
+    assert status == 0
+    assert lines[0].startswith("x: 5.544")
+    assert lines[-2:] == ["angular_velocity: 0.0", "---"]
+
+
+def test_a_rate_is_measured(ros_runtime, tmp_path):
+    _, lines = ran(ros_runtime, tmp_path, "topic", "hz", "/turtle1/pose", seconds=3.5)
+
+    assert lines[0] == "average rate: 62.500"
+
+
+def test_a_twist_is_published_until_the_turtle_has_moved(ros_runtime, tmp_path):
+    status, lines = ran(
+        ros_runtime, tmp_path, "topic", "pub", "--once", "/turtle1/cmd_vel",
+        "geometry_msgs/msg/Twist", "{linear: {x: 2, y: 0.0}}",
+    )  # fmt: skip
+    simulator = next(n for n in ros_runtime.world.nodes if isinstance(n, Turtlesim))
+
+    assert status == 0
+    assert lines[0] == "publisher: beginning loop"
+    assert lines[1].startswith("publishing #1: geometry_msgs.msg.Twist(linear=")
+    assert simulator.turtles["turtle1"].place[0] > 7.0
+
+
+def test_parameters_are_listed_read_set_and_dumped(ros_runtime, tmp_path):
+    assert ran(ros_runtime, tmp_path, "param", "set", "/turtlesim", "background_g", "7")[0] == 0
+    assert ran(ros_runtime, tmp_path, "param", "get", "/turtlesim", "background_g") == (
+        0,
+        ["Integer value is: 7"],
+    )
+    assert "  background_g" in ran(ros_runtime, tmp_path, "param", "list", "/turtlesim")[1]
+    dumped = ran(ros_runtime, tmp_path, "param", "dump", "turtlesim")[1]
+    assert dumped[:2] == ["/turtlesim:", "  ros__parameters:"]
+    assert "    background_g: 7" in dumped
+    assert ran(ros_runtime, tmp_path, "param", "get", "/turtlesim", "none") == (
+        1,
+        ["Parameter not set"],
+    )
+
+
+def test_an_action_is_sent_and_its_result_shown(ros_runtime, tmp_path):
+    status, lines = ran(
+        ros_runtime, tmp_path, "action", "send_goal", "/turtle1/rotate_absolute",
+        "turtlesim/action/RotateAbsolute", "{theta: 1.0}", seconds=20.0,
+    )  # fmt: skip
+
+    assert status == 0
+    assert lines[-1] == "Goal finished with status: SUCCEEDED"
+    assert any(line.strip().startswith("delta: ") for line in lines)
+
+
+def test_interfaces_and_packages_are_shown(ros_runtime, tmp_path):
+    assert ran(ros_runtime, tmp_path, "interface", "show", "geometry_msgs/msg/Vector3")[1][-3:] == [
+        "float64 x",
+        "float64 y",
+        "float64 z",
+    ]
+    assert "turtlesim" in ran(ros_runtime, tmp_path, "pkg", "list")[1]
+
+
+def test_what_is_not_there_is_named(ros_runtime, tmp_path):
+    failure, _ = ran(ros_runtime, tmp_path, "topic", "echo", "/nothing", seconds=15.0)
+    assert "there is no topic '/nothing' after 10 s" in str(failure)
+    failure, _ = ran(ros_runtime, tmp_path, "param", "list", "/nobody", seconds=15.0)
+    assert "node '/nobody' is not there" in str(failure)
+    failure, _ = ran(ros_runtime, tmp_path, "node", "info", "/nobody", seconds=15.0)
+    assert "there is no node '/nobody'" in str(failure)
+
+
+@pytest.mark.parametrize(
+    ("words", "told"),
+    [
+        (["topik", "list"], "invalid choice: 'topik'"),
+        (["service", "call", "/spawn"], "the following arguments are required: type"),
+        (
+            ["service", "call", "/spawn", "turtlesim/srv/Spwan"],
+            "did you mean 'turtlesim/srv/Spawn'",
+        ),
+        (
+            ["service", "call", "/spawn", "turtlesim/srv/Spawn", "{y: 1, z: 2}"],
+            r"Spawn_Request has no field 'z' \(it has x, y, theta, name\)",
+        ),
+        (
+            ["service", "call", "/spawn", "turtlesim/srv/Spawn", "{x: far}"],
+            "'x' cannot be 'far'",
+        ),
+        (["service", "call", "/spawn", "turtlesim/srv/Spawn", "7"], "takes fields"),
+        (["topic", "pub", "/a", "geometry_msgs/msg/Polygon", "{points: 3}"], "it takes a list"),
+        (["interface", "show", "std_msgs/msg/Strin"], "did you mean 'std_msgs/msg/String'"),
+    ],
+)
+def test_wrong_words_are_refused_with_a_sentence(tmp_path, words, told):
+    with pytest.raises(UsageError, match=told):
+        ros2.body(words, Workspace(tmp_path), print)
+
+
+def test_lists_of_messages_are_filled_element_by_element():
+    polygon = ros2_words.interface("geometry_msgs/Polygon", "msg")()
+    ros2_words.fill(polygon, {"points": [{"x": 1}, {"y": 2.0}]})
+
+    assert ros2_words.plain(polygon) == {
+        "points": [{"x": 1.0, "y": 0.0, "z": 0.0}, {"x": 0.0, "y": 2.0, "z": 0.0}]
+    }

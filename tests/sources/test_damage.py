@@ -1,0 +1,141 @@
+"""Whatever is cut off or changed in a file: an answer or a sentence, never anything else."""
+
+import random
+
+import pytest
+
+pytest.importorskip("rosbags", reason="writes the test files")
+pytest.importorskip("mcap", reason="writes the test files")
+pytest.importorskip("zstandard", reason="the extra 'recordings' is not installed")
+pytest.importorskip("lz4", reason="the extra 'recordings' is not installed")
+
+from tests.sources.writers import CONTAINERS, content, write_mcap, write_rosbag1, write_rosbag2
+from tftool import InputError, open_recording
+
+SENT = content()
+SINGLE = [name for name in CONTAINERS if "split" not in name]
+
+
+def file_of(path):
+    """The one file with the messages."""
+    if path.is_file():
+        return path
+    return next(one for one in path.iterdir() if one.name != "metadata.yaml")
+
+
+def asked(path):
+    """Ask a recording everything; how many transforms it has, None if it is refused."""
+    try:
+        with open_recording(path) as recording:
+            assert recording.buffer.frames() is not None
+            assert recording.topics is not None
+            recording.source.headers()
+            recording.source.clock()
+            for _ in recording.source.messages([topic.name for topic in recording.topics]):
+                pass
+            return len(recording.transforms)
+    except InputError:
+        return None
+
+
+@pytest.mark.parametrize("name", SINGLE)
+def test_a_cut_file_gives_what_stands_before_the_cut_or_is_refused(tmp_path, name):
+    path = CONTAINERS[name](tmp_path, SENT)
+    file = file_of(path)
+    raw = file.read_bytes()
+    whole = asked(path)
+    draw = random.Random(name)
+
+    for _ in range(20):
+        file.write_bytes(raw[: draw.randrange(len(raw))])
+
+        found = asked(path)
+
+        assert found is None or found <= whole
+
+
+@pytest.mark.parametrize("name", SINGLE)
+def test_a_file_with_flipped_bits_is_answered_or_refused(tmp_path, name):
+    path = CONTAINERS[name](tmp_path, SENT)
+    file = file_of(path)
+    raw = file.read_bytes()
+    draw = random.Random(name)
+
+    for flips in [1] * 10 + [10] * 5 + [1000] * 5:
+        changed = bytearray(raw)
+        for _ in range(flips):
+            changed[draw.randrange(len(raw))] ^= 1 << draw.randrange(8)
+        file.write_bytes(changed)
+
+        found = asked(path)
+
+        assert found is None or found >= 0
+
+
+@pytest.mark.parametrize("share", [0.4, 0.7, 0.99])
+@pytest.mark.parametrize(
+    "write",
+    [lambda p: write_mcap(p / "a.mcap", SENT), lambda p: write_rosbag1(p / "a.bag", SENT)],
+)
+def test_what_was_read_of_a_cut_file_is_a_part_of_the_whole(tmp_path, write, share):
+    path = write(tmp_path)
+    with open_recording(path) as recording:
+        whole = {edge.child: edge.records.tolist() for edge in recording.edges}
+    path.write_bytes(path.read_bytes()[: int(path.stat().st_size * share)])
+
+    with open_recording(path) as recording:
+        found = {edge.child: edge.records.tolist() for edge in recording.edges}
+        damage = "\n".join(recording.damage)
+
+    assert found
+    assert "breaks off at byte" in damage or "was not closed" in damage
+    for child, records in found.items():
+        assert records == whole[child][: len(records)]
+
+
+def test_a_bag_that_was_not_closed_is_read_whole(tmp_path):
+    path = write_rosbag1(tmp_path / "a.bag", SENT)
+    with open_recording(path) as recording:
+        count = len(recording.transforms)
+    raw = bytearray(path.read_bytes())
+    place = raw.index(b"index_pos=") + len(b"index_pos=")
+    raw[place : place + 8] = bytes(8)
+    path = path.with_suffix(".bag.active")
+    path.write_bytes(raw)
+
+    with open_recording(path) as recording:
+        assert len(recording.transforms) == count
+        assert recording.damage == ("The recording was not closed.",)
+
+
+def test_metadata_that_lies_is_told_and_not_believed(tmp_path):
+    path = write_rosbag2(tmp_path / "a", SENT)
+    (path / "a.db3").rename(path / "renamed.db3")
+    with open_recording(path) as recording:
+        assert len(recording.transforms) > 100
+        assert "names 'a.db3', which is not there" in recording.damage[0]
+        assert "Read instead: 'renamed.db3'" in recording.damage[1]
+    (path / "metadata.yaml").write_text("}{")
+    with open_recording(path) as recording:
+        assert len(recording.transforms) > 100
+        assert "cannot be read" in recording.damage[0]
+    (path / "metadata.yaml").unlink()
+    with open_recording(path) as recording:
+        assert len(recording.transforms) > 100
+
+
+@pytest.mark.parametrize("size", [2**62, 2**30 + 1, 10**8])
+def test_a_chunk_that_announces_too_much_is_not_unpacked(tmp_path, size):
+    path = write_mcap(tmp_path / "a.mcap", SENT, use_statistics=False)
+    raw = bytearray(path.read_bytes())
+    place = 8
+    while raw[place] != 0x06:
+        place += 9 + int.from_bytes(raw[place + 1 : place + 9], "little")
+    raw[place + 25 : place + 33] = size.to_bytes(8, "little")
+    # Without the summary the chunk's own head counts.
+    path.write_bytes(raw[:-37])
+
+    with open_recording(path) as recording:
+        recording.buffer.frames()
+
+        assert any("are announced" in one or "announce" in one for one in recording.damage)

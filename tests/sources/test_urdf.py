@@ -1,0 +1,219 @@
+import math
+
+import pytest
+
+from tftool.errors import DescriptionError, InputError
+from tftool.sources.urdf import Box, Capsule, Cylinder, Mesh, Sphere, is_xacro, load_description
+from tftool.sources.urdf import parse_description as parse
+
+ARM = """<?xml version="1.0"?>
+<robot name="arm">
+  <material name="steel"><color rgba="0.5 0.5 0.5 1"/></material>
+  <link name="base"/>
+  <link name="upper">
+    <inertial>
+      <mass value="2.5"/>
+      <inertia ixx="1" ixy="0" ixz="0" iyy="1" iyz="0" izz="1"/>
+    </inertial>
+    <visual name="tube">
+      <origin xyz="0 0 0.5"/>
+      <geometry><cylinder radius="0.1" length="1"/></geometry>
+      <material name="steel"/>
+    </visual>
+    <visual><geometry><mesh filename="package://arm/upper.stl" scale="1 1 2"/></geometry></visual>
+    <collision><geometry><box size="1 2 3"/></geometry></collision>
+    <collision><geometry><sphere radius="0.5"/></geometry></collision>
+    <collision><geometry><capsule radius="0.5" length="2"/></geometry></collision>
+  </link>
+  <link name="tool"/>
+  <joint name="shoulder" type="revolute">
+    <origin xyz="0 0 1" rpy="0 0 1.5707963267948966"/>
+    <parent link="base"/>
+    <child link="upper"/>
+    <axis xyz="0 0 2"/>
+    <limit lower="-1" upper="2" effort="10" velocity="3"/>
+  </joint>
+  <joint name="flange" type="fixed">
+    <parent link="upper"/>
+    <child link="tool"/>
+    <axis xyz="0 0 0"/>
+  </joint>
+  <gazebo><plugin name="unknown"/></gazebo>
+</robot>
+"""
+
+
+def refused(text):
+    with pytest.raises(DescriptionError) as error:
+        parse(text, "arm.urdf")
+    return error.value
+
+
+def test_a_description_gives_links_and_joints():
+    arm = parse(ARM)
+
+    assert (arm.name, arm.root) == ("arm", "base")
+    assert list(arm.links) == ["base", "upper", "tool"]
+    shoulder = arm.joints["shoulder"]
+    assert (shoulder.parent, shoulder.child, shoulder.type) == ("base", "upper", "revolute")
+    assert shoulder.axis == (0.0, 0.0, 1.0)
+    assert shoulder.origin.rotation == pytest.approx((0, 0, math.sqrt(0.5), math.sqrt(0.5)))
+    assert (shoulder.limit.lower, shoulder.limit.upper) == (-1.0, 2.0)
+    assert (shoulder.limit.effort, shoulder.limit.velocity) == (10.0, 3.0)
+    assert not arm.joints["flange"].moves
+
+
+def test_what_a_link_looks_like_is_read():
+    upper = parse(ARM).links["upper"]
+
+    tube, mesh = upper.visuals
+    assert tube.geometry == Cylinder(0.1, 1.0)
+    assert tube.origin.translation == (0.0, 0.0, 0.5)
+    assert tube.material.color == (0.5, 0.5, 0.5, 1.0)
+    assert mesh.geometry == Mesh("package://arm/upper.stl", (1.0, 1.0, 2.0))
+    assert [one.geometry for one in upper.collisions] == [
+        Box((1.0, 2.0, 3.0)),
+        Sphere(0.5),
+        Capsule(0.5, 2.0),
+    ]
+    assert upper.mass == 2.5
+
+
+@pytest.mark.parametrize(
+    ("before", "after", "marked", "told"),
+    [
+        ('<child link="upper"/>', '<child link="uper"/>', 'link="uper"', "did you mean 'upper'?"),
+        ('<axis xyz="0 0 2"/>', '<axis xyz="0 0 0.0"/>', 'xyz="0 0 0.0"', "must have a length"),
+        ('type="revolute"', 'type="revolut"', 'type="revolut"', "did you mean 'revolute'?"),
+        ('xyz="0 0 1"', 'xyz="0 0 1e999"', 'xyz="0 0 1e999"', "'1e999' is not a finite number"),
+        ('xyz="0 0 1"', 'xyz="0 1"', 'xyz="0 1"', "xyz is 3 numbers, not 2"),
+        ('effort="10" ', "", "<limit", "<limit> has no effort"),
+        ('name="tool"', "name='base'", "name='base'", "a link named 'base' already"),
+        ('<parent link="upper"/>', '<parent link="tool"/>', None, "tool → tool"),
+        ('<child link="tool"/>', "<child link='upper'/>", "link='upper'", "two parents"),
+        ('<mass value="2.5"/>', "", "<inertial", "<inertial> has no <mass>"),
+        ('<box size="1 2 3"/>', "<cone/>", None, "not <cone>"),
+        ('name="arm"', "", "<robot", "the robot has no name"),
+    ],
+)
+def test_a_mistake_is_reported_where_it_stands(before, after, marked, told):
+    text = ARM.replace(before, after, 1)
+    assert text != ARM
+
+    mistakes = [one for one in refused(text).mistakes if told in one.text]
+
+    assert len(mistakes) == 1
+    (mistake,) = mistakes
+    if marked:
+        line = text.split("\n")[mistake.line - 1]
+        assert line[mistake.column - 1 :].startswith(marked)
+        assert mistake.marks.strip() == "^" * len(marked)
+
+
+def test_every_mistake_is_reported_at_once_in_the_order_of_the_file():
+    text = ARM.replace('radius="0.1"', 'radius="thin"').replace('velocity="3"', 'velocity="?"')
+
+    lines = [one.line for one in refused(text).mistakes]
+
+    assert lines == sorted(lines)
+    assert len(lines) == 2
+
+
+def test_several_roots_are_named_with_the_remedy():
+    text = ARM.replace('<link name="tool"/>', '<link name="tool"/><link name="loose"/>')
+
+    (mistake,) = refused(text).mistakes
+
+    assert "'base', 'loose'" in mistake.text
+    assert "join them by fixed joints" in mistake.text
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        "",
+        "<robot",
+        "<sdf/>",
+        "<robot name='a'/>",
+        "<a>" * 100_000,
+        "<robot name='a'><link name='x'/><link name='x'/></robot>",
+        '<!DOCTYPE r [<!ENTITY a "aa"><!ENTITY b "&a;&a;">]><robot name="&b;"/>',
+    ],
+)
+def test_what_is_no_description_is_refused_with_a_place(text):
+    assert refused(text).mistakes[0].line >= 1
+
+
+def test_a_document_type_is_refused():
+    assert "<!DOCTYPE" in str(refused("<!DOCTYPE robot><robot name='a'><link name='b'/></robot>"))
+
+
+def test_a_mimic_of_nothing_is_noted_and_read():
+    text = ARM.replace('<axis xyz="0 0 2"/>', '<axis xyz="0 0 2"/><mimic joint="elbow"/>')
+
+    arm = parse(text)
+
+    assert arm.joints["shoulder"].mimic.joint == "elbow"
+    assert "'elbow', which is no joint here" in arm.notes[0]
+
+
+def test_a_file_is_read_with_its_encoding(tmp_path):
+    path = tmp_path / "arm.urdf"
+    text = ARM.replace('"1.0"?', '"1.0" encoding="iso-8859-1"?').replace("tool", "groß")
+    path.write_bytes(text.encode("iso-8859-1"))
+
+    assert "groß" in load_description(path).links
+
+
+@pytest.mark.parametrize(
+    ("content", "told"),
+    [
+        (b"\xff\xfe<robot", "is not text in"),
+        (b"<?xml version='1.0' encoding='klingon'?><robot/>", "'klingon', which is unknown"),
+        (b"<?xml version='1.0' encoding='hex'?><robot/>", "'hex', which is unknown"),
+    ],
+)
+def test_a_file_that_is_no_text_is_refused(tmp_path, content, told):
+    path = tmp_path / "arm.urdf"
+    path.write_bytes(content)
+
+    with pytest.raises(InputError, match=told):
+        load_description(path)
+
+
+def test_a_missing_file_is_a_sentence(tmp_path):
+    with pytest.raises(InputError, match="No such file"):
+        load_description(tmp_path / "arm.urdf")
+
+
+def test_an_expanded_file_that_still_declares_xacro_needs_none():
+    plain = ARM.replace('name="arm"', 'name="arm" xmlns:xacro="http://ros.org/wiki/xacro"')
+
+    assert not is_xacro(f"<!-- made by xacro from $(find arm) -->{plain[22:]}")
+    assert is_xacro(plain.replace('xyz="0 0 1"', 'xyz="0 0 ${height}"'))
+    assert is_xacro(plain.replace("<gazebo>", "<xacro:arm/><gazebo>"))
+
+
+def test_xacro_is_expanded_with_its_arguments(tmp_path):
+    pytest.importorskip("xacrodoc", reason="the extra 'xacro' is not installed")
+    path = tmp_path / "arm.urdf.xacro"
+    path.write_text(
+        ARM.replace(
+            'name="arm">',
+            'name="arm" xmlns:xacro="http://ros.org/wiki/xacro"><xacro:arg name="h" default="1"/>',
+        ).replace('xyz="0 0 1"', 'xyz="0 0 $(arg h)"')
+    )
+
+    tall = load_description(path, {"h": "7"})
+
+    assert tall.joints["shoulder"].origin.translation == (0.0, 0.0, 7.0)
+    assert load_description(path).joints["shoulder"].origin.translation == (0.0, 0.0, 1.0)
+
+
+def test_xacro_that_fails_is_a_sentence(tmp_path):
+    pytest.importorskip("xacrodoc", reason="the extra 'xacro' is not installed")
+    path = tmp_path / "arm.urdf"
+    path.write_text(ARM.replace('xyz="0 0 1"', 'xyz="0 0 ${nothing}"'))
+
+    with pytest.raises(InputError, match="cannot be expanded by xacro"):
+        load_description(path)

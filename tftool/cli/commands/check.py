@@ -1,0 +1,176 @@
+"""`tftool check`: play scenarios on simulated time and judge their expectations."""
+
+import re
+import shlex
+import sys
+from collections.abc import Callable, Iterator, Sequence
+from contextlib import contextmanager
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated
+
+import typer
+
+from tftool.cli.app import ExitStatus
+from tftool.cli.options import Json
+from tftool.errors import UsageError
+
+if TYPE_CHECKING:
+    from tftool.messages import Report
+    from tftool.scenario.exercise import Entrant
+    from tftool.scenario.schema import Scenario
+    from tftool.scenario.verdict import Verdict
+
+_IN_PLACE = re.compile(r"([A-Za-z_]\w*)=(.*)", re.DOTALL)
+
+LOG_WIDTH = 2000
+"""How wide a line gets where there is no terminal to wrap it for."""
+
+
+def check(
+    scenarios: Annotated[
+        list[str],
+        typer.Argument(
+            metavar="SCENARIO...", help="Built-in scenarios by name, or paths of scenario files."
+        ),
+    ],
+    programs: Annotated[
+        list[str] | None,
+        typer.Option(
+            "--run",
+            metavar="[NODE=]WORDS",
+            help="What follows 'tftool run': a program of yours in place of that node, or beside "
+            "all of them.",
+        ),
+    ] = None,
+    launched: Annotated[
+        str | None,
+        typer.Option(
+            "--launch",
+            metavar="WORDS",
+            help="What follows 'tftool launch': a launch file in place of all nodes.",
+        ),
+    ] = None,
+    force: Annotated[
+        bool, typer.Option("--ros-free", help="Run them also where a real ROS 2 is sourced.")
+    ] = False,
+    junit: Annotated[
+        Path | None,
+        typer.Option(metavar="FILE", help="Write a JUnit report for a build server."),
+    ] = None,
+    verbose: Annotated[bool, typer.Option("--verbose", "-v", help="Show what held, too.")] = False,
+    for_programs: Json = False,
+) -> ExitStatus:
+    """Play scenarios on simulated time and judge what they expect.
+
+    One line for each, and below it whatever did not hold. The exit status is 0 when
+    everything held, 1 when something did not, 3 when a file could not be read.
+    With --run and --launch, nodes written for ROS 2 are judged in the scenario, without ROS.
+
+    tftool check turtles
+    tftool check scenarios/*.yaml --junit report.xml
+    tftool check turtles --run follower=turtle_following.py
+    tftool check turtles --launch "pkg_tf turtle_following.launch.py"
+    """
+    # Heavy imports wait until this command is the chosen one.
+    import json
+
+    from rich.console import Console
+
+    from tftool.errors import InputError
+    from tftool.views import judgements
+    from tftool.views.escaping import visible
+
+    with _judge_of(programs or (), launched, force) as judge:
+        judged = [_judge(word, judge) for word in scenarios]
+    reports = [report for report, _ in judged]
+    if for_programs:
+        sys.stdout.write(json.dumps(judgements.as_rows(reports), indent=2) + "\n")
+    else:
+        console = Console()
+        if not (verbose or console.is_terminal):
+            # A log may be searched by line: what is one sentence stays in one.
+            console.width = LOG_WIDTH
+        # Written by us: rich ends the process with 1 when a reader (`| head`) is gone.
+        with console.capture() as table:
+            console.print(judgements.render_all(reports) if verbose else judgements.render(reports))
+        for line in table.get().splitlines():
+            sys.stdout.write(f"{line.rstrip()}\n")
+        sys.stdout.write(f"{judgements.summary(reports)}\n")
+    if junit is not None:
+        try:
+            junit.write_text(judgements.as_junit(reports), encoding="utf-8")
+        except OSError as error:
+            reason = error.strerror or error
+            raise InputError(f"'{visible(str(junit))}' cannot be written: {reason}.") from error
+    if not all(readable for _, readable in judged):
+        return ExitStatus.UNREADABLE
+    return ExitStatus.DONE if all(report.ok for report in reports) else ExitStatus.FAILED
+
+
+@contextmanager
+def _judge_of(
+    programs: "Sequence[str]", launched: str | None, force: bool
+) -> "Iterator[Callable[[Scenario], Verdict]]":
+    """Give what plays and judges a scenario: with its own nodes, or with the user's programs."""
+    if not programs and launched is None:
+        from tftool.scenario.play import run_scenario
+
+        yield run_scenario
+        return
+
+    from tftool.cli.notices import notice, tell_record
+    from tftool.ros.host import hosting
+    from tftool.scenario.exercise import Exercise
+    from tftool.views.escaping import visible_lines
+
+    entrants = [_entrant(text) for text in programs]
+    launch = () if launched is None else _words("--launch", launched)
+    for one in entrants:
+        if not one.node:
+            notice(
+                f"'{visible_lines(one.words[0])}' lives beside all of a scenario's own nodes; "
+                "--run NODE=… takes the place of one."
+            )
+    workspace = hosting.Workspace(Path.cwd())
+    with hosting.ros_free(force=force):
+        hosting.packages.use(workspace)
+        yield Exercise(workspace, entrants, launch, tell=tell_record).judge
+
+
+def _entrant(text: str) -> "Entrant":
+    """Read [NODE=]WORDS."""
+    from tftool.scenario.exercise import Entrant
+
+    match = _IN_PLACE.fullmatch(text)
+    node, rest = (match[1], match[2]) if match else ("", text)
+    return Entrant(_words("--run", rest), node)
+
+
+def _words(option: str, text: str) -> tuple[str, ...]:
+    """Split words as a shell does.
+
+    Raises:
+        UsageError: If there is none, or a quote is not closed.
+    """
+    try:
+        words = tuple(shlex.split(text))
+    except ValueError as error:
+        raise UsageError(f"{option} {text!r}: {str(error).lower()}") from None
+    if not words:
+        raise UsageError(f"{option} wants what follows 'tftool {option[2:]}', not nothing")
+    return words
+
+
+def _judge(word: str, judge: "Callable[[Scenario], Verdict]") -> "tuple[Report, bool]":
+    """Report on one scenario, and whether it could be read; what could not is told at once."""
+    from tftool.cli.hosting import scenario_named
+    from tftool.errors import InputError
+    from tftool.messages import Report
+    from tftool.views.escaping import visible_lines
+
+    try:
+        scenario = scenario_named(word)
+    except InputError as error:
+        sys.stderr.write(f"tftool: {visible_lines(str(error))}\n")
+        return Report(Path(word).stem or word, word, (), failure=str(error)), False
+    return judge(scenario).report(), True

@@ -1,0 +1,279 @@
+"""`tftool doctor`: what is wrong with the frames, why, and what to do about it."""
+
+import sys
+from collections.abc import Sequence
+from enum import StrEnum
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated
+
+import typer
+
+from tftool.cli.app import ExitStatus
+from tftool.cli.connection import Connection
+from tftool.cli.options import CacheTime, Json, RunFor
+from tftool.errors import InputError, UsageError
+from tftool.stamps import Duration, seconds
+
+if TYPE_CHECKING:
+    from tftool.diagnostics.catalogue import Check
+    from tftool.diagnostics.findings import Severity
+    from tftool.diagnostics.judge import Diagnosis
+    from tftool.diagnostics.model import Settings
+
+
+class FailOn(StrEnum):
+    """From which severity on the exit status is 1."""
+
+    error = "error"
+    warning = "warning"
+    note = "note"
+    never = "never"
+
+
+def doctor(
+    connection: Connection,
+    places: Annotated[
+        list[str] | None,
+        typer.Argument(
+            metavar="[FROM]...",
+            help="Whose frames: recordings (file, folder, glob) and scenarios; if not said, the "
+            "session that runs, else the turtles.",
+            show_default=False,
+        ),
+    ] = None,
+    select: Annotated[
+        list[str] | None,
+        typer.Option(metavar="ID,...", help="Run only these checks or areas."),
+    ] = None,
+    ignore: Annotated[
+        list[str] | None, typer.Option(metavar="ID,...", help="Leave these checks or areas out.")
+    ] = None,
+    fail_on: Annotated[
+        FailOn, typer.Option(help="From what on the exit status is 1.")
+    ] = FailOn.warning,
+    limits: Annotated[
+        list[str] | None,
+        typer.Option("--limit", metavar="ID.NAME=VALUE", help="Another threshold: gap.seconds=2."),
+    ] = None,
+    cache_time: CacheTime = None,
+    fixed_frame: Annotated[
+        str, typer.Option(metavar="FRAME", help="Where sensors are to be placed; odom, else map.")
+    ] = "",
+    lasting: RunFor = None,
+    statistics: Annotated[
+        bool, typer.Option("--statistics", help="Print rate, latency and gaps of everything, too.")
+    ] = False,
+    verbose: Annotated[
+        bool, typer.Option("--verbose", "-v", help="Print all evidence, and what was skipped.")
+    ] = False,
+    for_programs: Json = False,
+    markdown: Annotated[
+        bool, typer.Option("--markdown", help="Print it for an issue on the web.")
+    ] = False,
+    junit: Annotated[
+        Path | None, typer.Option(metavar="FILE", help="Write a JUnit report for a build server.")
+    ] = None,
+    output: Annotated[
+        Path | None,
+        typer.Option(
+            "--output",
+            "-o",
+            metavar="FILE",
+            help="Of many recordings, write a row a finding to a .jsonl or .csv file.",
+        ),
+    ] = None,
+    processes: Annotated[
+        int, typer.Option("--jobs", "-j", min=1, max=256, help="With -o: work on so many at once.")
+    ] = 1,
+    resume: Annotated[
+        bool, typer.Option("--resume", help="With -o: pass over what the file already holds.")
+    ] = False,
+    explain: Annotated[
+        str, typer.Option("--explain", metavar="ID", help="Tell all about one check, and stop.")
+    ] = "",
+    listed: Annotated[bool, typer.Option("--list", help="List all checks, and stop.")] = False,
+) -> ExitStatus:
+    """Say what is wrong with the frames, and what mends it: cause, evidence, consequence, fix.
+
+    A recording is read whole, a scenario played on simulated time, a session that runs
+    listened to for 10 s, or --for. The exit status is 0 when nothing is found from a
+    warning on (--fail-on), 1 when something is, 3 when a source cannot be read.
+
+    tftool doctor run.mcap
+    tftool doctor bags/*.mcap --junit report.xml
+    tftool doctor 'runs/*.mcap' -j 8 -o findings.csv --resume
+    tftool doctor --explain split-tree
+    """
+    # Heavy imports wait until this command is the chosen one.
+    import json
+
+    from tftool.cli.printing import write
+    from tftool.diagnostics.findings import Severity
+    from tftool.views import findings as view
+
+    if listed:
+        write(view.listing())
+        return ExitStatus.DONE
+    if explain:
+        sys.stdout.write(view.explained(_check(explain)))
+        return ExitStatus.DONE
+    if for_programs and markdown:
+        raise UsageError("--json and --markdown are two ways to print it: leave one out.")
+    settings = _settings(cache_time, fixed_frame, limits or ())
+    fails = None if fail_on is FailOn.never else Severity(fail_on.value)
+    if output is not None:
+        return _swept(places or (), output, processes, resume, settings, (select, ignore), fails)
+    if resume or processes > 1:
+        raise UsageError("--jobs and --resume are for many recordings: add -o FILE.")
+    rows = _diagnosed(connection, places or [None], lasting, settings, select or (), ignore or ())
+    diagnoses = [found for _, found in rows if not isinstance(found, str)]
+    if for_programs:
+        objects = [view.as_object(one) for one in diagnoses]
+        content = objects[0] if len(rows) == 1 and objects else objects
+        sys.stdout.write(json.dumps(content, indent=2, allow_nan=False, default=str) + "\n")
+    elif markdown:
+        sys.stdout.write("\n".join(view.as_markdown(one) for one in diagnoses))
+    else:
+        for number, one in enumerate(diagnoses):
+            if number:
+                sys.stdout.write("\n")
+            write(view.render(one, verbose=verbose))
+            if statistics:
+                write(view.statistics(one.model))
+        if len(rows) > 1:
+            sys.stdout.write("\n")
+            write(view.compared(rows))
+    if junit is not None:
+        try:
+            junit.write_text(view.as_junit(rows, fails), encoding="utf-8")
+        except OSError as error:
+            reason = error.strerror or error
+            raise InputError(f"'{junit}' cannot be written: {reason}.") from error
+    return _status(rows, fails)
+
+
+def _diagnosed(
+    connection: Connection,
+    places: Sequence[str | None],
+    lasting: Duration | None,
+    settings: "Settings",
+    select: Sequence[str],
+    ignore: Sequence[str],
+) -> "list[tuple[str, Diagnosis | str]]":
+    """Each source with what was found in it; of several, one that is unreadable stops none."""
+    from tftool.cli.examining import material_of
+    from tftool.diagnostics.judge import judge
+    from tftool.views.escaping import visible_lines
+
+    chosen, left_out = _words(select), _words(ignore)
+    words = _each(places)
+    rows: list[tuple[str, Diagnosis | str]] = []
+    for word in words:
+        try:
+            material = material_of(connection, word, lasting)
+        except InputError as error:
+            if len(words) == 1:
+                raise
+            sys.stderr.write(f"tftool doctor: {visible_lines(str(error))}\n")
+            rows.append((word or "", str(error)))
+            continue
+        diagnosis = judge(material, settings, select=chosen, ignore=left_out)
+        rows.append((word or material.name, diagnosis))
+    return rows
+
+
+def _swept(
+    places: Sequence[str],
+    path: Path,
+    processes: int,
+    resume: bool,
+    settings: "Settings",
+    checks: tuple[Sequence[str] | None, Sequence[str] | None],
+    fails: "Severity | None",
+) -> ExitStatus:
+    """Many recordings, a row a finding."""
+    from tftool.cli import fleet
+    from tftool.diagnostics.judge import refuse_unknown
+
+    words = [word for word in _each(places) if word is not None]
+    if not words:
+        raise UsageError("Name the recordings to examine: files, folders, globs.")
+    select, ignore = (_words(one or ()) for one in checks)
+    refuse_unknown(settings, select, ignore)
+    output = fleet.Output(path, resume=resume)
+    try:
+        counts = fleet.sweep(words, output, processes, settings, select, ignore)
+    finally:
+        output.close()
+    fleet.announce(counts, len(output.done & set(words)), path)
+    if fleet.UNREADABLE in counts:
+        return ExitStatus.UNREADABLE
+    bad = [name for name in ("error", "warning", "note") if name in counts]
+    found = fails is not None and any(_rank(name) <= fails.rank for name in bad)
+    return ExitStatus.FAILED if found else ExitStatus.DONE
+
+
+def _rank(name: str) -> int:
+    from tftool.diagnostics.findings import Severity
+
+    return Severity(name).rank
+
+
+def _each(places: Sequence[str | None]) -> list[str | None]:
+    """The words, each that names several recordings as one word for each of them."""
+    from tftool.cli.hosting import named
+    from tftool.sources.find import Kind
+
+    words: list[str | None] = []
+    for place in places:
+        try:
+            found = None if place is None else named(place)
+        except InputError:
+            found = None
+        if found is not None and found.kind is Kind.SEVERAL:
+            words += [str(path) for path in found.paths]
+        else:
+            words.append(place)
+    return words
+
+
+def _status(rows: "Sequence[tuple[str, Diagnosis | str]]", fails: "Severity | None") -> ExitStatus:
+    """The worst of all sources."""
+    if any(isinstance(found, str) for _, found in rows):
+        return ExitStatus.UNREADABLE
+    worst = [found.worst for _, found in rows if not isinstance(found, str)]
+    if fails is not None and any(one is not None and one.rank <= fails.rank for one in worst):
+        return ExitStatus.FAILED
+    return ExitStatus.DONE
+
+
+def _check(name: str) -> "Check":
+    from tftool.diagnostics.catalogue import CHECKS
+    from tftool.diagnostics.judge import unknown
+
+    if name not in CHECKS:
+        raise UsageError(unknown(name, list(CHECKS), "check"))
+    return CHECKS[name]
+
+
+def _words(options: Sequence[str]) -> list[str]:
+    return [word.strip() for option in options for word in option.split(",") if word.strip()]
+
+
+def _settings(cache_time: Duration | None, fixed_frame: str, limits: Sequence[str]) -> "Settings":
+    from tftool.diagnostics.model import Settings
+
+    given: dict[str, dict[str, float]] = {}
+    for text in limits:
+        name, _, value = text.partition("=")
+        check, _, limit = name.partition(".")
+        try:
+            number = float(value)
+        except ValueError:
+            number = -1.0
+        if not limit or not 0.0 <= number < float("inf"):
+            raise UsageError(
+                f"--limit {text}: write ID.NAME=VALUE with a number from 0 on, as in gap.seconds=2"
+            )
+        given.setdefault(check, {})[limit] = number
+    return Settings(cache_time=cache_time or seconds(10), fixed_frame=fixed_frame, limits=given)

@@ -1,0 +1,336 @@
+"""`tftool echo`: one transform, again and again, as tf2_echo prints it."""
+
+import json
+import sys
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Annotated
+
+import typer
+
+from tftool.cli.app import ExitStatus
+from tftool.cli.connection import Connection
+from tftool.cli.options import (
+    OUTPUT,
+    WHEN,
+    AtOption,
+    CacheTime,
+    Json,
+    duration,
+    finite,
+    not_negative,
+    within,
+)
+from tftool.errors import TransformException, UsageError
+from tftool.stamps import Duration, Stamp, seconds
+from tftool.views import echo as view
+
+if TYPE_CHECKING:
+    from tftool.cli.waiting import FramePair
+    from tftool.frames.buffer import Buffer
+    from tftool.frames.sample import TransformStamped
+    from tftool.runtime.world import World
+
+
+def echo(
+    connection: Connection,
+    target: Annotated[
+        str, typer.Argument(metavar="TARGET", help="Frame to look from: the answer is given in it.")
+    ],
+    source: Annotated[str, typer.Argument(metavar="SOURCE", help="Frame to look at.")],
+    place: Annotated[
+        str | None,
+        typer.Argument(
+            metavar="[FROM]",
+            help="Whose frames: a scenario (name or file), a recording (file, folder, glob) or a "
+            "robot description; if not said, the session that runs, else the turtles. A number "
+            "is a rate.",
+            show_default=False,
+        ),
+    ] = None,
+    rate: Annotated[
+        float | None,
+        typer.Option(
+            "--rate",
+            "-r",
+            metavar="HZ",
+            rich_help_panel=WHEN,
+            callback=within(0.001, 1000),
+            help="How often; once a second if not said.",
+        ),
+    ] = None,
+    once: Annotated[
+        bool, typer.Option("--once", rich_help_panel=WHEN, help="Print one transform and stop.")
+    ] = False,
+    count: Annotated[
+        int | None,
+        typer.Option(
+            min=1, metavar="N", rich_help_panel=WHEN, help="Print so many transforms and stop."
+        ),
+    ] = None,
+    at: AtOption = None,
+    stamps_of: Annotated[
+        str | None,
+        typer.Option(
+            "--at-stamps-of",
+            metavar="TOPIC",
+            help="Ask at the stamps of a recorded topic's messages.",
+        ),
+    ] = None,
+    offset: Annotated[
+        Duration | None,
+        typer.Option(
+            metavar="SECONDS",
+            parser=duration(finite),
+            rich_help_panel=WHEN,
+            help="Ask about a moment so far from now; -5 is five seconds ago.",
+        ),
+    ] = None,
+    fixed_frame: Annotated[
+        str | None,
+        typer.Option(
+            metavar="FRAME",
+            rich_help_panel=WHEN,
+            help="With --offset: take only SOURCE from that moment and TARGET from now, "
+            "by way of this frame, which stands still.",
+        ),
+    ] = None,
+    distance: Annotated[
+        bool,
+        typer.Option(
+            "--distance",
+            rich_help_panel=OUTPUT,
+            help="Add how far apart the two frames are, in metres.",
+        ),
+    ] = False,
+    precision: Annotated[
+        int,
+        typer.Option(
+            "--precision",
+            "-p",
+            min=0,
+            max=17,
+            metavar="N",
+            rich_help_panel=OUTPUT,
+            help="Decimals.",
+        ),
+    ] = 3,
+    timeout: Annotated[
+        Duration | None,
+        typer.Option(
+            metavar="SECONDS",
+            parser=duration(not_negative),
+            rich_help_panel=WHEN,
+            help="Give up waiting after so long (exit status 4).",
+        ),
+    ] = None,
+    for_programs: Json = False,
+    cache_time: CacheTime = None,
+) -> ExitStatus:
+    """Print where SOURCE is in TARGET (ros2 run tf2_ros tf2_echo).
+
+    Waits until the transform is there and says why it waits. Then, once a second:
+    translation, quaternion (x y z w), roll pitch yaw in radians and degrees, matrix.
+    Of a recording the whole span is printed, or one moment with --at or --once.
+
+    tftool echo turtle2 turtle1            turtle1 as turtle2 sees it
+    tftool echo map laser_link robot --at 12.5
+    tftool echo turtle2 turtle1 --offset -5 --fixed-frame world
+    """
+    from tftool.cli.hosting import A_MOMENT, NO_SESSION, named, open_session
+    from tftool.cli.notices import notice
+    from tftool.cli.waiting import FramePair
+    from tftool.sources.find import Kind
+
+    place, rate = _place_or_rate(place, rate)
+    if once and count not in (None, 1):
+        raise UsageError(f"--once and --count {count} contradict each other.")
+    if at is not None and count not in (None, 1):
+        raise UsageError(f"--at asks about one moment, and has one answer, not {count}.")
+    if fixed_frame is not None and offset is None:
+        raise UsageError("--fixed-frame needs --offset: it carries SOURCE over that time.")
+    if at is not None and offset is not None:
+        raise UsageError("--at and --offset both choose the moment: leave one out.")
+    for frame in (target, source, *([] if fixed_frame is None else [fixed_frame])):
+        _check_name(frame)
+
+    # What is recorded is all there: it is read, not waited for.
+    found = None if place is None else named(place)
+    recorded = found is not None and found.kind is not Kind.SCENARIO
+    if stamps_of is not None and (not recorded or at is not None or offset is not None):
+        raise UsageError("--at-stamps-of goes with a recording, and without --at and --offset.")
+    if (
+        found is not None
+        and found.kind.is_recording
+        and (stamps_of is not None or not (once or at is not None or offset is not None))
+    ):
+        from tftool.cli.hosting import refuse_to_share
+        from tftool.cli.recorded import moments
+
+        refuse_to_share(connection, place)
+        printer = Printer(precision, distance, for_programs)
+        notice(f"{view.in_words(target, source)}:")
+        stored = connection.open_stored(found)
+        for answer in moments(stored, target, source, rate=rate, topic=stamps_of, most=count):
+            printer.found(answer)
+        return ExitStatus.DONE
+    session = open_session(
+        connection,
+        place,
+        simulated=at is not None or recorded,
+        cache_time=cache_time,
+        because=NO_SESSION if at is None else A_MOMENT,
+    )
+    heading = view.in_words(target, source)
+    stamp = 0
+    if at is not None:
+        stamp = session.moment(at)
+        after = f"{at} after {session.name} began" if not at.is_stamp else f"at {at}"
+        heading += f", {after}"
+    if timeout is None and (stamp or recorded):
+        # What has not come a second after the moment asked about will not come.
+        timeout = max(stamp, session.world.clock.now()) - session.world.clock.now() + seconds(1)
+    notice(f"{heading}:")
+    if target == source:
+        notice("A frame seen from itself is always the identity.")
+    echoing = Echo(
+        session.world,
+        FramePair(target, source, stamp, offset or 0, fixed_frame),
+        Printer(precision, distance, for_programs),
+        period=seconds(1.0 / (rate or 1.0)),
+        count=1 if once or stamp or recorded else count,
+        patience=timeout,
+        tells=not (stamp or recorded),
+        departures=session.departures,
+    )
+    session.run(echoing.run())
+    return ExitStatus.DONE
+
+
+@dataclass(frozen=True, slots=True)
+class Printer:
+    """How answers are written to stdout."""
+
+    precision: int = 3
+    with_distance: bool = False
+    for_programs: bool = False
+
+    def found(self, found: "TransformStamped") -> None:
+        """Print an answer."""
+        if self.for_programs:
+            self._line(view.as_object(found, with_distance=self.with_distance))
+        else:
+            self._write(
+                view.block(found, precision=self.precision, with_distance=self.with_distance)
+            )
+
+    def failed(self, now: Stamp, refusal: TransformException, buffer: "Buffer") -> None:
+        """Print a refusal."""
+        if self.for_programs:
+            self._line(view.failure_as_object(now, refusal))
+        else:
+            self._write(view.failure(now, refusal, buffer.all_frames_as_string()))
+
+    def _line(self, what: object) -> None:
+        self._write(json.dumps(what, allow_nan=False) + "\n")
+
+    def _write(self, text: str) -> None:
+        sys.stdout.write(text)
+        sys.stdout.flush()
+
+
+class Echo:
+    """One pair of frames, looked up in one world until enough answers are printed."""
+
+    def __init__(
+        self,
+        world: "World",
+        pair: "FramePair",
+        printer: Printer,
+        *,
+        period: Duration,
+        count: int | None = None,
+        patience: Duration | None = None,
+        tells: bool = True,
+        departures: Callable[[], int] = lambda: 0,
+    ) -> None:
+        """Prepare to ask.
+
+        Args:
+            world: Whose frames.
+            pair: What to look up.
+            printer: How to print it.
+            period: Nanoseconds between two answers.
+            count: How many answers to print; None for no end.
+            patience: How long to wait for the first, in nanoseconds; None for ever.
+            tells: Whether to say why it waits; on simulated time there is no need to.
+            departures: Says how many have left that transforms came from; when another one
+                has, it waits again, for something new.
+        """
+        from tftool.cli.waiting import Waiter
+
+        self.world = world
+        self.pair = pair
+        self.printer = printer
+        self.period = period
+        self.count = count
+        self.departures = departures
+        self.waiter = Waiter(world, pair, patience=patience, tells=tells)
+
+    async def run(self) -> None:
+        """Print answers until there are enough.
+
+        Raises:
+            TransformException: If the first does not come in time, or never will.
+        """
+        from tftool.runtime.clock import Phase
+
+        clock = self.world.clock
+        await self.waiter.wait()
+        left = self.departures()
+        due = clock.now()
+        printed = 0
+        while True:
+            if self.departures() != left:
+                left = self.departures()
+                await self.waiter.wait(stale=self.pair.newest(self.world.buffer))
+                due = clock.now()
+            now = clock.now()
+            try:
+                self.printer.found(self.pair.ask(self.world.buffer, now))
+                printed += 1
+            except TransformException as refusal:
+                self.printer.failed(now, refusal, self.world.buffer)
+            if printed == self.count:
+                return
+            due += self.period
+            await clock.sleep_until(due, Phase.WATCH)
+            # Late by more than a period: what was missed is not made up for.
+            due = max(due, clock.now() - self.period)
+
+
+def _place_or_rate(place: str | None, rate: float | None) -> tuple[str | None, float | None]:
+    """Take tf2_echo's third word, its rate, where it can be nothing else."""
+    if place is None:
+        return place, rate
+    try:
+        number = float(place)
+    except ValueError:
+        return place, rate
+    from pathlib import Path
+
+    if Path(place).exists():
+        return place, rate
+    if rate is not None:
+        raise UsageError(f"The rate is given twice: {place} and --rate {rate:g}.")
+    return None, within(0.001, 1000)(number)
+
+
+def _check_name(frame: str) -> None:
+    if not frame:
+        raise UsageError("A frame's name cannot be empty.")
+    if frame.startswith("/"):
+        raise UsageError(
+            f"Frame \"{frame}\": in tf2 frame_ids cannot start with a '/'. "
+            f"Ask for {frame.lstrip('/') or 'its name without it'}."
+        )

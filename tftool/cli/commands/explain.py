@@ -1,0 +1,99 @@
+"""`tftool explain`: why one lookup answers or refuses, link by link."""
+
+import json
+import sys
+from typing import Annotated
+
+import typer
+
+from tftool.cli.app import ExitStatus
+from tftool.cli.connection import Connection
+from tftool.cli.options import (
+    At,
+    AtOption,
+    CacheTime,
+    From,
+    Json,
+    RunFor,
+    duration,
+    moment,
+    not_negative,
+)
+from tftool.errors import UsageError
+from tftool.stamps import LATEST, Duration, seconds
+
+
+def explain(
+    connection: Connection,
+    target: Annotated[str, typer.Argument(metavar="TARGET", help="Frame to express it in.")],
+    source: Annotated[str, typer.Argument(metavar="SOURCE", help="Frame whose pose is asked for.")],
+    place: From = None,
+    at: AtOption = None,
+    message: Annotated[
+        str,
+        typer.Option(
+            metavar="TOPIC[@MOMENT]",
+            help="Ask for the stamp of a message of this topic, when it arrived: the first one, "
+            "or the nearest to --at or to the moment behind its @.",
+        ),
+    ] = "",
+    asked_at: Annotated[
+        At | None,
+        typer.Option(
+            metavar="MOMENT",
+            parser=moment,
+            help="When it is asked, as log time; if not said, when the message of that stamp "
+            "arrived, else at the moment itself.",
+        ),
+    ] = None,
+    cache_time: CacheTime = None,
+    timeout: Annotated[
+        Duration,
+        typer.Option(
+            metavar="SECONDS", parser=duration(not_negative), help="How long the listener waits."
+        ),
+    ] = 0,
+    lasting: RunFor = None,
+    for_programs: Json = False,
+) -> ExitStatus:
+    """Say why a lookup refuses: which link, by how much, and what would let it through.
+
+    A listener is imagined that holds what had arrived when it asks. The exit status is 0
+    when the lookup answers, 4 when it does not.
+
+    tftool explain odom base_scan run.mcap --message /scan@4.25
+    tftool explain map base_link run.mcap --at 12.5 --cache-time 5
+    """
+    # Heavy imports wait until this command is the chosen one.
+    from tftool.cli.examining import material_of
+    from tftool.cli.printing import write
+    from tftool.diagnostics.explanation import Question, message_of, traced
+    from tftool.diagnostics.model import Model, Settings
+    from tftool.views import explanation as view
+
+    topic, _, behind = message.partition("@")
+    if behind and at is not None:
+        raise UsageError(f"--message {message} names a moment already: leave out --at.")
+    if behind:
+        at = moment(behind)
+    settings = Settings(cache_time=cache_time or seconds(10))
+    model = Model(material_of(connection, place, lasting), settings)
+    stamp = LATEST if at is None else at.stamp(model.epoch)
+    if topic:
+        heard, stamp = message_of(model, topic, stamp or None)
+        source = source or heard.frame
+    question = Question(
+        target,
+        source,
+        stamp,
+        None if asked_at is None else asked_at.stamp(model.start),
+        settings,
+        timeout,
+        topic,
+    )
+    found = traced(model, question)
+    if for_programs:
+        sys.stdout.write(json.dumps(view.as_object(found), indent=2, allow_nan=False) + "\n")
+    else:
+        write(view.render(found))
+    return ExitStatus.DONE if found.available else ExitStatus.NO_TRANSFORM

@@ -1,0 +1,20 @@
+"""`tftool help`: the same as `--help`."""
+
+from typing import Annotated
+
+import typer
+
+from tftool.cli.app import ExitStatus, main
+
+
+def help(
+    command: Annotated[
+        str | None, typer.Argument(metavar="[COMMAND]", help="What to explain.")
+    ] = None,
+) -> ExitStatus:
+    """Show the list of commands, or the help of one (man).
+
+    tftool help
+    tftool help echo
+    """
+    return ExitStatus(main(["--help"] if command is None else [command, "--help"]))

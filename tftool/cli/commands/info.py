@@ -1,0 +1,78 @@
+"""`tftool info`: what a recording or a robot description holds."""
+
+import json
+import sys
+from typing import TYPE_CHECKING, Annotated
+
+import typer
+
+from tftool.cli.app import ExitStatus
+from tftool.cli.connection import Connection
+from tftool.cli.options import Json
+from tftool.errors import UsageError
+
+if TYPE_CHECKING:
+    from tftool.sources.find import Found
+    from tftool.sources.recording import Recording
+
+
+def info(
+    connection: Connection,
+    place: Annotated[
+        str,
+        typer.Argument(
+            metavar="FROM", help="A recording (file, folder, glob) or a robot description."
+        ),
+    ],
+    for_programs: Json = False,
+) -> ExitStatus:
+    """Show what a recording or robot description holds (ros2 bag info).
+
+    Topics with their types, counts and publishers; frames and trees; every edge with its
+    rate, who publishes it (by node in ROS 1 bags, by topic else), and how much later than
+    its stamp it was received; what is damaged, what is odd, and what the doctor finds.
+    Of a robot description: joints with limits and mimics, the root, masses where given.
+
+    tftool info run.mcap
+    tftool info robot.urdf
+    """
+    from tftool.cli.hosting import named
+    from tftool.cli.recorded import read
+    from tftool.sources.find import Kind
+    from tftool.views import info as view
+    from tftool.views.escaping import visible
+
+    found = named(place)
+    if found.kind is Kind.DESCRIPTION:
+        _describe(found, for_programs=for_programs)
+        return ExitStatus.DONE
+    if not found.kind.is_recording:
+        word = visible(place)
+        raise UsageError(
+            f"'{word}' is a {found.kind.value} and no recording: 'tftool check {word}' plays it, "
+            f"'tftool tree {word}' shows its frames."
+        )
+    recording: Recording = read(found)
+    with recording:
+        if for_programs:
+            sys.stdout.write(json.dumps(view.as_object(recording), indent=2) + "\n")
+        else:
+            from tftool.diagnostics.judge import judge
+            from tftool.diagnostics.model import read as material_of
+            from tftool.views.findings import brief
+
+            diagnosis = judge(material_of(recording.source, recording.transforms))
+            sys.stdout.write(view.as_text(recording))
+            sys.stdout.write(f"\n{brief(diagnosis)}\n")
+    return ExitStatus.DONE
+
+
+def _describe(found: "Found", *, for_programs: bool) -> None:
+    from tftool.sources.robot import load_urdf
+    from tftool.views import robot_info as view
+
+    robot = load_urdf(found.paths[0])
+    if for_programs:
+        sys.stdout.write(json.dumps(view.as_object(found.name, robot), indent=2) + "\n")
+    else:
+        sys.stdout.write(view.as_text(found.name, robot))

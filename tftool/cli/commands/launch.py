@@ -1,0 +1,98 @@
+"""`tftool launch`: launch files without ROS."""
+
+from typing import TYPE_CHECKING, Annotated
+
+import typer
+
+from tftool.cli.app import ExitStatus
+from tftool.cli.connection import Connection, Mode
+from tftool.cli.options import RunFor, refuse_long_simulation
+
+if TYPE_CHECKING:
+    from tftool.runtime.log import LogRecord
+
+
+def launch(
+    connection: Connection,
+    words: Annotated[
+        list[str],
+        typer.Argument(
+            metavar="FILE|PACKAGE [FILE] [NAME:=VALUE]…",
+            help="A launch file, or a package and its launch file; then arguments.",
+        ),
+    ],
+    show_args: Annotated[
+        bool,
+        typer.Option("-s", "--show-args", "--show-arguments", help="Show what the file takes."),
+    ] = False,
+    force: Annotated[
+        bool, typer.Option("--ros-free", help="Also where a real ROS 2 is sourced.")
+    ] = False,
+    run_for: RunFor = None,
+    simulated: Annotated[
+        bool, typer.Option("--simulated", help="On simulated time: at once, the same every time.")
+    ] = False,
+) -> ExitStatus:
+    """Launch what a ROS 2 launch file says, without ROS (ros2 launch).
+
+    The file may be Python, XML or YAML. Packages are looked for below this folder, or in
+    the src it belongs to; nothing is built. turtlesim and turtle_tf2_py are tftool's own.
+
+    tftool launch pkg_tf turtle_following.launch.py source_frame:=carrot1
+    tftool launch turtle_tf2_py turtle_tf2_demo.launch.py --for 10
+    tftool launch launch/turtle_following.launch.xml --show-args
+    """
+    import sys
+    from pathlib import Path
+
+    from tftool.cli.hosting import open_empty_session, open_session
+    from tftool.cli.notices import notice, tell_record
+    from tftool.errors import NodeFailed, TftoolError, UsageError
+    from tftool.ros.host import hosting
+    from tftool.views.escaping import visible_lines
+
+    if simulated and run_for is None and not show_args:
+        raise UsageError("on simulated time a launch needs an end: --for SECONDS")
+    if simulated:
+        refuse_long_simulation(run_for)
+    workspace = hosting.Workspace(Path.cwd())
+    with hosting.ros_free(force=force):
+        hosting.packages.use(workspace)
+        path, rest = hosting.find_launch_file(workspace, words)
+        arguments = hosting.arguments_of(rest)
+        if show_args:
+            sys.stdout.write(visible_lines(hosting.show_arguments(path, workspace)) + "\n")
+            return ExitStatus.DONE
+        if connection.mode is Mode.JOIN and not simulated:
+            session = open_session(connection, head_start=0)
+        else:
+            # It brings all there is to it, and shares a session that runs all the same.
+            session = open_empty_session(connection, simulated=simulated)
+        connection.tell_read_only()
+        world = session.world
+
+        def say(level: str, who: str, text: str) -> None:
+            line = f"[{level}] [{who}]: {text}" if level else f"[{who}] {text}"
+            notice(visible_lines(line))
+
+        try:
+            started = hosting.Launch(world, path, workspace=workspace, arguments=arguments, say=say)
+        except BaseException:
+            session.abandon()
+            raise
+
+        def tell(record: "LogRecord") -> None:
+            # What the link has to say the session tells.
+            if record.node != "link":
+                tell_record(record, label=started.label_of(record))
+
+        world.log.listen(tell, "console")
+        try:
+            work = hosting.until(world, started.ended, run_for)
+            session.run(work, on_interrupt=started.interrupt)
+        except NodeFailed as failure:
+            # What the launch itself could not do is no failed node.
+            if failure.node == started.name and isinstance(failure.__cause__, TftoolError):
+                raise failure.__cause__ from None
+            raise
+        return ExitStatus.FAILED if started.failed else ExitStatus.DONE

@@ -1,0 +1,61 @@
+"""`tftool ros2`: the words of ROS 2's own command line, over our sessions."""
+
+from typing import Annotated
+
+import typer
+
+from tftool.cli.connection import Connection
+from tftool.cli.options import RunFor
+
+
+def ros2(
+    connection: Connection,
+    words: Annotated[
+        list[str],
+        typer.Argument(metavar="COMMAND VERB …", help="What stands behind ros2 with ROS."),
+    ],
+    place: Annotated[
+        str | None,
+        typer.Option("--in", metavar="SCENARIO", help="World to host: a scenario's name or file."),
+    ] = None,
+    run_for: RunFor = None,
+) -> int:
+    """Ask a session in the words of ROS 2's command line, without ROS.
+
+    topic list, echo, hz, info, type, pub; service list, type, call; param list, get, set, dump;
+    node list, info; action list, send_goal; interface show; pkg list. The options of each are
+    those of ROS 2. Options of this command go before COMMAND.
+
+    tftool ros2 topic list
+    tftool ros2 service call /spawn turtlesim/srv/Spawn "{x: 2, y: 2, theta: 0.2, name: ''}"
+    tftool ros2 topic pub /turtle1/cmd_vel geometry_msgs/msg/Twist "{linear: {x: 2.0}}"
+    """
+    from pathlib import Path
+
+    from tftool.cli.hosting import NO_SESSION, open_session
+    from tftool.cli.notices import tell_record
+    from tftool.errors import UsageError
+    from tftool.ros import ros2 as ros2_command
+    from tftool.ros.host import hosting, user_code
+    from tftool.ros.host.program import Program
+
+    if words[0] in ("run", "launch"):
+        raise UsageError(f"'ros2 {words[0]}' is 'tftool {words[0]}' here")
+    workspace = hosting.Workspace(Path.cwd())
+    body = ros2_command.body(words, workspace, typer.echo)
+    if words[0] in ("interface", "pkg"):
+        body()
+        return 0
+    session = open_session(connection, place, needs_messages=True, because=NO_SESSION)
+    world = session.world
+    world.log.listen(
+        lambda record: tell_record(record) if record.level in ("WARN", "ERROR") else None, "console"
+    )
+    ending = hosting.Ending(world)
+
+    async def work() -> None:
+        Program(world, world.free_name("ros2"), user_code.whole(body), argv=words, on_exit=ending)
+        await hosting.until(world, ending.over, run_for)
+
+    session.run(work())
+    return ending.judge()

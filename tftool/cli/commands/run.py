@@ -1,0 +1,132 @@
+"""`tftool run`: a node of the user's own, without ROS."""
+
+import itertools
+from collections.abc import Collection, Sequence
+from typing import TYPE_CHECKING, Annotated
+
+import typer
+
+from tftool.cli.connection import Connection
+from tftool.cli.options import RunFor, refuse_long_simulation
+from tftool.views.escaping import visible
+
+SIMULATED = "Simulated time is a world's own, and shares no session"
+
+if TYPE_CHECKING:
+    from tftool.runtime.log import LogRecord
+
+
+def misplaced(words: Sequence[str], own: Collection[str]) -> list[str]:
+    """What to tell who seems to mean this command, or ROS 2, by a word the node is given.
+
+    Args:
+        words: What stands after FILE.
+        own: The names of this command's options.
+    """
+    told = []
+    before = ""
+    for word in itertools.takewhile(lambda word: word != "--ros-args", words):
+        option = word.partition("=")[0]
+        if option.startswith("--") and option in own:
+            told.append(
+                f"'{visible(option)}' after FILE goes to the node; "
+                "tftool's own options stand before FILE."
+            )
+        elif before in ("-p", "-r", "--param", "--remap") and ":=" in word:
+            told.append(
+                f"'{before} {visible(word)}' goes to the node as it is; "
+                "ROS 2's arguments stand after --ros-args."
+            )
+        before = word
+    return told
+
+
+def run(
+    connection: Connection,
+    context: typer.Context,
+    target: Annotated[
+        str, typer.Argument(metavar="FILE|PACKAGE", help="A node's file, or a package.")
+    ],
+    rest: Annotated[
+        list[str] | None,
+        typer.Argument(
+            metavar="[EXECUTABLE] [ARGUMENTS] [--ros-args …]",
+            help="A package's executable; the node's own arguments; ROS 2's after --ros-args.",
+        ),
+    ] = None,
+    place: Annotated[
+        str | None,
+        typer.Option(
+            "--in", metavar="SCENARIO", help="World to host for it: a scenario's name or file."
+        ),
+    ] = None,
+    force: Annotated[
+        bool, typer.Option("--ros-free", help="Also where a real ROS 2 is sourced.")
+    ] = False,
+    run_for: RunFor = None,
+    simulated: Annotated[
+        bool, typer.Option("--simulated", help="On simulated time: at once, the same every time.")
+    ] = False,
+) -> int:
+    """Run a node written for ROS 2, unmodified, without ROS (ros2 run).
+
+    The file's own imports of rclpy, tf2_ros, geometry_msgs and so on are answered by tftool.
+    A package is looked for below this folder, or in the src it belongs to; nothing is built.
+    Options of this command go before FILE. Whether the node does what it should a scenario
+    judges: tftool check SCENARIO --run FILE.
+
+    tftool run turtle_tf_broadcaster.py --ros-args -p turtlename:=turtle1
+    tftool run pkg_tf turtle_following --ros-args -p source_frame:=carrot1
+    tftool run --in robot --simulated --for 20 my_listener.py
+    """
+    from pathlib import Path
+
+    from tftool.cli.hosting import NO_SESSION, open_empty_session, open_session
+    from tftool.cli.notices import notice, tell_record
+    from tftool.errors import UsageError
+    from tftool.ros.host import hosting
+
+    if simulated and run_for is None:
+        raise UsageError("on simulated time a run needs an end: --for SECONDS")
+    if simulated:
+        refuse_long_simulation(run_for)
+    words = list(rest or [])
+    own = {name for option in context.command.params for name in option.opts if name[0] == "-"}
+    for word in misplaced(words, own):
+        notice(word)
+    workspace = hosting.Workspace(Path.cwd())
+    simulator = (target, *words[:1]) == ("turtlesim", "turtlesim_node")
+    with hosting.ros_free(force=force):
+        hosting.packages.use(workspace)
+        hosting.check_program(workspace, target, words)
+        if simulator:
+            session = open_empty_session(connection, simulated=simulated)
+        else:
+            alone = None if place else lambda node: node.kind != "turtlesim"
+            session = open_session(
+                connection,
+                place,
+                simulated=simulated,
+                head_start=0,
+                needs_messages=True,
+                without=alone,
+                because=SIMULATED if simulated else NO_SESSION,
+            )
+        connection.tell_read_only()
+        world = session.world
+
+        def tell(record: "LogRecord") -> None:
+            # What the link has to say the session tells.
+            if record.node != "link":
+                tell_record(record)
+
+        world.log.listen(tell, "console")
+        ending: list[hosting.Ending] = []
+
+        async def work() -> None:
+            ending.append(hosting.Ending(world))
+            hosting.start_program(world, workspace, target, words, on_exit=ending[0])
+            await hosting.until(world, ending[0].over, run_for)
+
+        session.run(work())
+        return ending[0].judge()

@@ -1,0 +1,187 @@
+"""`tftool session`: who is there, what they publish, how often, since when."""
+
+import sys
+from typing import TYPE_CHECKING, Annotated, Any
+
+import typer
+
+from tftool.cli.app import ExitStatus
+from tftool.cli.connection import Connection, Mode
+from tftool.cli.options import Json, duration, positive
+from tftool.stamps import Duration, as_seconds, seconds
+
+if TYPE_CHECKING:
+    from tftool.link.session import Link
+
+
+ROLES = {"host": "hosts", "source": "brings its own", "guest": "joined"}
+"""What a process is to the others, in words."""
+
+_EVERY_NODES = ("rcl_interfaces/", "type_description_interfaces/")
+"""How the types of those services begin that every node of ROS 2 has."""
+
+
+def session(
+    connection: Connection,
+    listen_for: Annotated[
+        Duration,
+        typer.Option(
+            "--for",
+            metavar="SECONDS",
+            parser=duration(positive),
+            help="How long to listen for rates; 1 if not said.",
+            show_default=False,
+        ),
+    ] = seconds(1),
+    verbose: Annotated[
+        bool,
+        typer.Option("--verbose", "-v", help="List the services of parameters and actions, too."),
+    ] = False,
+    for_programs: Json = False,
+) -> ExitStatus:
+    """Show who shares the session that runs here (ros2 node list, ros2 topic list and hz).
+
+    Every process of tftool, its command and since when it is there; every node; every
+    topic and how often something comes in on it; every service. Services that each node has
+    for its parameters, and those that make up actions, are counted, and listed by --verbose;
+    --json has all of them.
+
+    tftool session
+    tftool session --connect tcp/localhost:7447
+    """
+    import json
+
+    from tftool.cli.notices import notice
+    from tftool.errors import LinkError, UsageError
+
+    if connection.mode is Mode.HOST:
+        raise UsageError("session lists who is there: it has nothing to --host.")
+    link = connection.open_link()
+    if link is None:
+        raise LinkError("there is no link to other processes here")
+    if link.unanswering:
+        notice(link.unanswering)
+    elif link.graph.is_empty:
+        notice(
+            f"No process is here in domain {connection.domain}: start 'tftool demo', for example."
+        )
+    found = _listened(connection, link, listen_for)
+    text = json.dumps(found) if for_programs else _written(found, verbose=verbose)
+    sys.stdout.write(text + "\n")
+    return ExitStatus.DONE
+
+
+def _listened(connection: Connection, link: "Link", lasting: Duration) -> dict[str, Any]:
+    """Everything that is known of a session after listening for a while."""
+    import asyncio
+
+    from tftool.link.graph import NODE, SERVER
+    from tftool.link.seam import Arrived
+    from tftool.link.session import is_plain
+    from tftool.runtime.clock import run
+    from tftool.runtime.endpoints import PUBLISHER, SUBSCRIPTION
+
+    counts: dict[str, int] = {}
+    clock = connection.providers.wall_clock()
+
+    def count(name: str) -> Any:
+        def heard(_: Arrived) -> None:
+            counts[name] = counts.get(name, 0) + 1
+
+        return heard
+
+    async def listen() -> None:
+        link.middleware.start(asyncio.get_running_loop())
+        for name, ros_type in {(one.name, one.ros_type) for one in link.graph.entities(PUBLISHER)}:
+            # What a stranger calls otherwise is listed, and cannot be listened to.
+            if is_plain(name) and is_plain(ros_type):
+                link.middleware.listen(name, ros_type, count(name))
+        link.settle()
+        await clock.sleep(lasting)
+
+    if not link.graph.is_empty:
+        run(clock, listen())
+    graph = link.graph
+    topics: dict[str, dict[str, Any]] = {}
+    for one in graph.entities(PUBLISHER, SUBSCRIPTION):
+        topic = topics.setdefault(
+            one.name, {"type": one.ros_type, "publishers": [], "subscribers": [], "rate": 0.0}
+        )
+        topic["publishers" if one.kind == PUBLISHER else "subscribers"].append(one.node)
+        topic["rate"] = counts.get(one.name, 0) / as_seconds(lasting)
+    for topic in topics.values():
+        topic["publishers"].sort()
+        topic["subscribers"].sort()
+    return {
+        "domain": link.options.domain,
+        "processes": [
+            {
+                "command": one.command,
+                "pid": one.pid,
+                "role": one.role.value,
+                "since": as_seconds(one.since),
+                "nodes": sorted(
+                    {each.node for each in graph.entities(NODE) if each.session == one.session}
+                ),
+            }
+            for one in graph.processes()
+        ],
+        "nodes": sorted({one.node for one in graph.entities(NODE)}),
+        "topics": {name: topics[name] for name in sorted(topics)},
+        "services": {
+            one.name: {"type": one.ros_type, "node": one.node}
+            for one in sorted(graph.entities(SERVER), key=lambda one: one.name)
+        },
+    }
+
+
+def _written(found: dict[str, Any], *, verbose: bool) -> str:
+    """Say it to a person; names come from strangers and are made harmless."""
+    from datetime import datetime
+
+    from tftool.views.escaping import visible
+
+    lines = [f"Processes ({len(found['processes'])})"]
+    for one in found["processes"]:
+        since = datetime.fromtimestamp(one["since"]).strftime("%H:%M:%S")
+        nodes = ", ".join(visible(node) for node in one["nodes"]) or "no nodes"
+        role = ROLES[one["role"]]
+        lines.append(
+            f"  tftool {visible(one['command'])}, process {one['pid']}, {role}, "
+            f"since {since}: {nodes}"
+        )
+    ours = {node for one in found["processes"] for node in one["nodes"]}
+    others = [node for node in found["nodes"] if node not in ours]
+    if others:
+        lines.append(f"Other nodes ({len(others)})")
+        lines += [f"  {visible(node)}" for node in others]
+    lines.append(f"Topics ({len(found['topics'])})")
+    width = max((len(visible(name)) for name in found["topics"]), default=0)
+    for name, topic in found["topics"].items():
+        lines.append(
+            f"  {visible(name):{width}}  {topic['rate']:7.1f} Hz  {visible(topic['type'])}  "
+            f"from {_several(topic['publishers'])}, to {_several(topic['subscribers'])}"
+        )
+    lines.append(f"Services ({len(found['services'])})")
+    shown = {
+        name: service["type"]
+        for name, service in found["services"].items()
+        if verbose or not _goes_without_saying(name, service["type"])
+    }
+    lines += [f"  {visible(name)}  {visible(ros_type)}" for name, ros_type in shown.items()]
+    folded = len(found["services"]) - len(shown)
+    if folded:
+        lines.append(f"  and {folded} of parameters and actions (--verbose lists them)")
+    return "\n".join(lines)
+
+
+def _goes_without_saying(name: str, ros_type: str) -> bool:
+    """Whether a service is no node's own: one that every node has, or hidden as in ROS 2."""
+    hidden = any(part.startswith("_") for part in name.split("/"))
+    return hidden or ros_type.startswith(_EVERY_NODES)
+
+
+def _several(nodes: list[str]) -> str:
+    from tftool.views.escaping import visible
+
+    return ", ".join(visible(node) for node in sorted(set(nodes))) or "none"

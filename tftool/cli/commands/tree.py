@@ -1,0 +1,217 @@
+"""`tftool tree`: which frame hangs from which, as text, data or a picture."""
+
+import sys
+from enum import StrEnum
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated
+
+import typer
+
+from tftool.cli.app import ExitStatus
+from tftool.cli.connection import Connection
+from tftool.cli.options import OUTPUT, AtOption, CacheTime, From, RunFor
+from tftool.errors import InputError, UsageError
+from tftool.stamps import Duration, seconds
+
+if TYPE_CHECKING:
+    from collections.abc import Callable
+
+    from tftool.cli.hosting import Session
+    from tftool.frames.sample import Snapshot
+    from tftool.runtime.log import LogRecord
+
+
+class Format(StrEnum):
+    """What a tree can be written as."""
+
+    tree = "tree"
+    json = "json"
+    yaml = "yaml"
+    dot = "dot"
+    mermaid = "mermaid"
+    svg = "svg"
+    pdf = "pdf"
+
+
+TEXTS = {
+    ".txt": Format.tree,
+    ".json": Format.json,
+    ".yaml": Format.yaml,
+    ".yml": Format.yaml,
+}
+"""What a file's suffix asks for, where it is no drawing."""
+
+
+def tree(
+    connection: Connection,
+    place: From = None,
+    form: Annotated[
+        Format | None,
+        typer.Option(
+            "--format",
+            "-f",
+            rich_help_panel=OUTPUT,
+            help="What to write; if not said, what -o ends in.",
+        ),
+    ] = None,
+    output: Annotated[
+        Path | None,
+        typer.Option(
+            "-o",
+            "--output",
+            metavar="FILE",
+            rich_help_panel=OUTPUT,
+            help="Where to write it; - is stdout.",
+        ),
+    ] = None,
+    at: AtOption = None,
+    watch: Annotated[bool, typer.Option("--watch", "-w", help="Draw it again and again.")] = False,
+    run_for: RunFor = None,
+    cache_time: CacheTime = None,
+) -> ExitStatus:
+    """Show which frame hangs from which (rqt_tf_tree, view_frames).
+
+    Every tree there is, and for every link: whether it is static, who broadcasts it, how
+    often, how long a past the buffer holds of it, and how old its newest data is.
+    A scenario is shown 5 s after its start, a recording at its end, if --at does not say.
+
+    tftool tree                   the tree of what runs here
+    tftool tree robot -o robot.svg --at 12.5
+    tftool tree --watch
+    """
+    from tftool.cli.hosting import observe, open_session
+
+    form = form or _form_of(output)
+    if watch:
+        if form is not Format.tree or output is not None or at is not None:
+            raise UsageError("--watch draws on the terminal: leave out --format, -o and --at.")
+        _watch(
+            lambda: open_session(connection, place, cache_time=cache_time, needs_messages=True),
+            run_for,
+        )
+        return ExitStatus.DONE
+    if run_for is not None:
+        raise UsageError("--for goes with --watch; without it the tree is written once.")
+    _write(observe(connection, place, at, cache_time=cache_time).snapshot(), form, output)
+    return ExitStatus.DONE
+
+
+def _form_of(output: Path | None) -> Format:
+    if output is None or str(output) == "-":
+        return Format.tree
+    from tftool.views.drawing import SUFFIXES
+
+    known = TEXTS | {suffix: Format(form) for suffix, form in SUFFIXES.items()}
+    suffix = output.suffix.lower()
+    if output.is_dir():
+        raise UsageError(f"'{output}' is a folder: name a file in it.")
+    if suffix not in known:
+        raise UsageError(
+            f"'{output}' does not say what to write: end it in {', '.join(sorted(known))}, "
+            "or give --format."
+        )
+    return known[suffix]
+
+
+def _write(snapshot: "Snapshot", form: Format, output: Path | None) -> None:
+    content = _content(snapshot, form, to_file=output is not None)
+    if output is None or str(output) == "-":
+        if isinstance(content, bytes):
+            if sys.stdout.isatty():
+                raise UsageError("A PDF is nothing for a terminal: say where it goes with -o FILE.")
+            sys.stdout.buffer.write(content)
+        else:
+            sys.stdout.write(content)
+        return
+    try:
+        if isinstance(content, bytes):
+            output.write_bytes(content)
+        else:
+            output.write_text(content, encoding="utf-8")
+    except OSError as error:
+        raise InputError(f"'{output}' cannot be written: {error.strerror or error}.") from error
+
+
+def _content(snapshot: "Snapshot", form: Format, *, to_file: bool) -> str | bytes:
+    from tftool.cli.notices import notice
+    from tftool.views import frame_tree
+
+    if form is Format.json:
+        import json
+
+        return json.dumps(frame_tree.as_object(snapshot), indent=2, allow_nan=False) + "\n"
+    if form is Format.yaml:
+        return frame_tree.as_yaml(snapshot)
+    if form is Format.tree:
+        return _drawn(snapshot, to_file=to_file)
+    from tftool.views.drawing import draw
+
+    drawing = draw(snapshot, form.value)
+    if drawing.note:
+        notice(drawing.note)
+    return drawing.content
+
+
+def _drawn(snapshot: "Snapshot", *, to_file: bool) -> str:
+    """The tree as this terminal shows it; in full where there is none."""
+    from rich.console import Console
+
+    from tftool.views import frame_tree
+
+    console = Console()
+    terminal = console.is_terminal and not to_file
+    picture = frame_tree.render(
+        snapshot,
+        width=console.width if terminal else None,
+        ascii_only=not to_file and console.options.ascii_only,
+    )
+    if not terminal:
+        return picture.plain + "\n"
+    with console.capture() as capture:
+        console.print(picture)
+    return capture.get()
+
+
+def _watch(open_session: "Callable[[], Session]", duration: Duration | None) -> None:
+    from rich.console import Console, Group
+    from rich.live import Live
+    from rich.text import Text
+
+    from tftool.cli.notices import is_news
+    from tftool.runtime.clock import Phase
+    from tftool.runtime.stopping import leave_screen
+    from tftool.views import frame_tree
+    from tftool.views.escaping import visible
+
+    console = Console()
+    if not console.is_terminal:
+        raise UsageError("--watch needs a terminal; without it the tree is written once.")
+    session = open_session()
+    world = session.world
+    # On this screen nothing else can be read.
+    news = Text(style="yellow")
+
+    def tell(record: "LogRecord") -> None:
+        if is_news(record):
+            news.plain = f"\n{visible(record.text)}"
+
+    world.log.listen(tell, "console")
+    world.clock.when_killed.add(leave_screen, "screen")
+
+    async def draw() -> None:
+        # Redrawn on the world's own ticks; rich's thread would draw half a change.
+        with Live(console=console, auto_refresh=False, screen=True) as live:
+            due = world.clock.now()
+            end = None if duration is None else due + duration
+            world.clock.limit(end)
+            while end is None or due <= end:
+                picture = frame_tree.render(
+                    world.buffer.snapshot(world.clock.now()),
+                    width=console.width,
+                    ascii_only=console.options.ascii_only,
+                )
+                live.update(Group(picture, news), refresh=True)
+                due = max(due + seconds(0.5), world.clock.now())
+                await world.clock.sleep_until(due, Phase.WATCH)
+
+    session.run(draw())

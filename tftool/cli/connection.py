@@ -1,0 +1,344 @@
+"""The connection of a command: the options by which it joins or hosts, and how far it reaches.
+
+Every command that may share a session takes a `Connection` as its first parameter;
+`with_connection` gives it one, made of those options, and closes what it opened.
+"""
+
+import functools
+import inspect
+import os
+from collections.abc import Callable
+from dataclasses import dataclass, field
+from enum import Enum, auto
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated, Any, Self
+
+import typer
+
+from tftool.cli.notices import notice
+from tftool.errors import InputError, UsageError
+
+if TYPE_CHECKING:
+    from tftool.cli.hosting import StoredFrames
+    from tftool.link.options import Options
+    from tftool.link.session import Link
+    from tftool.runtime.clock import Clock
+    from tftool.sources.find import Found
+    from tftool.stamps import Duration, Stamp
+
+LARGEST_DOMAIN = 232
+"""ROS 2's own limit."""
+
+
+class Mode(Enum):
+    """What a command was told to do about the session that may run here."""
+
+    AUTO = auto()
+    JOIN = auto()
+    HOST = auto()
+
+
+class Providers:
+    """What gives commands their real time and their links to other processes.
+
+    A test derives from it, and hands its own to `app.main`.
+    """
+
+    def wall_clock(
+        self, rate: float = 1.0, *, epoch: "Stamp | None" = None, head_start: "Duration" = 0
+    ) -> "Clock":
+        """Make a clock for a world that others may share; see `WallClock`."""
+        from tftool.runtime.clock import WallClock
+
+        return WallClock(rate, epoch=epoch, head_start=head_start)
+
+    def link(self, options: "Options") -> "Link | None":
+        """Open a link; None where every world keeps to itself.
+
+        Raises:
+            LinkError: If it cannot be opened.
+        """
+        from tftool.link.session import Link
+
+        return Link(options)
+
+    def stored(self, found: "Found") -> "StoredFrames":
+        """Open a recording or a robot description.
+
+        Raises:
+            InputError: If it cannot be read.
+        """
+        if not found.kind.is_recording:
+            from tftool.cli.described import read_at_rest
+
+            return read_at_rest(found)
+        from tftool.cli.recorded import read_and_tell
+
+        return read_and_tell(found)
+
+
+@dataclass(frozen=True, slots=True)
+class Connection:
+    """How a command takes part in a session, as its options say.
+
+    Use it in a `with`: at its end every link and file it opened is closed.
+
+    Attributes:
+        command: The command's name.
+        mode: Join, host, or what fits.
+        domain: Number of the ROS domain.
+        listen: Endpoints to open for other machines.
+        connect: Endpoints to go to.
+        tls: Certificate, key and authority, where given.
+        config: A zenoh configuration to take as it is.
+        read_only: Whether to look only.
+        providers: Where its clocks and links come from.
+    """
+
+    command: str = "tftool"
+    mode: Mode = Mode.AUTO
+    domain: int = 0
+    listen: tuple[str, ...] = ()
+    connect: tuple[str, ...] = ()
+    tls: tuple[Path, Path, Path] | None = None
+    config: Path | None = None
+    read_only: bool = False
+    providers: Providers = field(default_factory=Providers, compare=False, repr=False)
+    _opened: "list[Link | StoredFrames]" = field(default_factory=list, compare=False, repr=False)
+
+    def __enter__(self) -> Self:
+        return self
+
+    def __exit__(self, *error: object) -> None:
+        while self._opened:
+            self._opened.pop().close()
+
+    @property
+    def needs_link(self) -> bool:
+        """Whether something was asked for that only a link can give."""
+        return bool(
+            self.mode is Mode.JOIN
+            or self.listen
+            or self.connect
+            or self.config is not None
+            or self.read_only
+        )
+
+    def options(self) -> "Options":
+        """The same as the link takes it."""
+        from tftool.link.options import Certificates, Options, Reach
+
+        certificates = None if self.tls is None else Certificates(*self.tls)
+        reach = Reach(self.listen, self.connect, certificates, self.config)
+        return Options(self.command, self.domain, reach, self.read_only)
+
+    def open_link(self) -> "Link | None":
+        """Open a link, which is closed with this connection at the latest.
+
+        Raises:
+            LinkError: If it cannot be opened.
+        """
+        link = self.providers.link(self.options())
+        if link is not None:
+            self._opened.append(link)
+        return link
+
+    def open_stored(self, found: "Found") -> "StoredFrames":
+        """Open a recording or a robot description, which is closed with this connection.
+
+        Raises:
+            InputError: If it cannot be read.
+        """
+        stored = self.providers.stored(found)
+        self._opened.append(stored)
+        return stored
+
+    def refuse_read_only(self, purpose: str) -> None:
+        """Refuse --read-only for a command whose whole purpose is to publish.
+
+        Raises:
+            UsageError: If it was given.
+        """
+        if self.read_only:
+            raise UsageError(
+                f"--read-only publishes nothing, and to {purpose} is all {self.command} does."
+            )
+
+    def tell_read_only(self) -> None:
+        """Say what --read-only means for nodes that are run."""
+        if self.read_only:
+            notice(
+                "--read-only: what nodes here publish, broadcast and serve, no other process gets."
+            )
+
+
+SESSION_OPTIONS: dict[str, Any] = {
+    "join": Annotated[
+        bool, typer.Option("--join", help="Join the session that runs here; fail if none does.")
+    ],
+    "host": Annotated[
+        bool, typer.Option("--host", help="Host a world of its own, whatever runs here.")
+    ],
+    "domain": Annotated[
+        int | None,
+        typer.Option(
+            "--domain",
+            min=0,
+            max=LARGEST_DOMAIN,
+            metavar="N",
+            help="Session to share; ROS_DOMAIN_ID, else 0, if not said.",
+        ),
+    ],
+    "listen": Annotated[
+        list[str] | None,
+        typer.Option(
+            "--listen",
+            metavar="ENDPOINT",
+            help="Let other machines in, at tcp/0.0.0.0:7448 for example. All who reach "
+            "that port can see and drive everything: use tls/ in a network you share.",
+        ),
+    ],
+    "connect": Annotated[
+        list[str] | None,
+        typer.Option(
+            "--connect",
+            metavar="ENDPOINT",
+            help="Join another machine's session, or ROS 2's zenoh router: tcp/localhost:7447.",
+        ),
+    ],
+    "tls_cert": Annotated[
+        Path | None, typer.Option("--tls-cert", metavar="FILE", help="Our certificate, for tls/.")
+    ],
+    "tls_key": Annotated[
+        Path | None, typer.Option("--tls-key", metavar="FILE", help="Its private key.")
+    ],
+    "tls_ca": Annotated[
+        Path | None,
+        typer.Option("--tls-ca", metavar="FILE", help="Who signed the other side's certificate."),
+    ],
+    "zenoh_config": Annotated[
+        Path | None,
+        typer.Option("--zenoh-config", metavar="FILE", help="A zenoh configuration, as it is."),
+    ],
+    "read_only": Annotated[
+        bool, typer.Option("--read-only", help="Only look: publish nothing, serve nothing.")
+    ],
+}
+
+
+def with_connection(
+    command: Callable[..., Any], providers: Providers | None = None
+) -> Callable[..., Any]:
+    """Give a command its connection, and its command line the options for that.
+
+    Args:
+        command: Takes a `Connection` first; then its own options.
+        providers: Where clocks and links come from; the real ones when None.
+    """
+    signature = inspect.signature(command)
+    _, *own = signature.parameters.values()
+    added = [
+        inspect.Parameter(
+            name,
+            inspect.Parameter.KEYWORD_ONLY,
+            default=False if name in ("join", "host", "read_only") else None,
+            annotation=annotation,
+        )
+        for name, annotation in SESSION_OPTIONS.items()
+    ]
+
+    @functools.wraps(command)
+    def connected(*args: Any, **words: Any) -> Any:
+        given = {name: words.pop(name) for name in SESSION_OPTIONS if name in words}
+        with _read(command.__name__, providers or Providers(), **given) as connection:
+            return command(connection, *args, **words)
+
+    connected.__signature__ = signature.replace(  # type: ignore[attr-defined]
+        parameters=[*own, *added]
+    )
+    annotations = {**command.__annotations__, **SESSION_OPTIONS}
+    annotations.pop(next(iter(signature.parameters)), None)
+    connected.__annotations__ = annotations
+    return connected
+
+
+def _read(
+    command: str,
+    providers: Providers,
+    *,
+    join: bool = False,
+    host: bool = False,
+    domain: int | None = None,
+    listen: list[str] | None = None,
+    connect: list[str] | None = None,
+    tls_cert: Path | None = None,
+    tls_key: Path | None = None,
+    tls_ca: Path | None = None,
+    zenoh_config: Path | None = None,
+    read_only: bool = False,
+) -> Connection:
+    """Put the options together.
+
+    Raises:
+        UsageError: If they contradict each other.
+        InputError: If a file is not there, or not what it is given as.
+    """
+    if join and host:
+        raise UsageError("--join and --host contradict each other: choose one.")
+    if host and read_only:
+        raise UsageError("--read-only looks at a session, so it cannot --host one.")
+    if zenoh_config is not None and (listen or connect):
+        raise UsageError("--zenoh-config says all endpoints: leave out --listen and --connect.")
+    files = [tls_cert, tls_key, tls_ca]
+    given = [file for file in (*files, zenoh_config) if file is not None]
+    for file in given:
+        if not file.is_file():
+            raise InputError(f"There is no file '{file}'.")
+    if any(files) and not all(files):
+        raise UsageError("TLS here is mutual: give --tls-cert, --tls-key and --tls-ca together.")
+    endpoints = [*(listen or ()), *(connect or ())]
+    for endpoint in endpoints:
+        _check_endpoint(endpoint, has_files=all(files))
+    tls = (tls_cert, tls_key, tls_ca) if tls_cert and tls_key and tls_ca else None
+    if tls is not None:
+        from tftool.link.options import Certificates
+
+        Certificates(*tls).check()
+    return Connection(
+        command,
+        Mode.JOIN if join else Mode.HOST if host else Mode.AUTO,
+        _domain() if domain is None else domain,
+        tuple(listen or ()),
+        tuple(connect or ()),
+        tls,
+        zenoh_config,
+        read_only,
+        providers,
+    )
+
+
+def _check_endpoint(endpoint: str, *, has_files: bool) -> None:
+    from tftool.link.zenoh.settings import PROTOCOLS, SECURED, has_port
+
+    protocol, slash, address = endpoint.partition("/")
+    if not slash or not address or protocol not in PROTOCOLS:
+        raise UsageError(
+            f"'{endpoint}' is no endpoint: write PROTOCOL/ADDRESS, such as tcp/192.168.1.5:7448, "
+            f"with one of {', '.join(PROTOCOLS)}."
+        )
+    if not has_port(endpoint):
+        raise UsageError(
+            f"'{endpoint}' has no port: write {protocol}/HOST:PORT, such as "
+            f"{protocol}/192.168.1.5:7448."
+        )
+    if protocol in SECURED and not has_files:
+        raise UsageError(f"'{endpoint}' needs --tls-cert, --tls-key and --tls-ca.")
+
+
+def _domain() -> int:
+    text = os.environ.get("ROS_DOMAIN_ID", "")
+    if not text:
+        return 0
+    if not (text.isascii() and text.isdigit() and int(text[:9]) <= LARGEST_DOMAIN):
+        raise UsageError(f"ROS_DOMAIN_ID is '{text}', not a number from 0 to {LARGEST_DOMAIN}.")
+    return int(text)

@@ -1,0 +1,83 @@
+"""Where `doctor` and `explain` get what they look at: a recording, a scenario, a session."""
+
+from typing import TYPE_CHECKING
+
+from tftool.cli.connection import Connection
+from tftool.cli.hosting import LISTEN, NO_SESSION, Session, join_session, named, open_session
+from tftool.cli.notices import notice
+from tftool.diagnostics.hearing import Hearing
+from tftool.diagnostics.model import Material, read
+from tftool.errors import UsageError
+from tftool.sources.find import Kind
+from tftool.stamps import Duration, as_seconds, seconds
+from tftool.views.escaping import visible
+
+if TYPE_CHECKING:
+    from tftool.runtime.world import TransformMessage, World
+    from tftool.stamps import Stamp
+
+LISTEN_LIVE = seconds(10)
+"""How long a session that runs is listened to where nothing else is said."""
+
+
+def material_of(
+    connection: Connection, word: str | None, lasting: Duration | None = None
+) -> Material:
+    """What is known of the frames that FROM names.
+
+    A recording is read whole, a scenario played on simulated time, a session listened to.
+
+    Args:
+        connection: What the command's options say.
+        word: What FROM names; None for the session that runs, else the turtle world.
+        lasting: How long to listen, nanoseconds; the usual time when None.
+
+    Raises:
+        InputError: If the word names nothing, or it cannot be read.
+        LinkError: If a session was asked for and there is none.
+        UsageError: If the word names a robot description.
+    """
+    found = None if word is None else named(word)
+    if found is not None and found.kind.is_recording:
+        from tftool.cli import recorded
+
+        with recorded.read(found) as recording:
+            return read(recording.source, recording.transforms)
+    if found is not None and found.kind is Kind.DESCRIPTION:
+        raise UsageError(
+            f"'{visible(found.name)}' is a robot description, which publishes nothing to judge: "
+            f"'tftool tree {visible(found.name)}' shows its frames and reports its mistakes."
+        )
+    if word is None:
+        session = join_session(connection)
+        if session is not None:
+            lasting = lasting or LISTEN_LIVE
+            notice(f"Listening for {as_seconds(lasting):g} s ...")
+            return _heard(session, lasting, "live session")
+    session = open_session(connection, word, simulated=True, because=NO_SESSION)
+    whole = session.duration or LISTEN
+    return _heard(session, lasting or whole, "scenario")
+
+
+def _heard(session: Session, lasting: Duration, kind: str) -> Material:
+    """Listen to a world for so long."""
+    hearing = Hearing()
+    world = session.world
+    stops = [
+        world.tf.subscribe(lambda message: _hear(hearing, world, message, is_static=False)),
+        world.tf_static.subscribe(lambda message: _hear(hearing, world, message, is_static=True)),
+    ]
+    began: Stamp = world.clock.now()
+    try:
+        session.run(session.lasting(lasting))
+    finally:
+        for stop in stops:
+            stop()
+    return hearing.material(session.name, kind, began, world.clock.now())
+
+
+def _hear(
+    hearing: Hearing, world: "World", message: "TransformMessage", *, is_static: bool
+) -> None:
+    now = world.clock.now()
+    hearing.hear(now, message.transforms, message.authority, is_static=is_static)

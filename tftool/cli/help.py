@@ -1,0 +1,104 @@
+"""How help is laid out: commands by what one wants, options by what they are about."""
+
+from collections.abc import Callable, Sequence
+from typing import Any
+
+import typer
+from typer.core import TyperCommand, TyperGroup
+
+from tftool.cli.connection import SESSION_OPTIONS
+
+GROUPS = {
+    "Learn": ("demo", "teleop", "follow", "static"),
+    "Ask": ("echo", "tree", "monitor", "explain", "doctor", "ros2"),
+    "Look": ("view",),
+    "Work with files": ("info",),
+    "Run your own nodes": ("run", "launch", "session"),
+    "Check": ("check",),
+    "Help": ("help",),
+}
+"""Commands by what one wants; each command is in one of these."""
+
+_SESSION = "help_session"
+
+
+class Commands(TyperGroup):
+    """The `tftool` command, whose help lists its commands by group."""
+
+    def format_commands(self, ctx: Any, formatter: Any) -> None:
+        """Write the groups of commands."""
+        width = max(len(name) for name in self.commands)
+        for title, names in GROUPS.items():
+            rows = [
+                (name.ljust(width), self.commands[name].get_short_help_str(formatter.width))
+                for name in names
+                if name in self.commands
+            ]
+            if rows:
+                with formatter.section(title):
+                    formatter.write_dl(rows)
+
+
+class Command(TyperCommand):
+    """A command whose options are listed by what they are about, those of sessions when asked."""
+
+    def __init__(self, name: str | None, **words: Any) -> None:
+        super().__init__(name, **words)
+        if any(param.name in SESSION_OPTIONS for param in self.params):
+            self.params.append(_help_session())
+
+    def format_options(self, ctx: Any, formatter: Any) -> None:
+        """Write the arguments, then the options by their headings."""
+        sections: dict[str, list[tuple[str, str]]] = {"Arguments": [], "Options": []}
+        for param in self.get_params(ctx):
+            title = _title(param)
+            if title == SESSION and not ctx.meta.get(_SESSION):
+                continue
+            record = param.get_help_record(ctx)
+            if record is not None:
+                sections.setdefault(title, []).append(record)
+        # What every command has goes last.
+        sections["Help"] = sections.pop("Help", [])
+        for title, rows in sections.items():
+            if rows:
+                with formatter.section(title):
+                    formatter.write_dl(rows)
+
+
+SESSION = "Session and network"
+
+
+def _title(param: Any) -> str:
+    """Under which heading a parameter is listed."""
+    if param.param_type_name == "argument":
+        return "Arguments"
+    if param.name in SESSION_OPTIONS:
+        return SESSION
+    if param.name in ("help", _SESSION):
+        return "Help"
+    return getattr(param, "rich_help_panel", None) or "Options"
+
+
+def _help_session() -> Any:
+    """The option that shows the help with the options of sessions."""
+
+    def show(ctx: Any, param: Any, value: bool) -> None:
+        if value:
+            ctx.meta[_SESSION] = True
+            typer.echo(ctx.get_help())
+            ctx.exit()
+
+    return _option(show, ["--help-session"], f"Show this and the options of {SESSION.lower()}.")
+
+
+def _option(callback: Callable[..., None], names: Sequence[str], text: str) -> Any:
+    from typer.core import TyperOption
+
+    return TyperOption(
+        param_decls=[*names, _SESSION],
+        is_flag=True,
+        expose_value=False,
+        is_eager=True,
+        callback=callback,
+        help=text,
+    )

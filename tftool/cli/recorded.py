@@ -1,0 +1,168 @@
+"""A recording as FROM: opened with a bar where reading takes time, its damage told once."""
+
+import sys
+from typing import TYPE_CHECKING
+
+from tftool.cli.notices import notice
+from tftool.runtime.clock import WallClock
+from tftool.stamps import seconds
+from tftool.views.escaping import visible
+
+if TYPE_CHECKING:
+    from collections.abc import Iterator
+
+    from rich.progress import Progress, TaskID
+
+    from tftool.cli.hosting import StoredFrames
+    from tftool.frames.sample import TransformStamped
+    from tftool.sources.find import Found
+    from tftool.sources.recording import Recording
+
+PATIENCE = seconds(0.5)
+"""How long reading goes on before a bar shows."""
+
+_REDRAWN = seconds(0.1)
+_MOST_NOTICES = 8
+
+
+def read(found: "Found") -> "Recording":
+    """Open a recording and read its transforms.
+
+    Raises:
+        InputError: If it cannot be read.
+        UsageError: If it needs an extra that is not installed.
+    """
+    from tftool.sources.recording import open_recording
+
+    bar = Bar(f"Reading {visible(found.name)}")
+    recording = open_recording(found.name, progress=bar)
+    try:
+        _ = recording.transforms
+    except BaseException:
+        recording.close()
+        raise
+    finally:
+        bar.stop()
+    return recording
+
+
+def read_and_tell(found: "Found") -> "Recording":
+    """The same; what is damaged or odd is told on stderr."""
+    recording = read(found)
+    told = [
+        *recording.damage,
+        *(f"{text} ({count} times)." for text, count in recording.oddities.items()),
+    ]
+    for text in told[:_MOST_NOTICES]:
+        notice(visible(text))
+    if len(told) > _MOST_NOTICES:
+        notice(f"... and {len(told) - _MOST_NOTICES} more: 'tftool info {visible(found.name)}'.")
+    return recording
+
+
+class Bar:
+    """A bar on stderr, if that is a terminal, once reading has taken half a second."""
+
+    def __init__(self, what: str) -> None:
+        """Begin to wait.
+
+        Args:
+            what: What it says in front, fit for a terminal.
+        """
+        self._what = what
+        self._clock = WallClock()
+        self._since = self._drawn = self._clock.now()
+        self._progress: Progress | None = None
+        self._task: TaskID | None = None
+
+    def __call__(self, done: int, total: int) -> None:
+        """Show how far it has come: bytes, rate, time left."""
+        now = self._clock.now()
+        if now - self._since < PATIENCE or now - self._drawn < _REDRAWN or not sys.stderr.isatty():
+            return
+        self._drawn = now
+        if self._progress is None:
+            self._begin(total)
+        assert self._progress is not None
+        assert self._task is not None
+        self._progress.update(self._task, completed=done, total=total)
+        self._progress.refresh()
+
+    def _begin(self, total: int) -> None:
+        from rich.console import Console
+        from rich.markup import escape
+        from rich.progress import (
+            BarColumn,
+            DownloadColumn,
+            Progress,
+            TextColumn,
+            TimeRemainingColumn,
+            TransferSpeedColumn,
+        )
+
+        self._progress = Progress(
+            TextColumn(escape(self._what)),
+            BarColumn(),
+            DownloadColumn(),
+            TransferSpeedColumn(),
+            TimeRemainingColumn(),
+            console=Console(stderr=True),
+            transient=True,
+            auto_refresh=False,
+        )
+        self._task = self._progress.add_task("", total=total)
+        self._progress.start()
+
+    def stop(self) -> None:
+        """Take the bar away."""
+        if self._progress is not None:
+            self._progress.stop()
+            self._progress = None
+
+
+def moments(
+    stored: "StoredFrames",
+    target: str,
+    source: str,
+    *,
+    rate: float | None,
+    topic: str | None,
+    most: int | None,
+) -> "Iterator[TransformStamped]":
+    """Look a pair up at many moments of a recording; how many have no answer goes to stderr.
+
+    Args:
+        stored: The recording.
+        target: What the answers are expressed in.
+        source: What is asked about.
+        rate: Moments a second, from the first stamp on; once a second if None.
+        topic: Ask at the stamps of its messages instead.
+        most: How many to give; all if None.
+
+    Raises:
+        InputError: If it has no such topic.
+        TransformException: If the pair cannot be looked up at any of them.
+    """
+    import numpy as np
+
+    from tftool.frames.sample import TransformStamped
+    from tftool.geometry.rigid import Transform
+    from tftool.sources.recording import Recording
+
+    if topic is not None and isinstance(stored, Recording):
+        stamps = stored.headers(topic).stamps
+    else:
+        period = seconds(1.0 / (rate or 1.0))
+        stamps = np.arange(stored.start, stored.end + 1, period, dtype=np.int64)
+    path = stored.buffer.lookup_transforms(target, source, stamps, missing="nan")
+    places = np.flatnonzero(path.valid)
+    if len(stamps) and not len(places):
+        # Says why, of the first.
+        stored.buffer.lookup_transform(target, source, int(stamps[0]))
+    for place in places[:most].tolist():
+        x, y, z = path.translations[place].tolist()
+        qx, qy, qz, qw = path.rotations[place].tolist()
+        pose = Transform((x, y, z), (qx, qy, qz, qw))
+        yield TransformStamped(int(stamps[place]), target, source, pose)
+    if len(places) < len(stamps):
+        notice(f"At {len(stamps) - len(places)} of {len(stamps)} moments there is no answer.")

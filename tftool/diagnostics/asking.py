@@ -1,0 +1,141 @@
+"""The diagnosis in Python: of a recording, or of what a buffer holds."""
+
+from collections.abc import Sequence
+from typing import Protocol
+
+import numpy as np
+
+from tftool.diagnostics.explanation import Explanation, Question, traced
+from tftool.diagnostics.findings import Finding
+from tftool.diagnostics.judge import judge
+from tftool.diagnostics.model import CACHE_TIME, Material, Model, Settings, read
+from tftool.frames.buffer import Buffer
+from tftool.sources.contract import Edge, Publisher, Source, Transforms
+from tftool.stamps import LATEST, Duration, Stamp
+
+
+class Recorded(Protocol):
+    """What `tftool.open_recording` gives."""
+
+    @property
+    def source(self) -> Source:
+        """What is read from."""
+
+    @property
+    def transforms(self) -> Transforms:
+        """Every transform, in columns."""
+
+
+def diagnose(
+    recording: Recorded | Buffer,
+    *,
+    select: Sequence[str] = (),
+    ignore: Sequence[str] = (),
+    cache_time: Duration = CACHE_TIME,
+) -> list[Finding]:
+    """Say what is wrong with the frames.
+
+    A buffer keeps neither log times nor messages: what needs them is not looked for.
+
+    Args:
+        recording: A recording, or a buffer.
+        select: Ids or areas of checks to run; all where empty.
+        ignore: Ids or areas to leave out.
+        cache_time: How far back the listener that is thought of remembers, nanoseconds.
+
+    Returns:
+        What was found, by area, errors first. Findings with `because_of` are consequences.
+
+    Raises:
+        InputError: If nothing of the recording can be read.
+        UsageError: If there is no such check or area.
+    """
+    settings = Settings(cache_time=cache_time)
+    return list(judge(_material(recording), settings, select=select, ignore=ignore).findings)
+
+
+def explain(
+    recording: Recorded | Buffer,
+    target_frame: str,
+    source_frame: str,
+    time: Stamp = LATEST,
+    *,
+    asked_at: Stamp | None = None,
+    cache_time: Duration = CACHE_TIME,
+    timeout: Duration = 0,
+) -> Explanation:
+    """Say why a lookup answers or refuses, link by link.
+
+    Args:
+        recording: A recording, or a buffer.
+        target_frame: The frame to express things in.
+        source_frame: The frame they are given in.
+        time: The moment, nanoseconds; 0 for the latest.
+        asked_at: The log time at which it is asked; None for the arrival of the message of
+            that stamp in the source frame, else the moment itself (of a buffer: now).
+        cache_time: How far back the listener remembers, nanoseconds.
+        timeout: How long it waits, nanoseconds.
+
+    Raises:
+        InputError: If nothing of the recording can be read.
+    """
+    settings = Settings(cache_time=cache_time)
+    model = Model(_material(recording), settings)
+    if asked_at is None and not model.material.timed:
+        asked_at = model.end
+    return traced(model, Question(target_frame, source_frame, time, asked_at, settings, timeout))
+
+
+def _material(recording: Recorded | Buffer) -> Material:
+    return (
+        of_buffer(recording)
+        if isinstance(recording, Buffer)
+        else read(recording.source, recording.transforms)
+    )
+
+
+def of_buffer(buffer: Buffer, name: str = "buffer") -> Material:
+    """What a buffer holds, in columns; everything in it counts as arrived at its stamp."""
+    rows: dict[tuple[str, str, bool], list[np.ndarray[tuple[int, int], np.dtype[np.int64]]]] = {}
+    messages: dict[tuple[str, str, bool], list[int]] = {}
+    senders: list[int] = []
+    logs: list[int] = []
+    publishers: dict[Publisher, int] = {}
+    for child in buffer.frames():
+        held = buffer.samples(child)
+        for stamp, parent, pose, authority in zip(
+            held.stamps.tolist(),
+            held.parents.tolist(),
+            held.poses,
+            held.authorities.tolist(),
+            strict=True,
+        ):
+            key = (parent, child, held.is_static)
+            row = np.concatenate(([0.0], pose)).view(np.int64).reshape(1, 8)
+            row[0, 0] = stamp
+            rows.setdefault(key, []).append(row)
+            messages.setdefault(key, []).append(len(logs))
+            publisher = Publisher("/tf_static" if held.is_static else "/tf", authority)
+            senders.append(publishers.setdefault(publisher, len(publishers)))
+            logs.append(stamp)
+    moving = [log for log in logs if log] or [0]
+    edges = tuple(
+        Edge(*key, 0, np.concatenate(of), np.array(messages[key], dtype=np.int32))
+        for key, of in rows.items()
+    )
+    transforms = Transforms(
+        edges,
+        np.array(logs, dtype=np.int64),
+        np.array(senders, dtype=np.int32),
+        tuple(publishers),
+    )
+    return Material(
+        name=name,
+        kind="buffer",
+        transforms=transforms,
+        publishers=tuple(publishers),
+        start=min(moving),
+        end=max(moving),
+        timed=False,
+        recorded=False,
+    )

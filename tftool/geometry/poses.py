@@ -1,0 +1,115 @@
+"""Arithmetic of poses as seven plain floats: x, y, z and a unit quaternion x, y, z, w.
+
+The lookups of a buffer spend their time here. Each formula is written out in one function and
+makes one tuple: calls to `quaternions.rotate`, `multiply` and a slerp of its own cost 15 to 35 %
+of a lookup.
+"""
+
+import math
+from math import sin
+from typing import Final, TypeAlias
+
+Pose: TypeAlias = tuple[float, float, float, float, float, float, float]
+"""A pose of b in a: x, y, z in metres and a unit quaternion x, y, z, w."""
+
+Pair: TypeAlias = tuple[
+    int, float, float, float, float, float, float, float,
+    int, float, float, float, float, float, float, float,
+]  # fmt: skip
+"""Two poses, each with its stamp before it: whole nanoseconds, too large for a float's digits."""
+
+# Compiled, this is quicker than to look the name up each time; `sin` is C's own there.
+_acos: Final = math.acos
+
+
+def interpolate(pair: Pair, share: float) -> Pose:
+    """The pose on the way from one to the other of two poses.
+
+    The translation goes straight, the rotation along the shorter arc at constant speed. At
+    share 0 it is the first pose, to the last bit.
+
+    Args:
+        pair: The two poses, each behind its stamp: 16 numbers.
+        share: Share of the way, from 0 to 1.
+
+    Source:
+        Shoemake, "Animating Rotation with Quaternion Curves", SIGGRAPH 1985.
+    """
+    _, x, y, z, ax, ay, az, aw, _, ux, uy, uz, bx, by, bz, bw = pair
+    if share == 0.0:
+        return (x, y, z, ax, ay, az, aw)
+    cosine = ax * bx + ay * by + az * bz + aw * bw
+    take = 1.0
+    if cosine < 0.0:
+        cosine = -cosine
+        take = -1.0
+    if cosine < 1.0:
+        angle = _acos(cosine)
+        sine = sin(angle)
+        keep = sin((1.0 - share) * angle) / sine
+        take *= sin(share * angle) / sine
+    else:
+        # Too near for acos to tell; on an arc this short the chord is the arc. Between equals
+        # the rotation stays to the last bit.
+        return (
+            x + share * (ux - x),
+            y + share * (uy - y),
+            z + share * (uz - z),
+            ax + share * (take * bx - ax),
+            ay + share * (take * by - ay),
+            az + share * (take * bz - az),
+            aw + share * (take * bw - aw),
+        )
+    return (
+        x + share * (ux - x),
+        y + share * (uy - y),
+        z + share * (uz - z),
+        keep * ax + take * bx,
+        keep * ay + take * by,
+        keep * az + take * bz,
+        keep * aw + take * bw,
+    )
+
+
+def compose(outer: Pose, inner: Pose) -> Pose:
+    """One pose after another: `a_from_c` from `a_from_b` and `b_from_c`."""
+    ox, oy, oz, ax, ay, az, aw = outer
+    x, y, z, bx, by, bz, bw = inner
+    # As quaternions.rotate and quaternions.multiply.
+    cx = 2.0 * (ay * z - az * y)
+    cy = 2.0 * (az * x - ax * z)
+    cz = 2.0 * (ax * y - ay * x)
+    return (
+        x + aw * cx + ay * cz - az * cy + ox,
+        y + aw * cy + az * cx - ax * cz + oy,
+        z + aw * cz + ax * cy - ay * cx + oz,
+        aw * bx + ax * bw + ay * bz - az * by,
+        aw * by + ay * bw + az * bx - ax * bz,
+        aw * bz + az * bw + ax * by - ay * bx,
+        aw * bw - ax * bx - ay * by - az * bz,
+    )
+
+
+def between(first: Pose, second: Pose) -> Pose:
+    """The second pose as seen from the first: `b_from_c` from `a_from_b` and `a_from_c`.
+
+    The difference of the two places is turned, not each of them: where they are equal, the
+    answer is zero to the last bit.
+    """
+    ox, oy, oz, ax, ay, az, aw = first
+    x, y, z, bx, by, bz, bw = second
+    x -= ox
+    y -= oy
+    z -= oz
+    cx = 2.0 * (az * y - ay * z)
+    cy = 2.0 * (ax * z - az * x)
+    cz = 2.0 * (ay * x - ax * y)
+    return (
+        x + aw * cx - ay * cz + az * cy,
+        y + aw * cy - az * cx + ax * cz,
+        z + aw * cz - ax * cy + ay * cx,
+        aw * bx - ax * bw - ay * bz + az * by,
+        aw * by - ay * bw - az * bx + ax * bz,
+        aw * bz - az * bw - ax * by + ay * bx,
+        aw * bw + ax * bx + ay * by + az * bz,
+    )

@@ -1,0 +1,190 @@
+"""Rotating and chaining many poses in vectors: numbers in rows, a pose in each column.
+
+The fast half of `batch`, for arrays that are used again and again: nothing is allocated.
+Vectors lie as rows x, y, z, x, y, so that a cross product is three operations on three
+rows each; a quaternion has its w before them. What has one column stands for all.
+"""
+
+from typing import NamedTuple
+
+import numpy as np
+from numpy import add, multiply, subtract
+
+from tftool.geometry.batch import Floats
+
+# tan(x)/x = 1 + x²/3 + 2x⁴/15 + …
+_SERIES = (
+    1.0,
+    1.0 / 3.0,
+    2.0 / 15.0,
+    17.0 / 315.0,
+    62.0 / 2835.0,
+    1382.0 / 155925.0,
+    21844.0 / 6081075.0,
+    929569.0 / 638512875.0,
+)
+
+# What a left-out term may amount to.
+_NEGLIGIBLE = 2e-17
+
+
+class Arcs(NamedTuple):
+    """The shorter arcs from quaternions A to others, at constant speed.
+
+    At the share f of the way the rotation is that of the quaternion A + s·C, with
+    s = f·tan(fθ)/(fθ), which is √(1 + s²θ²) long: `tan_ratio` gives tan(fθ)/(fθ).
+
+    Attributes:
+        directions: C, at right angles to A and θ long, shape (n, 4).
+        half_angle_squared: θ², where θ is half the turn between the two, shape (n,).
+        terms: How many terms of the series of tan(x)/x the largest turn needs; 0 if too many.
+    """
+
+    directions: Floats
+    half_angle_squared: Floats
+    terms: int
+
+
+def arcs(starts: Floats, ends: Floats) -> Arcs:
+    """Work out the arcs between unit quaternions, shapes (n, 4), in any order of their parts.
+
+    Source:
+        Shoemake, "Animating Rotation with Quaternion Curves", SIGGRAPH 1985, divided by the
+        cosine of the angle so far, which one square root at the end of a chain makes good.
+    """
+    ends = np.where(_dot(starts, ends) < 0.0, -ends, ends)
+    apart = ends - starts
+    square = _dot(apart, apart)
+    # The chord is 2·sin(θ/2), and θ at most a right angle: no digits are lost, as they
+    # would be by the arc cosine.
+    chord = np.sqrt(square)
+    theta = 2.0 * np.arcsin(np.minimum(0.5 * chord, 1.0))
+    sine = chord * np.sqrt(np.maximum(1.0 - 0.25 * square, 0.0))
+    tiny = theta < 1e-9
+    stretch = np.where(tiny, 1.0, theta / np.where(tiny, 1.0, sine))
+    # ends − cos θ · starts, without the cancellation.
+    directions = (apart + 0.5 * square * starts) * stretch
+    half_angle_squared = theta[:, 0] * theta[:, 0]
+    return Arcs(directions, half_angle_squared, _terms(float(half_angle_squared.max(initial=0.0))))
+
+
+def _dot(first: Floats, second: Floats) -> Floats:
+    product: Floats = np.einsum("ij,ij->i", first, second)[:, None]
+    return product
+
+
+def _terms(square: float) -> int:
+    """How many terms of the series are needed up to an angle whose square this is."""
+    power = 1.0
+    for count, coefficient in enumerate(_SERIES):
+        if coefficient * power < _NEGLIGIBLE:
+            return count
+        power *= square
+    return 0 if _SERIES[-1] * power > _NEGLIGIBLE else len(_SERIES)
+
+
+def tan_ratio(squares: Floats, out: Floats, terms: int) -> None:
+    """Write tan(x)/x.
+
+    Args:
+        squares: x².
+        out: Is written to, of the same shape.
+        terms: How many terms of the series it takes; 0 for the tangent itself.
+    """
+    if terms == 0:
+        angles = np.sqrt(squares)
+        np.tan(angles, out)
+        # Where there is no angle, there is no way to go: what it is multiplied with is 0.
+        np.divide(out, angles, out, where=angles > 0.0)
+        return
+    out.fill(_SERIES[terms - 1])
+    for term in range(terms - 2, -1, -1):
+        multiply(out, squares, out)
+        add(out, _SERIES[term], out)
+
+
+class VectorRows:
+    """Vectors: rows x, y, z, x, y, and views of them."""
+
+    __slots__ = ("first", "repeat", "xyz", "yzx", "zxy")
+
+    def __init__(self, rows: Floats) -> None:
+        """Take five rows; the last two repeat the first two once `close` was called."""
+        self.xyz, self.yzx, self.zxy = rows[:3], rows[1:4], rows[2:5]
+        self.first, self.repeat = rows[:2], rows[3:]
+
+    def close(self) -> None:
+        """Repeat x and y, after x, y and z were written."""
+        np.copyto(self.repeat, self.first)
+
+
+class QuaternionRows:
+    """Quaternions of any length: rows w, x, y, z, x, y, and views of them."""
+
+    __slots__ = ("first", "repeat", "rows", "w", "wxyz", "xyz", "yzx", "zxy")
+
+    def __init__(self, rows: Floats) -> None:
+        """Take six rows; the last two repeat x and y once `close` was called."""
+        self.rows = rows
+        self.w, self.wxyz = rows[0], rows[:4]
+        self.xyz, self.yzx, self.zxy = rows[1:4], rows[2:5], rows[3:6]
+        self.first, self.repeat = rows[1:3], rows[4:]
+
+    def close(self) -> None:
+        """Repeat x and y, after w, x, y and z were written."""
+        np.copyto(self.repeat, self.first)
+
+    def conjugate(self) -> None:
+        """QuaternionRows the other way."""
+        vector = self.rows[1:]
+        np.negative(vector, vector)
+
+
+def rotate(
+    quaternions: QuaternionRows,
+    factor: "Floats | float",
+    vectors: VectorRows,
+    cross: VectorRows,
+    spare: Floats,
+) -> None:
+    """QuaternionRows vectors in vectors; x and y are not repeated.
+
+    Args:
+        quaternions: By what.
+        factor: 2 over the square of the quaternions' lengths.
+        vectors: What is turned.
+        cross: Is overwritten.
+        spare: Three rows that are overwritten.
+    """
+    multiply(quaternions.yzx, vectors.zxy, cross.xyz)
+    multiply(quaternions.zxy, vectors.yzx, spare)
+    subtract(cross.xyz, spare, cross.xyz)
+    multiply(cross.xyz, factor, cross.xyz)
+    cross.close()
+    xyz = vectors.xyz
+    multiply(cross.xyz, quaternions.w, spare)
+    add(xyz, spare, xyz)
+    multiply(quaternions.yzx, cross.zxy, spare)
+    add(xyz, spare, xyz)
+    multiply(quaternions.zxy, cross.yzx, spare)
+    subtract(xyz, spare, xyz)
+
+
+def chain(
+    first: QuaternionRows, second: QuaternionRows, out: QuaternionRows, spare: Floats
+) -> None:
+    """Multiply quaternions: `second` is applied first; `spare` is three rows to overwrite."""
+    xyz, w = out.xyz, out.w
+    multiply(first.yzx, second.zxy, xyz)
+    multiply(first.zxy, second.yzx, spare)
+    subtract(xyz, spare, xyz)
+    multiply(second.xyz, first.w, spare)
+    add(xyz, spare, xyz)
+    multiply(first.xyz, second.w, spare)
+    add(xyz, spare, xyz)
+    out.close()
+    multiply(first.xyz, second.xyz, spare)
+    multiply(first.w, second.w, w)
+    subtract(w, spare[0], w)
+    subtract(w, spare[1], w)
+    subtract(w, spare[2], w)

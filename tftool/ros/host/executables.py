@@ -1,0 +1,293 @@
+"""What a package's executable is: a user's console script or file, or a node of ours."""
+
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass
+from difflib import get_close_matches
+from pathlib import Path
+from typing import Any
+
+from tftool.errors import UsageError
+from tftool.frames.sample import TransformStamped
+from tftool.messages import Color
+from tftool.nodes import static_arguments
+from tftool.nodes.broadcasters import Broadcaster, DynamicCarrot, FixedCarrot, StaticBroadcaster
+from tftool.nodes.follower import Follower
+from tftool.nodes.points import MessageBroadcaster, PointDrawer
+from tftool.nodes.squares import DrawSquare, Mimic
+from tftool.nodes.static_turtle import static_turtle
+from tftool.nodes.turtlesim import BACKGROUND, Turtlesim
+from tftool.ros.host import user_code
+from tftool.ros.host.names import RosOptions, join
+from tftool.ros.host.program import Program
+from tftool.ros.host.workspace import Workspace, missing_package
+from tftool.runtime.node import Node
+from tftool.runtime.world import World
+
+
+class HasItsOwnCommand(UsageError):
+    """A program that people look at, or press keys in, was to be started among others."""
+
+
+@dataclass(frozen=True, slots=True)
+class Asked:
+    """How an executable of ours is to be started.
+
+    Attributes:
+        world: Where it lives.
+        name: Its node's full name.
+        namespace: The namespace it is in.
+        arguments: Its own arguments.
+        parameters: Values given for its node.
+        options: Everything `--ros-args` said.
+    """
+
+    world: World
+    name: str
+    namespace: str
+    arguments: Sequence[str]
+    parameters: dict[str, Any]
+    options: RosOptions
+
+    def text(self, name: str, default: str) -> str:
+        """A text parameter; asked for, so it counts as known."""
+        return str(self.parameters.pop(name, default))
+
+    def flag(self, name: str, default: bool) -> bool:
+        """A parameter that is true or false.
+
+        Raises:
+            UsageError: If it is neither.
+        """
+        value = self.parameters.pop(name, default)
+        if not isinstance(value, bool):
+            raise UsageError(f"parameter '{name}' is true or false, not {value!r}")
+        return value
+
+    def channel(self, name: str, default: int) -> int:
+        """A parameter that is a channel of a colour.
+
+        Raises:
+            UsageError: If it is none.
+        """
+        value = self.parameters.pop(name, default)
+        if isinstance(value, bool) or not isinstance(value, int) or not 0 <= value <= 255:
+            raise UsageError(f"parameter '{name}' is a whole number from 0 to 255, not {value!r}")
+        return value
+
+
+def _turtlesim(asked: Asked) -> Node:
+    background = Color(
+        asked.channel("background_r", BACKGROUND.r),
+        asked.channel("background_g", BACKGROUND.g),
+        asked.channel("background_b", BACKGROUND.b),
+    )
+    return Turtlesim(
+        asked.world,
+        asked.name,
+        holonomic=asked.flag("holonomic", False),
+        background=background,
+        namespace=asked.namespace,
+    )
+
+
+def _broadcaster(asked: Asked) -> Node:
+    turtle = asked.text("turtlename", "turtle")
+    return Broadcaster(asked.world, asked.name, turtle=turtle)
+
+
+def _follower(parameter: str) -> Callable[[Asked], Node]:
+    def make(asked: Asked) -> Node:
+        return Follower(asked.world, asked.name, leader=asked.text(parameter, "turtle1"))
+
+    return make
+
+
+def _static_turtle(asked: Asked) -> Node:
+    return StaticBroadcaster(asked.world, asked.name, transforms=[static_turtle(asked.arguments)])
+
+
+def _static_publisher(asked: Asked) -> Node:
+    said = static_arguments.parse(asked.arguments)
+    if said is None:
+        raise UsageError("'tftool static --help' says what static_transform_publisher takes")
+    sample = TransformStamped(0, said.parent, said.child, said.transform)
+    return StaticBroadcaster(asked.world, asked.name, transforms=[sample])
+
+
+def _mimic(asked: Asked) -> Node:
+    topics = {"input/pose": "turtle1/pose", "output/cmd_vel": "turtle2/cmd_vel"}
+    ends = [
+        asked.options.remapped(join(asked.namespace, name), asked.name, asked.namespace)
+        for name in topics
+    ]
+    leader, copy = (
+        end.removesuffix(tail) if end.endswith(tail) else default.removesuffix(tail)
+        for end, tail, default in zip(ends, ("/pose", "/cmd_vel"), topics.values(), strict=True)
+    )
+    return Mimic(asked.world, asked.name, leader=leader, copy=copy)
+
+
+_TF_PACKAGES = ("turtle_tf2_py", "turtle_tf2_cpp")
+
+# package, executable: the node's name unless told, and what makes it.
+_OURS: dict[tuple[str, str], tuple[str, Callable[[Asked], Node]]] = {
+    ("turtlesim", "turtlesim_node"): ("turtlesim", _turtlesim),
+    ("turtlesim", "draw_square"): ("draw_square", lambda a: DrawSquare(a.world, a.name)),
+    ("turtlesim", "mimic"): ("turtle_mimic", _mimic),
+    ("tf2_ros", "static_transform_publisher"): ("static_transform_publisher", _static_publisher),
+}
+for _package in _TF_PACKAGES:
+    _OURS |= {
+        (_package, "turtle_tf2_broadcaster"): ("turtle_tf2_frame_publisher", _broadcaster),
+        (_package, "turtle_tf2_listener"): (
+            "turtle_tf2_frame_listener",
+            _follower("target_frame"),
+        ),
+        (_package, "fixed_frame_tf2_broadcaster"): (
+            "fixed_frame_tf2_broadcaster",
+            lambda a: FixedCarrot(a.world, a.name),
+        ),
+        (_package, "dynamic_frame_tf2_broadcaster"): (
+            "dynamic_frame_tf2_broadcaster",
+            lambda a: DynamicCarrot(a.world, a.name),
+        ),
+        (_package, "static_turtle_tf2_broadcaster"): (
+            "static_turtle_tf2_broadcaster",
+            _static_turtle,
+        ),
+        (_package, "turtle_tf2_message_broadcaster"): (
+            "turtle_tf2_message_broadcaster",
+            lambda a: MessageBroadcaster(a.world, a.name),
+        ),
+        (_package, "turtle_tf2_message_filter"): (
+            "turtle_tf2_pose_drawer",
+            lambda a: PointDrawer(a.world, a.name, target_frame=a.text("target_frame", "turtle1")),
+        ),
+    }
+
+# What has a command of its own here.
+_ELSEWHERE = {
+    ("turtlesim", "turtle_teleop_key"): "tftool teleop",
+    ("tf2_ros", "tf2_echo"): "tftool echo",
+    ("tf2_ros", "tf2_monitor"): "tftool monitor",
+    ("tf2_tools", "view_frames"): "tftool tree --format pdf",
+    ("rqt_tf_tree", "rqt_tf_tree"): "tftool tree --watch",
+    ("rviz2", "rviz2"): "tftool view",
+}
+
+OUR_PACKAGES = tuple(sorted({package for package, _ in _OURS}))
+
+
+def start(
+    world: World,
+    workspace: Workspace,
+    package: str | None,
+    executable: str,
+    *,
+    label: str,
+    argv: Sequence[str],
+    arguments: Sequence[str],
+    options: RosOptions,
+    on_exit: Callable[[Program], object] | None = None,
+) -> Node:
+    """Start an executable in a world.
+
+    Args:
+        world: Where it is to live.
+        workspace: Where users' packages are looked for, first.
+        package: Its package; None for a file.
+        executable: Its name there, or the file.
+        label: What the program is called among others: "listener-4".
+        argv: Its whole `sys.argv`.
+        arguments: Its own arguments.
+        options: What `--ros-args` says.
+        on_exit: Called once a program of a user's has ended.
+
+    Raises:
+        HasItsOwnCommand: If it is one for a terminal of its own.
+        UsageError: If there is no such package or executable; the nearest is told.
+        InputError: If its file cannot be read or is no Python.
+    """
+    if package is None:
+        return start_file(
+            world, Path(executable), label=label, argv=argv, options=options, on_exit=on_exit
+        )
+    found = workspace.packages.get(package)
+    if found is not None and executable in found.scripts:
+        module, _, function = found.scripts[executable].partition(":")
+        body = user_code.entry_point_body(module, function or "main", root=found.path)
+        return _program(world, label, body, argv, options, on_exit)
+    if found is not None and (file := found.script_file(executable)) is not None:
+        return _program(world, label, user_code.file_body(file), argv, options, on_exit)
+    ours = _OURS.get((package, executable))
+    if ours is not None:
+        return _start_ours(world, ours, arguments, options)
+    elsewhere = _ELSEWHERE.get((package, executable))
+    if elsewhere is not None:
+        raise HasItsOwnCommand(
+            f"'{package} {executable}' is '{elsewhere}' here, in a terminal of its own"
+        )
+    known = [name for one, name in _OURS if one == package]
+    known += found.scripts if found is not None else []
+    if not known and found is None:
+        raise UsageError(missing_package(package, workspace, OUR_PACKAGES))
+    near = get_close_matches(executable, known, n=1)
+    hint = f"; did you mean '{near[0]}'?" if near else ""
+    raise UsageError(
+        f"package '{package}' has no executable '{executable}'{hint} "
+        f"(it has {', '.join(sorted(known)) or 'none'})"
+    )
+
+
+def start_file(
+    world: World,
+    path: Path,
+    *,
+    label: str,
+    argv: Sequence[str],
+    options: RosOptions,
+    on_exit: Callable[[Program], object] | None = None,
+) -> Program:
+    """Start a Python file in a world; the arguments are those of `start`.
+
+    Raises:
+        InputError: If the file cannot be read or is no Python.
+    """
+    return _program(world, label, user_code.file_body(path), argv, options, on_exit)
+
+
+def _program(
+    world: World,
+    label: str,
+    body: Callable[[], None],
+    argv: Sequence[str],
+    options: RosOptions,
+    on_exit: Callable[[Program], object] | None,
+) -> Program:
+    return Program(world, label, user_code.whole(body), argv=argv, options=options, on_exit=on_exit)
+
+
+def _start_ours(
+    world: World,
+    ours: tuple[str, Callable[[Asked], Node]],
+    arguments: Sequence[str],
+    options: RosOptions,
+) -> Node:
+    default, make = ours
+    name = options.name or default
+    namespace = (options.namespace or "").strip("/")
+    full = world.free_name(join(namespace, name))
+    parameters = options.parameters_for(name, namespace)
+    declared = dict(parameters)
+    node = make(Asked(world, full, namespace, arguments, parameters, options))
+    parameters.pop("use_sim_time", None)
+    _warn_of_unused(node, parameters, declared)
+    return node
+
+
+def _warn_of_unused(node: Node, unused: Mapping[str, Any], given: Mapping[str, Any]) -> None:
+    known = [*node.parameters.values(), *(set(given) - set(unused)), "turtlename", "target_frame"]
+    for name in unused:
+        near = get_close_matches(name, known, n=1)
+        hint = f"; did you mean '{near[0]}'?" if near else ""
+        node.warn(f"parameter '{name}' was given, but the node declares none of that name{hint}")

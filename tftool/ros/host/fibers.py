@@ -1,0 +1,395 @@
+"""Users' blocking code and the event loop, taking turns.
+
+A fiber is a thread whose code may block as ROS nodes do (`rclpy.spin`,
+`time.sleep`, `client.call`). It never touches the world itself: it asks, the
+event loop does, and the thread sleeps until it has its answer. To the loop it
+looks like a coroutine.
+
+On the simulated clock the loop stands still while a fiber runs, so exactly one
+of them moves at any time, and two runs are the same run to the last bit. On the
+wall clock the loop goes on, so code that is busy holds up nobody else.
+"""
+
+import asyncio
+import ctypes
+import inspect
+import linecache
+import sys
+import threading
+from collections.abc import Callable
+from dataclasses import dataclass
+from pathlib import Path
+from types import FrameType, TracebackType
+from typing import Any, TypeVar
+
+from tftool.errors import TftoolError
+
+T = TypeVar("T")
+
+PATIENCE = 2.0
+"""Real seconds a fiber may be busy before it is named."""
+
+GIVE_UP = 10.0
+"""Real seconds after which simulated time, which stands still meanwhile, gives a fiber up."""
+
+GRACE = 0.25
+"""Real seconds an interrupted fiber is given to come to rest by itself."""
+
+AFTERLIFE = 50
+"""How often an interrupted fiber may ask to wait before it is left alone."""
+
+LAST_REQUESTS = 1000
+"""How much an interrupted fiber may ask for without waiting, such as to publish; then its
+requests raise as its waits do."""
+
+_OURS = str(Path(__file__).resolve().parents[2])
+_LIBRARY = str(Path(threading.__file__).resolve().parent)
+
+_local = threading.local()
+
+
+class EndedError(TftoolError):
+    """Something was asked of a world that lives no more."""
+
+
+class StuckError(TftoolError):
+    """A callback came to no end while simulated time waited for it."""
+
+
+@dataclass(frozen=True, slots=True)
+class CodeLine:
+    """A line of a user's code.
+
+    Attributes:
+        file: The file's path.
+        line: Its number, from 1.
+        function: The function it is in.
+        text: The line itself, stripped.
+    """
+
+    file: str
+    line: int
+    function: str
+    text: str
+
+    def __str__(self) -> str:
+        where = f"{self.file}:{self.line}, in {self.function}"
+        return f"{where}: {self.text}" if self.text else where
+
+
+def user_line(frame: FrameType | None) -> CodeLine | None:
+    """The innermost line of a stack that is neither ours nor Python's own."""
+    while frame is not None:
+        file = frame.f_code.co_filename
+        if _is_users(file):
+            return _place(file, frame.f_lineno, frame.f_code.co_name)
+        frame = frame.f_back
+    return None
+
+
+def user_line_of_error(trace: TracebackType | None) -> CodeLine | None:
+    """The innermost line of a traceback that is neither ours nor Python's own."""
+    found = None
+    while trace is not None:
+        code = trace.tb_frame.f_code
+        if _is_users(code.co_filename):
+            found = _place(code.co_filename, trace.tb_lineno, code.co_name)
+        trace = trace.tb_next
+    return found
+
+
+def _is_users(file: str) -> bool:
+    if file.startswith((_OURS, "<frozen")):
+        return False
+    return "site-packages" in file or not file.startswith(_LIBRARY)
+
+
+def _place(file: str, line: int, function: str) -> CodeLine:
+    return CodeLine(file, line, function, linecache.getline(file, line).strip())
+
+
+class Fiber:
+    """One thread of users' code.
+
+    Attributes:
+        name: Whose code it is.
+        interrupted: Whether it was asked to end; every wait then raises KeyboardInterrupt.
+        error: What its body raised, once it has ended.
+        ended: Whether its body is over.
+        owner: Whose fiber it is, for `current`.
+        end: Makes what every wait raises once it was asked to end.
+    """
+
+    def __init__(
+        self,
+        name: str,
+        body: Callable[[], object],
+        *,
+        strict: bool,
+        on_busy: Callable[[CodeLine | None], object] = lambda place: None,
+        patience: float | None = None,
+        give_up: float | None = None,
+        told_to_end: Callable[[], bool] = lambda: False,
+    ) -> None:
+        """Prepare a thread for `body`; `drive` starts it.
+
+        Args:
+            name: Whose code it is, for messages.
+            body: What to run.
+            strict: Whether the loop stands still while the thread runs.
+            on_busy: Told once, on the loop's thread, when the code has not come to rest for
+                `patience` real seconds (`PATIENCE` unless told).
+            patience: See `on_busy`.
+            give_up: In strict mode, after how many real seconds the code is stopped (`GIVE_UP`
+                unless told).
+            told_to_end: In strict mode, whether a signal has come meanwhile: the loop, which
+                stands still, learns of it only afterwards.
+        """
+        self.name = name
+        self.interrupted = False
+        self.error: BaseException | None = None
+        self.ended = False
+        self.owner: Any = None
+        self._strict = strict
+        self._on_busy = on_busy
+        self._patience = PATIENCE if patience is None else patience
+        self._give_up = GIVE_UP if give_up is None else give_up
+        self._told_to_end = told_to_end
+        self._go = _taken_lock()
+        self._rest = _taken_lock()
+        self._request: Callable[[], Any] | None = None
+        self._answer: tuple[Any, BaseException | None] = (None, None)
+        self._arrived: tuple[asyncio.AbstractEventLoop, asyncio.Future[None]] | None = None
+        self.end: Callable[[], BaseException] = KeyboardInterrupt
+        self._thread: threading.Thread | None = threading.Thread(
+            target=self._main, args=(body,), name=name, daemon=True
+        )
+
+    @classmethod
+    def adopt(cls, name: str) -> "Fiber":
+        """Make the calling thread a fiber; `drive` it from a loop on another thread."""
+        fiber = cls(name, lambda: None, strict=True)
+        fiber._thread = None
+        fiber.end = lambda: EndedError("the world has ended")
+        _local.fiber = fiber
+        return fiber
+
+    def release(self) -> None:
+        """End an adopted fiber; its thread is an ordinary one from now on."""
+        _local.fiber = None
+        self._post(None)
+
+    # The fiber's side.
+
+    def ask(self, request: Callable[[], Any]) -> Any:
+        """Have `request` called on the loop's thread, and wait for its result.
+
+        If it returns an awaitable, that is awaited first. Called on the fiber's own thread only.
+
+        Raises:
+            KeyboardInterrupt: If the fiber was asked to end while it waited.
+            Exception: What `request` raises.
+        """
+        __tracebackhide__ = True
+        self._answer = (None, None)
+        self._post(request)
+        self._go.acquire()
+        value, error = self._answer
+        if error is not None:
+            raise error
+        return value
+
+    def _main(self, body: Callable[[], object]) -> None:
+        self._go.acquire()
+        _local.fiber = self
+        try:
+            body()
+        except BaseException as error:
+            self.error = error
+        finally:
+            _local.fiber = None
+            self._post(None)
+
+    def _post(self, request: Callable[[], Any] | None) -> None:
+        self._request = request
+        if request is None:
+            self.ended = True
+        self._rest.release()
+        arrived = self._arrived
+        if arrived is not None:
+            loop, future = arrived
+            try:
+                loop.call_soon_threadsafe(_done, future)
+            except RuntimeError:  # the loop is closed: this fiber was left alone
+                return
+
+    # The loop's side.
+
+    async def drive(self) -> None:
+        """Run the body to its end, doing what it asks for.
+
+        Cancelling this interrupts the fiber: the wait it is in raises KeyboardInterrupt,
+        as Ctrl-C does in a ROS node, and it is driven on until it has ended.
+
+        Raises:
+            StuckError: In strict mode, if the body came to no rest and was given up.
+        """
+        if self._thread is not None:
+            self._thread.start()
+        answer: tuple[Any, BaseException | None] = (None, None)
+        first = True
+        refused = late = 0
+        while refused < AFTERLIFE:
+            await self._turn(answer, go=not first or self._thread is not None)
+            first = False
+            request = self._request
+            if self.ended or request is None:
+                return
+            late += self.interrupted
+            if late > LAST_REQUESTS:
+                # A loop that publishes and never waits would go on for ever.
+                refused += 1
+                answer = (None, self.end())
+                continue
+            try:
+                value = request()
+                if inspect.isawaitable(value):
+                    if self.interrupted:
+                        discard(value)
+                        refused += 1
+                        raise asyncio.CancelledError
+                    value = await value
+                answer = (value, None)
+            except asyncio.CancelledError:
+                self.interrupted = True
+                answer = (None, self.end())
+            except Exception as error:
+                answer = (None, error)
+        self._leave_alone()
+
+    def _leave_alone(self) -> None:
+        """Note that the code did not end when it was asked to; its thread ends with the process."""
+        self.ended = True
+        self.error = StuckError(
+            f"'{self.name}' has not returned after the end of the run: "
+            f"{self.place() or 'no line of yours is running'}"
+        )
+
+    async def _turn(self, answer: tuple[Any, BaseException | None], *, go: bool) -> None:
+        """Let the thread run until it asks for something or ends."""
+        if self._strict:
+            self._hand_over(answer, go)
+            self._wait_for_rest()
+            return
+        loop = asyncio.get_running_loop()
+        arrived = loop.create_future()
+        self._arrived = (loop, arrived)
+        alarm = loop.call_later(self._patience, self._say_busy)
+        self._hand_over(answer, go)
+        try:
+            await arrived
+        except asyncio.CancelledError:
+            await self._interrupt(loop)
+        finally:
+            alarm.cancel()
+            self._arrived = None
+        self._rest.acquire(blocking=False)
+
+    def _hand_over(self, answer: tuple[Any, BaseException | None], go: bool) -> None:
+        if go:
+            self._answer = answer
+            self._go.release()
+
+    def _wait_for_rest(self) -> None:
+        if self._thread is None:
+            self._rest.acquire()
+            return
+        if self._rests_within(self._patience):
+            return
+        if not self._told_to_end():
+            self._say_busy()
+            if self._rests_within(max(0.0, self._give_up - self._patience)):
+                return
+        if self._told_to_end():
+            self._end_now()
+            return
+        place = self.place()
+        self._raise_in_thread(SystemExit)
+        self._rest.acquire(timeout=1.0)
+        self.ended = True
+        raise StuckError(
+            f"'{self.name}' did not come to rest for {self._give_up:g} s and simulated time "
+            f"waits for it: {place or 'no line of yours is running'}"
+        )
+
+    def _rests_within(self, limit: float) -> bool:
+        """Whether the thread comes to rest in so many real seconds, unless told to end."""
+        while limit > 0.0 and not self._told_to_end():
+            part = min(limit, GRACE)
+            if self._rest.acquire(timeout=part):
+                return True
+            limit -= part
+        return self._rest.acquire(blocking=False)
+
+    def _end_now(self) -> None:
+        """End code that a signal found busy; what does not heed it is left alone."""
+        if not self.interrupted:
+            self.interrupted = True
+            self._raise_in_thread(KeyboardInterrupt)
+        if not self._rest.acquire(timeout=GRACE * 4):
+            self._leave_alone()
+
+    async def _interrupt(self, loop: asyncio.AbstractEventLoop) -> None:
+        """End code that is running right now: politely first, then by raising in it."""
+        self.interrupted = True
+        for forced in (False, True):
+            if forced:
+                self._raise_in_thread(KeyboardInterrupt)
+            arrived = loop.create_future()
+            self._arrived = (loop, arrived)
+            if self._rest.acquire(blocking=False):
+                self._rest.release()
+                return
+            await asyncio.wait([arrived], timeout=GRACE * (4 if forced else 1))
+            if arrived.done():
+                return
+        self._leave_alone()
+
+    def _say_busy(self) -> None:
+        self._on_busy(self.place())
+
+    def place(self) -> CodeLine | None:
+        """The line of users' code this fiber is at."""
+        if self._thread is None or self._thread.ident is None:
+            return None
+        return user_line(sys._current_frames().get(self._thread.ident))
+
+    def _raise_in_thread(self, kind: type[BaseException]) -> None:
+        if self._thread is not None and self._thread.ident is not None:
+            ctypes.pythonapi.PyThreadState_SetAsyncExc(
+                ctypes.c_ulong(self._thread.ident), ctypes.py_object(kind)
+            )
+
+
+def current() -> Fiber | None:
+    """The fiber whose thread this is; None on the loop's and on foreign threads."""
+    return getattr(_local, "fiber", None)
+
+
+def _taken_lock() -> threading.Lock:
+    # One thread releases it, another takes it: the fastest signal there is.
+    lock = threading.Lock()
+    lock.acquire()
+    return lock
+
+
+def _done(future: "asyncio.Future[None]") -> None:
+    if not future.done():
+        future.set_result(None)
+
+
+def discard(awaitable: Any) -> None:
+    """Give an awaitable up that nobody will await."""
+    close = getattr(awaitable, "close", None) or getattr(awaitable, "cancel", None)
+    if close is not None:
+        close()

@@ -1,0 +1,224 @@
+"""Running users' programs in a world, for the commands `run` and `launch`."""
+
+import asyncio
+from collections.abc import Callable, Sequence
+from pathlib import Path
+
+from tftool.errors import NodeFailed, UsageError
+from tftool.ros.host import executables, importing, names, user_code
+from tftool.ros.host.error_text import error_sentence
+from tftool.ros.host.fibers import StuckError
+from tftool.ros.host.importing import ros_free
+from tftool.ros.host.program import Program
+from tftool.ros.host.workspace import Workspace
+from tftool.ros.launch import packages
+from tftool.ros.launch.arguments import declared, shown_arguments
+from tftool.ros.launch.context import LaunchContext
+from tftool.ros.launch.engine import Launch
+from tftool.ros.launch.files import load_file
+from tftool.runtime.clock import Phase
+from tftool.runtime.world import World
+from tftool.stamps import Duration
+
+FILES = (".py", ".xml", ".yaml", ".yml")
+
+
+def is_file(word: str) -> bool:
+    """Whether a word of the command line means a file, rather than a package."""
+    return Path(word).suffix in FILES or "/" in word or Path(word).is_file()
+
+
+def check_program(workspace: Workspace, target: str, rest: Sequence[str]) -> None:
+    """Refuse words that `start_program` would refuse, before there is a world.
+
+    Raises:
+        UsageError: If no executable is named, or what follows `--ros-args` is malformed.
+        InputError: If the file cannot be read or is no Python.
+    """
+    words = rest
+    if is_file(target):
+        if ".launch." in Path(target).name:
+            raise UsageError(
+                f"'{target}' is a launch file: 'tftool launch {target}' carries it out"
+            )
+        user_code.compile_file(Path(target))
+    else:
+        _need_executable(workspace, target, rest)
+        words = rest[1:]
+    names.parse(words)
+
+
+def _need_executable(workspace: Workspace, target: str, rest: Sequence[str]) -> None:
+    if rest and not rest[0].startswith("-"):
+        return
+    found = workspace.packages.get(target)
+    if found is None and Path(target).is_dir():
+        raise UsageError(f"'{target}' is a folder: give a node's file, or PACKAGE EXECUTABLE")
+    known = ", ".join(sorted(found.scripts)) if found is not None else ""
+    hint = f" ({known})" if known else ""
+    raise UsageError(f"which executable of package '{target}'?{hint} For a file, give its path")
+
+
+def start_program(
+    world: World,
+    workspace: Workspace,
+    target: str,
+    rest: Sequence[str],
+    *,
+    on_exit: Callable[[Program], object],
+    name: str = "",
+) -> str:
+    """Start a node's file, or a package's executable, in a world.
+
+    Args:
+        world: Where it is to live.
+        workspace: Where packages are looked for.
+        target: The file, or the package.
+        rest: What follows; for a package, the executable first.
+        on_exit: Called once a program of a user's has ended.
+        name: What it and its node are called, unless `--ros-args` names the node; when
+            empty, what the file or the executable is called.
+
+    Returns:
+        What it is called.
+
+    Raises:
+        UsageError: If there is no such executable, or what follows is malformed.
+        InputError: If the file cannot be read or is no Python.
+    """
+    if is_file(target):
+        path = Path(target)
+        options, _ = names.parse(rest)
+        options.name = options.name or name or None
+        label = world.free_name(name or path.stem)
+        argv = [target, *rest]
+        executables.start_file(
+            world, path, label=label, argv=argv, options=options, on_exit=on_exit
+        )
+        return label
+    _need_executable(workspace, target, rest)
+    executable, *words = rest
+    options, arguments = names.parse(words)
+    options.name = options.name or name or None
+    label = world.free_name(name or executable)
+    executables.start(
+        world,
+        workspace,
+        target,
+        executable,
+        label=label,
+        argv=[executable, *words],
+        arguments=arguments,
+        options=options,
+        on_exit=on_exit,
+    )
+    return label
+
+
+def find_launch_file(workspace: Workspace, words: Sequence[str]) -> tuple[Path, list[str]]:
+    """The launch file that the first word, or the first two, mean; and the words after it.
+
+    Raises:
+        UsageError: If there is none; the ones of the package are told.
+    """
+    first, *rest = words
+    if is_file(first):
+        return Path(first), rest
+    folder = workspace.share(first)
+    if not rest or ":=" in rest[0]:
+        raise UsageError(f"which launch file of package '{first}'? {_listed(folder)}")
+    for below in ("launch", "."):
+        path = folder / below / rest[0]
+        if path.is_file():
+            return path, rest[1:]
+    raise UsageError(f"package '{first}' has no launch file '{rest[0]}'. {_listed(folder)}")
+
+
+def _listed(folder: Path) -> str:
+    found = sorted(one.name for one in (folder / "launch").glob("*") if one.suffix in FILES)
+    return f"It has {', '.join(found)}." if found else "It has none in its folder 'launch'."
+
+
+def arguments_of(words: Sequence[str]) -> dict[str, str]:
+    """The `name:=value` words.
+
+    Raises:
+        UsageError: If one is something else.
+    """
+    given = {}
+    for word in words:
+        name, found, value = word.partition(":=")
+        if not found or not name:
+            raise UsageError(f"'{word}' is no launch argument: write name:=value")
+        given[name] = value
+    return given
+
+
+def show_arguments(path: Path, workspace: Workspace) -> str:
+    """What a launch file takes.
+
+    Raises:
+        InputError: If it cannot be read.
+    """
+    context = LaunchContext(workspace, load_file)
+    context.enter_file(path)
+    return shown_arguments(declared(load_file(path), context))
+
+
+async def until(world: World, over: asyncio.Event, limit: Duration | None) -> None:
+    """Wait until something is over, at most so long."""
+    if limit is not None:
+        end = world.clock.now() + limit
+        world.clock.limit(end)
+        stop = world.clock.timer(end, Phase.WATCH)
+        stop.add_done_callback(lambda _: over.set())
+    await over.wait()
+
+
+class Ending:
+    """How a run of a user's programs ended."""
+
+    def __init__(self, world: World) -> None:
+        self.world = world
+        self.program: Program | None = None
+        self.over: asyncio.Event = asyncio.Event()
+
+    def __call__(self, program: Program) -> None:
+        """Note that a program has ended; the run is over."""
+        self.program = program
+        self.over.set()
+
+    def judge(self) -> int:
+        """The exit status of the run.
+
+        Raises:
+            NodeFailed: If a node raised.
+        """
+        return 0 if self.program is None else status_of(self.program)
+
+
+def status_of(program: Program) -> int:
+    """The exit status of a program that has ended.
+
+    Raises:
+        NodeFailed: If it raised.
+    """
+    # One that ended because we asked it to has done what it should.
+    is_stuck = isinstance(program.failure, StuckError)
+    if not program.status or (program.interrupted and not is_stuck):
+        return 0
+    failure = program.failure
+    if failure is None or isinstance(failure, SystemExit):
+        return program.status
+    raise ProgramFailed(program.label, failure)
+
+
+class ProgramFailed(NodeFailed):
+    """A program raised; said with the user's own line."""
+
+    def __init__(self, name: str, error: BaseException) -> None:
+        super().__init__(name, error)
+        self.args = (f"'{name}' failed: {error_sentence(error)}",)
+
+
+__all__ = ["Launch", "Workspace", "importing", "packages", "ros_free"]

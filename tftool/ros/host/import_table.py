@@ -1,0 +1,275 @@
+"""Which module and which name of ROS 2 we answer to, and where ours is.
+
+A line is "their module: our module: the names", a name alone or `theirs=ours`; a module of
+ours with a slash is a package of interfaces. The classes of some modules are found in modules
+of their own below them as well, as in ROS 2: `launch.actions.execute_process`. Packages of
+interfaces (geometry_msgs and so on) need no line: they follow from their definitions.
+"""
+
+import re
+from collections.abc import Mapping
+from dataclasses import dataclass
+from functools import cache
+
+_TABLE = """
+rclpy: rclpy.core: init shutdown try_shutdown ok spin spin_once spin_until_future_complete
+rclpy: rclpy.core: create_node get_global_executor get_default_context logging
+rclpy: rclpy.core: InitContextManager Context
+rclpy: rclpy.parameters: Parameter
+rclpy: rclpy.signals: SignalHandlerOptions
+rclpy: rclpy.utilities: get_rmw_implementation_identifier
+rclpy.node: rclpy.node: Node
+rclpy.node: rclpy.parameters: Parameter
+rclpy.node: rclpy.node_graph: NodeNameNonExistentError
+rclpy.context: rclpy.context: Context
+rclpy.time: rclpy.time: Time Duration ClockType CONVERSION_CONSTANT=S_TO_NS
+rclpy.time: rclpy.time: S_TO_NS
+rclpy.duration: rclpy.time: Duration Infinite CONVERSION_CONSTANT=S_TO_NS S_TO_NS
+rclpy.clock: rclpy.time: Clock ROSClock ClockType ClockChange JumpHandle JumpThreshold TimeJump
+rclpy.clock: rclpy.time: Time Duration
+rclpy.clock_type: rclpy.time: ClockType
+rclpy.constants: rclpy.time: S_TO_NS
+rclpy.timer: rclpy.time: Rate
+rclpy.timer: rclpy.timers: Timer TimerInfo
+rclpy.publisher: rclpy.topics: Publisher
+rclpy.subscription: rclpy.topics: Subscription MessageInfo
+rclpy.topic_endpoint_info: rclpy.endpoints: TopicEndpointInfo TopicEndpointTypeEnum
+rclpy.wait_for_message: rclpy.waiting: wait_for_message
+rclpy.client: rclpy.services: Client
+rclpy.service: rclpy.services: Service
+rclpy.guard_condition: rclpy.entities: GuardCondition
+rclpy.task: rclpy.futures: Future Task
+rclpy.executors: rclpy.executors: Executor SingleThreadedExecutor MultiThreadedExecutor
+rclpy.executors: rclpy.exceptions: ExternalShutdownException ShutdownException
+rclpy.executors: rclpy.exceptions: TimeoutException ConditionReachedException
+rclpy.callback_groups: rclpy.groups: CallbackGroup MutuallyExclusiveCallbackGroup
+rclpy.callback_groups: rclpy.groups: ReentrantCallbackGroup
+rclpy.logging: rclpy.logging: get_logger LoggingSeverity set_logger_level initialize shutdown
+rclpy.logging: rclpy.logging: get_logger_effective_level get_logging_severity_from_string
+rclpy.impl.rcutils_logger: rclpy.logging: RcutilsLogger
+rclpy.impl.logging_severity: rclpy.logging: LoggingSeverity
+rclpy.parameter: rclpy.parameters: Parameter parameter_value_to_python get_parameter_value
+rclpy.parameter: rclpy.parameters: parameter_dict_from_yaml_file PARAMETER_SEPARATOR_STRING
+rclpy.parameter_client: rclpy.parameter_client: AsyncParameterClient
+rclpy.parameter_event_handler: rclpy.parameter_events: ParameterEventHandler
+rclpy.parameter_event_handler: rclpy.parameter_events: ParameterCallbackHandle
+rclpy.parameter_event_handler: rclpy.parameter_events: ParameterEventCallbackHandle
+rclpy.exceptions: rclpy.exceptions: NotInitializedException ROSInterruptException
+rclpy.exceptions: rclpy.exceptions: NameValidationException InvalidHandle ParameterException
+rclpy.exceptions: rclpy.exceptions: InvalidNamespaceException InvalidNodeNameException
+rclpy.exceptions: rclpy.exceptions: InvalidTopicNameException InvalidServiceNameException
+rclpy.exceptions: rclpy.exceptions: NoTypeSupportImportedException
+rclpy.exceptions: rclpy.exceptions: ParameterNotDeclaredException
+rclpy.exceptions: rclpy.exceptions: ParameterAlreadyDeclaredException
+rclpy.exceptions: rclpy.exceptions: InvalidParameterException InvalidParameterTypeException
+rclpy.exceptions: rclpy.exceptions: InvalidParameterValueException ParameterImmutableException
+rclpy.exceptions: rclpy.exceptions: ParameterUninitializedException
+rclpy.qos: rclpy.qos: QoSProfile HistoryPolicy ReliabilityPolicy DurabilityPolicy
+rclpy.qos: rclpy.qos: LivelinessPolicy QoSHistoryPolicy QoSReliabilityPolicy
+rclpy.qos: rclpy.qos: QoSDurabilityPolicy QoSLivelinessPolicy QoSPresetProfiles
+rclpy.qos: rclpy.qos: InvalidQoSProfileException qos_profile_system_default
+rclpy.qos: rclpy.qos: qos_profile_unknown qos_profile_best_available QoSPolicyKind
+rclpy.qos: rclpy.qos: qos_profile_sensor_data qos_profile_services_default
+rclpy.qos: rclpy.qos: qos_check_compatible QoSCompatibility
+rclpy.qos: rclpy.qos: qos_profile_parameters qos_profile_parameter_events
+rclpy.qos: rclpy.qos: qos_profile_action_status_default
+rclpy.action: rclpy.action_client: ActionClient
+rclpy.action: rclpy.action_server: ActionServer GoalResponse CancelResponse
+rclpy.action.client: rclpy.action_client: ActionClient ClientGoalHandle
+rclpy.action.client: rclpy.action_goals: GoalStatus
+rclpy.action.server: rclpy.action_server: ActionServer ServerGoalHandle GoalResponse
+rclpy.action.server: rclpy.action_server: CancelResponse
+rclpy.lifecycle: rclpy.lifecycle: LifecycleNode LifecycleNodeMixin LifecyclePublisher
+rclpy.lifecycle: rclpy.lifecycle: LifecycleState TransitionCallbackReturn ManagedEntity
+rclpy.lifecycle: rclpy.lifecycle: SimpleManagedEntity Node=LifecycleNode State=LifecycleState
+rclpy.lifecycle: rclpy.lifecycle: Publisher=LifecyclePublisher
+rclpy.lifecycle.node: rclpy.lifecycle: LifecycleNode LifecycleNodeMixin LifecycleState
+rclpy.lifecycle.node: rclpy.lifecycle: TransitionCallbackReturn
+rclpy.lifecycle.publisher: rclpy.lifecycle: LifecyclePublisher
+rclpy.lifecycle.managed_entity: rclpy.lifecycle: ManagedEntity SimpleManagedEntity
+rclpy.serialization: rclpy.serialization: serialize_message deserialize_message
+rclpy.signals: rclpy.signals: SignalHandlerOptions
+rclpy.utilities: rclpy.utilities: remove_ros_args ok get_default_context timeout_sec_to_nsec
+rclpy.utilities: rclpy.utilities: get_rmw_implementation_identifier shutdown try_shutdown
+rclpy.expand_topic_name: rclpy.validation: expand_topic_name
+rclpy.topic_or_service_is_hidden: rclpy.validation: topic_or_service_is_hidden
+rclpy.topic_or_service_is_hidden: rclpy.validation: HIDDEN_TOPIC_PREFIX
+rclpy.validate_full_topic_name: rclpy.validation: validate_full_topic_name
+rclpy.validate_namespace: rclpy.validation: validate_namespace
+rclpy.validate_node_name: rclpy.validation: validate_node_name
+rclpy.validate_parameter_name: rclpy.validation: validate_parameter_name
+rclpy.validate_topic_name: rclpy.validation: validate_topic_name
+message_filters: rclpy.message_filters: Subscriber Cache TimeSynchronizer SimpleFilter
+message_filters: rclpy.message_filters: ApproximateTimeSynchronizer
+tf2_py: tf2.core: BufferCore
+tf2_py: tf2.errors: TransformException LookupException ConnectivityException TimeoutException
+tf2_py: tf2.errors: ExtrapolationException InvalidArgumentException
+tf2_ros: tf2.buffer: Buffer
+tf2_ros: tf2.core: BufferCore
+tf2_ros: tf2.interface: BufferInterface
+tf2_ros: tf2.broadcasters: TransformListener TransformBroadcaster
+tf2_ros: tf2.broadcasters: StaticTransformBroadcaster StaticTransformListener
+tf2_ros: tf2.errors: TransformException LookupException ConnectivityException TimeoutException
+tf2_ros: tf2.errors: ExtrapolationException InvalidArgumentException
+tf2_ros: tf2.registry: TransformRegistration ConvertRegistration TypeException convert
+tf2_ros: tf2.registry: NotImplementedException
+tf2_ros: rclpy.time: Time Duration
+tf2_ros: rclpy.node: Node
+tf2_ros: rclpy.qos: QoSProfile HistoryPolicy DurabilityPolicy
+tf2_ros: geometry_msgs/msg: TransformStamped
+tf2_ros: tf2_msgs/msg: TFMessage
+tf2_ros: tf2_msgs/srv: FrameGraph
+tf2_ros.buffer: tf2.buffer: Buffer
+tf2_ros.transform_broadcaster: geometry_msgs/msg: TransformStamped
+tf2_ros.transform_broadcaster: tf2_msgs/msg: TFMessage
+tf2_ros.static_transform_broadcaster: geometry_msgs/msg: TransformStamped
+tf2_ros.static_transform_broadcaster: tf2_msgs/msg: TFMessage
+tf2_ros.transform_listener: tf2_msgs/msg: TFMessage
+tf2_ros.buffer_interface: tf2.interface: BufferInterface
+tf2_ros.buffer_interface: tf2.registry: TransformRegistration ConvertRegistration TypeException
+tf2_ros.buffer_interface: tf2.registry: convert NotImplementedException
+tf2_ros.transform_listener: tf2.broadcasters: TransformListener
+tf2_ros.static_transform_listener: tf2.broadcasters: StaticTransformListener
+tf2_ros.transform_broadcaster: tf2.broadcasters: TransformBroadcaster
+tf2_ros.static_transform_broadcaster: tf2.broadcasters: StaticTransformBroadcaster
+tf2_geometry_msgs: tf2.do_transform: do_transform_point do_transform_vector3 do_transform_pose
+tf2_geometry_msgs: tf2.do_transform: do_transform_pose_stamped do_transform_wrench
+tf2_geometry_msgs: tf2.do_transform: do_transform_wrench_stamped do_transform_polygon_stamped
+tf2_geometry_msgs: tf2.do_transform: do_transform_pose_with_covariance_stamped
+tf2_geometry_msgs: tf2.do_transform: transform_covariance to_msg_msg from_msg_msg
+tf2_geometry_msgs.tf2_geometry_msgs: tf2.do_transform: *
+tf2_sensor_msgs: tf2.do_transform: do_transform_cloud
+tf2_sensor_msgs.tf2_sensor_msgs: tf2.do_transform: do_transform_cloud
+tf_transformations: tf2.euler: quaternion_from_euler euler_from_quaternion euler_from_matrix
+tf_transformations: tf2.euler: euler_matrix quaternion_matrix quaternion_from_matrix
+tf_transformations: tf2.euler: quaternion_about_axis quaternion_multiply quaternion_inverse
+tf_transformations: tf2.euler: quaternion_conjugate quaternion_slerp identity_matrix
+tf_transformations: tf2.euler: translation_matrix translation_from_matrix inverse_matrix
+tf_transformations: tf2.euler: concatenate_matrices compose_matrix vector_norm unit_vector
+tf_transformations: tf2.euler: TRANSLATION_IDENTITY ROTATION_IDENTITY
+launch: launch.description: LaunchDescription LaunchDescriptionSource
+launch: launch.context: LaunchContext
+launch: launch.action: Action
+launch: launch.service: LaunchService
+launch.launch_service: launch.service: LaunchService
+launch.logging: launch.service: get_logger
+launch: launch.conditions: Condition
+launch: launch.events: Event EventHandler
+launch: launch.substitutions: Substitution SomeSubstitutionsType
+launch: launch.description: LaunchDescriptionEntity LaunchDescriptionSource
+launch.action: launch.action: Action
+launch.actions: launch.settings: DeclareLaunchArgument SetLaunchConfiguration
+launch.actions: launch.settings: UnsetLaunchConfiguration ResetLaunchConfigurations
+launch.actions: launch.settings: SetEnvironmentVariable AppendEnvironmentVariable
+launch.actions: launch.settings: PushEnvironment PopEnvironment ResetEnvironment
+launch.actions: launch.settings: UnsetEnvironmentVariable PushLaunchConfigurations=Push
+launch.actions: launch.settings: PopLaunchConfigurations=Pop
+launch.actions: launch.composition: OpaqueFunction GroupAction IncludeLaunchDescription
+launch.actions: launch.composition: TimerAction
+launch.actions: launch.reactions: LogInfo RegisterEventHandler UnregisterEventHandler EmitEvent
+launch.actions: launch.reactions: Shutdown
+launch.actions: launch.processes: ExecuteProcess ExecuteLocal=ExecuteProcess
+launch.conditions: launch.conditions: IfCondition UnlessCondition LaunchConfigurationEquals
+launch.conditions: launch.conditions: LaunchConfigurationNotEquals
+launch.event_handlers: launch.events: OnProcessExit OnProcessStart OnShutdown
+launch.event_handlers: launch.events: OnExecutionComplete OnProcessIO
+launch.events: launch.events: Shutdown ExecutionComplete matches_action
+launch.events.process: launch.events: ProcessExited ProcessStarted ProcessIO
+launch.events.process: launch.events: ShutdownProcess
+launch.launch_context: launch.context: LaunchContext
+launch.launch_description: launch.description: LaunchDescription
+launch.launch_description_source: launch.description: LaunchDescriptionSource
+launch.launch_description_sources: launch.description: PythonLaunchDescriptionSource
+launch.launch_description_sources: launch.description: AnyLaunchDescriptionSource
+launch.launch_description_sources: launch.description: FrontendLaunchDescriptionSource
+launch.some_substitutions_type: launch.substitutions: SomeSubstitutionsType
+launch.substitution: launch.substitutions: Substitution
+launch.substitutions: launch.substitutions: TextSubstitution LaunchConfiguration
+launch.substitutions: launch.substitutions: EnvironmentVariable PathJoinSubstitution
+launch.substitutions: launch.substitutions: StringJoinSubstitution PythonExpression
+launch.substitutions: launch.substitutions: ThisLaunchFile ThisLaunchFileDir AnonName
+launch.substitutions: launch.substitutions: FindExecutable Command SubstitutionFailure
+launch.substitutions: launch.substitutions: LocalSubstitution FileContent
+launch.substitutions: launch.logic: EqualsSubstitution NotEqualsSubstitution AndSubstitution
+launch.substitutions: launch.logic: OrSubstitution NotSubstitution AnySubstitution
+launch.substitutions: launch.logic: AllSubstitution IfElseSubstitution
+launch.utilities: launch.substitutions: perform_substitutions=perform
+launch_xml.launch_description_sources: launch.description: XMLLaunchDescriptionSource
+launch_yaml.launch_description_sources: launch.description: YAMLLaunchDescriptionSource
+launch_ros.actions: launch.nodes: Node PushRosNamespace PushROSNamespace=PushRosNamespace
+launch_ros.actions: launch.nodes: SetRemap
+launch_ros.actions: launch.composition: RosTimer=TimerAction ROSTimer=TimerAction
+launch_ros.actions: launch.lifecycle: LifecycleNode LifecycleTransition
+launch_ros.events: launch.lifecycle: matches_node_name
+launch_ros.events.lifecycle: launch.lifecycle: ChangeState StateTransition
+launch_ros.events.matchers: launch.lifecycle: matches_node_name
+launch_ros.event_handlers: launch.lifecycle: OnStateTransition
+launch_ros.substitutions: launch.substitutions: ExecutableInPackage
+launch_ros.actions: launch.parameters: SetParameter SetUseSimTime SetParametersFromFile
+launch_ros.substitutions: launch.substitutions: FindPackageShare FindPackagePrefix FindPackage
+launch_ros.substitutions.find_package: launch.substitutions: FindPackageShare FindPackagePrefix
+launch_ros.parameter_descriptions: launch.parameters: ParameterValue ParameterFile
+launch_ros.descriptions: launch.parameters: ParameterValue ParameterFile
+ament_index_python: launch.packages: get_package_share_directory get_package_prefix
+ament_index_python: launch.packages: get_package_share_path PackageNotFoundError
+ament_index_python: launch.packages: get_packages_with_prefixes
+ament_index_python.packages: launch.packages: get_package_share_directory
+ament_index_python.packages: launch.packages: get_package_prefix get_package_share_path
+ament_index_python.packages: launch.packages: PackageNotFoundError get_packages_with_prefixes
+"""
+
+
+_WITH_MODULES_OF_CLASSES = (
+    "launch.actions",
+    "launch.conditions",
+    "launch.event_handlers",
+    "launch.events",
+    "launch.events.process",
+    "launch.launch_description_sources",
+    "launch.substitutions",
+    "launch_ros.actions",
+    "launch_ros.event_handlers",
+    "launch_ros.substitutions",
+)
+
+WHOLE_PACKAGES = ("rclpy", "launch", "launch_ros", "tf2_ros", "message_filters")
+"""Packages whose modules are there after no more than `import launch`."""
+
+
+def snake_case(name: str) -> str:
+    """The module in which ROS 2 defines a class: "execute_process" of ExecuteProcess."""
+    return re.sub(r"(?<=[a-z0-9])(?=[A-Z])|(?<=[A-Z])(?=[A-Z][a-z])", "_", name).lower()
+
+
+@dataclass(frozen=True, slots=True)
+class ImportedName:
+    """One name of a module of theirs.
+
+    Attributes:
+        module: Our module, below `tftool.ros`; or "package/kind" of an interface.
+        name: Its name there; "*" stands for every public name.
+    """
+
+    module: str
+    name: str
+
+
+@cache
+def table() -> Mapping[str, Mapping[str, ImportedName]]:
+    """Every module we answer to, and its names; parents without names of their own included."""
+    found: dict[str, dict[str, ImportedName]] = {}
+    for line in _TABLE.strip().splitlines():
+        theirs, ours, names = (part.strip() for part in line.split(":", 2))
+        for name in names.split():
+            shown, _, real = name.partition("=")
+            found.setdefault(theirs, {})[shown] = ImportedName(ours, real or shown)
+    for module in _WITH_MODULES_OF_CLASSES:
+        for name, imported in list(found[module].items()):
+            if name[0].isupper():
+                found.setdefault(f"{module}.{snake_case(name)}", {})[name] = imported
+    for module in list(found):
+        parent = module.rpartition(".")[0]
+        while parent:
+            found.setdefault(parent, {})
+            parent = parent.rpartition(".")[0]
+    return found

@@ -1,0 +1,329 @@
+"""Puts our modules in the way of `import rclpy` and its kin, while asked to.
+
+Never by `import tftool`: only `tftool run`, `tftool launch` and the pytest fixture do.
+"""
+
+import importlib
+import importlib.machinery
+import os
+import sys
+from collections import UserList
+from collections.abc import Iterator, Sequence
+from contextlib import contextmanager
+from importlib.abc import Loader, MetaPathFinder
+from pathlib import Path
+from types import ModuleType
+from typing import Any
+
+from tftool.errors import UsageError
+from tftool.interfaces.classes import INTERFACES
+from tftool.ros.host import fibers, import_table
+from tftool.ros.host.missing_names import missing_module, missing_name
+from tftool.ros.host.shims import IMPORTING, builtins_for_users
+
+
+def real_ros() -> str:
+    """Where a real ROS 2 that is sourced has its rclpy; empty without one."""
+    if not (os.environ.get("ROS_DISTRO") or os.environ.get("AMENT_PREFIX_PATH")):
+        return ""
+    try:
+        spec = importlib.machinery.PathFinder.find_spec("rclpy")
+    except (ImportError, ValueError):
+        return ""
+    return "" if spec is None or not spec.origin else spec.origin
+
+
+class _StandInModule(ModuleType):
+    """A module of theirs, made of ours."""
+
+    def __init__(self, name: str, known: Sequence[str]) -> None:
+        super().__init__(name, f"{name}, as far as it runs without ROS.")
+        self.__dict__["_known"] = tuple(known)
+
+    def __getattr__(self, name: str) -> Any:
+        if name.startswith("__"):
+            raise AttributeError(name)
+        sentence = missing_name(self.__name__, name, self._known)
+        if _is_import_from(sys._getframe(1)):
+            try:
+                # `from package import module` asks for an attribute first.
+                return importlib.import_module(f"{self.__name__}.{name}")
+            except ImportError:
+                raise ImportError(sentence, name=self.__name__) from None
+        raise AttributeError(sentence)
+
+
+def _is_import_from(frame: Any) -> bool:
+    import dis
+
+    while frame is not None and frame.f_code.co_filename.startswith("<frozen importlib"):
+        frame = frame.f_back
+    code = frame.f_code.co_code
+    operation: int = code[frame.f_lasti]
+    return operation == dis.opmap["IMPORT_FROM"] or dis.opname[operation] == "CALL_FUNCTION"
+
+
+class _StandInLoader(Loader):
+    """Fills a module with our names."""
+
+    def create_module(self, spec: importlib.machinery.ModuleSpec) -> ModuleType:
+        name = spec.name
+        package, _, kind = name.partition(".")
+        if package in INTERFACES.packages():
+            return _StandInModule(name, _names_in(package, kind) if kind else _kinds(package))
+        return _StandInModule(name, [one for one in import_table.table()[name] if one != "*"])
+
+    def exec_module(self, module: ModuleType) -> None:
+        package, _, kind = module.__name__.partition(".")
+        if package in INTERFACES.packages():
+            for name in _names_in(package, kind):
+                setattr(module, name, INTERFACES.find(package, kind.partition(".")[0], name))
+            return
+        for shown, imported in import_table.table()[module.__name__].items():
+            if "/" in imported.module:
+                of, _, sort = imported.module.partition("/")
+                setattr(module, shown, INTERFACES.find(of, sort, imported.name))
+                continue
+            ours = importlib.import_module(f"tftool.ros.{imported.module}")
+            if shown == "*":
+                for name in vars(ours):
+                    if not name.startswith("_"):
+                        setattr(module, name, getattr(ours, name))
+            else:
+                setattr(module, shown, getattr(ours, imported.name))
+        if module.__name__ in import_table.WHOLE_PACKAGES:
+            # Nodes write rclpy.time.Time() after no more than `import rclpy`.
+            for below in import_table.table():
+                if below.startswith(f"{module.__name__}.") and below.count(".") == 1:
+                    importlib.import_module(below)
+
+
+def _names_in(package: str, below: str) -> list[str]:
+    """The interfaces in `package.msg`, or in the module of one of them, `package.msg._string`."""
+    kind, _, own = below.partition(".")
+    names = INTERFACES.names(package, kind) if kind else []
+    return [one for one in names if not own or own == f"_{import_table.snake_case(one)}"]
+
+
+def _kinds(package: str) -> list[str]:
+    return [kind for kind in ("msg", "srv", "action") if INTERFACES.names(package, kind)]
+
+
+class _Finder(MetaPathFinder):
+    """Finds our stand-in modules; and, below the roots of a workspace, users' own modules."""
+
+    def __init__(self) -> None:
+        self.roots: list[Path] = []
+        self.tested: Path | None = None
+        """The folder of tests, and of what they test; others load what is in it."""
+
+    def find_spec(
+        self, fullname: str, path: Sequence[str] | None = None, target: ModuleType | None = None
+    ) -> importlib.machinery.ModuleSpec | None:
+        package, _, rest = fullname.partition(".")
+        if package in INTERFACES.packages():
+            own = "." in rest and bool(_names_in(package, rest))
+            if rest and not own and rest not in _kinds(package):
+                return None
+            return _spec(fullname, is_package=not own)
+        known = import_table.table()
+        if fullname in known:
+            below = any(name.startswith(f"{fullname}.") for name in known)
+            return _spec(fullname, is_package=below)
+        if package in known:
+            raise ModuleNotFoundError(missing_module(fullname), name=fullname)
+        if self.tested is not None:
+            return self._tested(fullname, path, target)
+        if not self.roots:
+            return None
+        search = list(path) if path is not None else [str(root) for root in self.roots]
+        spec = importlib.machinery.PathFinder.find_spec(fullname, search, target)
+        if spec is None or spec.origin is None or not self._is_users(spec.origin):
+            return None
+        if isinstance(spec.loader, importlib.machinery.SourceFileLoader):
+            spec.loader = _UserLoader(fullname, spec.origin)
+        return spec
+
+    def _tested(
+        self, fullname: str, path: Sequence[str] | None, target: ModuleType | None
+    ) -> importlib.machinery.ModuleSpec | None:
+        """What the others find; a file in the tests' folder is loaded with our builtins."""
+        for finder in sys.meta_path[sys.meta_path.index(self) + 1 :]:
+            spec = finder.find_spec(fullname, path, target)
+            if spec is None:
+                continue
+            origin = Path(spec.origin or "")
+            inside = self.tested is not None and origin.is_relative_to(self.tested)
+            # Where the tests lie around a checkout of tftool, that is still none of what they test.
+            ours = "site-packages" in origin.parts or fullname.partition(".")[0] == "tftool"
+            if inside and spec.loader is not None and not ours:
+                spec.loader = _TestedLoader(spec.loader)
+            return spec
+        return None
+
+    def _is_users(self, origin: str) -> bool:
+        return any(Path(origin).is_relative_to(root) for root in self.roots)
+
+
+def _spec(name: str, *, is_package: bool) -> importlib.machinery.ModuleSpec:
+    return importlib.machinery.ModuleSpec(name, _StandInLoader(), is_package=is_package)
+
+
+class _UserLoader(importlib.machinery.SourceFileLoader):
+    """Loads a user's module with builtins whose `import` knows our clock."""
+
+    def exec_module(self, module: ModuleType) -> None:
+        module.__dict__["__builtins__"] = builtins_for_users()
+        super().exec_module(module)
+
+    def set_data(self, path: str, data: Any, *, _mode: int = 0o666) -> None:
+        """Leave no __pycache__ in a user's folders."""
+
+
+class _TestedLoader(Loader):
+    """Another's loader, which may rewrite assertions, and our builtins."""
+
+    def __init__(self, loader: Loader) -> None:
+        self._loader = loader
+
+    def __getattr__(self, name: str) -> Any:
+        return getattr(self._loader, name)
+
+    def create_module(self, spec: importlib.machinery.ModuleSpec) -> ModuleType | None:
+        return self._loader.create_module(spec)
+
+    def exec_module(self, module: ModuleType) -> None:
+        module.__dict__["__builtins__"] = builtins_for_users()
+        self._loader.exec_module(module)
+
+
+class _Arguments(UserList[str]):
+    """`sys.argv` of whichever program asks."""
+
+    def __init__(self, otherwise: list[str]) -> None:
+        super().__init__()
+        self._otherwise = otherwise
+
+    @property
+    def data(self) -> list[str]:
+        """The list itself."""
+        fiber = fibers.current()
+        owner = fiber.owner if fiber is not None else None
+        return self._otherwise if owner is None else owner.argv
+
+    @data.setter
+    def data(self, value: list[str]) -> None:
+        """Nothing: programs' arguments are theirs."""
+
+    # A part must be a plain list: what is of this kind always shows all the arguments.
+
+    def __getitem__(self, index: Any) -> Any:
+        return self.data[index]
+
+    def __add__(self, other: Any) -> Any:
+        return self.data + list(other)
+
+    def __radd__(self, other: Any) -> Any:
+        return list(other) + self.data
+
+    def __mul__(self, times: int) -> Any:
+        return self.data * times
+
+    __rmul__ = __mul__
+
+    def copy(self) -> Any:
+        """Its words, to be changed by themselves."""
+        return self.data.copy()
+
+    __copy__ = copy
+
+
+_finder: _Finder | None = None
+
+
+@contextmanager
+def ros_free(*, force: bool = False) -> Iterator["_Finder"]:
+    """Answer to ROS 2's modules inside this block.
+
+    Args:
+        force: Also where a real ROS 2 is sourced.
+
+    Raises:
+        UsageError: If a real ROS 2 is sourced and we are not told to force.
+    """
+    found = real_ros()
+    if found and not force:
+        raise UsageError(
+            f"a real ROS 2 is sourced ({found}): run the file with it, or say --ros-free to "
+            "run it without ROS"
+        )
+    with own_arguments(), ros_modules() as finder:
+        yield finder
+
+
+@contextmanager
+def own_arguments() -> Iterator[None]:
+    """Give every program its own `sys.argv` inside this block."""
+    argv = sys.argv
+    if not isinstance(argv, _Arguments):
+        sys.argv = _Arguments(argv)  # type: ignore[assignment]
+    try:
+        yield
+    finally:
+        sys.argv = argv
+
+
+@contextmanager
+def ros_modules() -> Iterator["_Finder"]:
+    """Answer to ROS 2's modules inside this block, whatever is sourced."""
+    global _finder
+    if _finder is not None:
+        yield _finder
+        return
+    _finder = _Finder()
+    before = {name: module for name, module in sys.modules.items() if _is_theirs(name)}
+    for name in before:
+        del sys.modules[name]
+    sys.meta_path.insert(0, _finder)
+    loaded = set(sys.modules)
+    try:
+        yield _finder
+    finally:
+        sys.meta_path.remove(_finder)
+        for name in set(sys.modules) - loaded:
+            if _is_theirs(name) or _is_below(sys.modules[name], _finder.roots):
+                del sys.modules[name]
+        sys.modules.update(before)
+        _finder = None
+
+
+def _is_theirs(name: str) -> bool:
+    package = name.partition(".")[0]
+    return package in import_table.table() or package in INTERFACES.packages()
+
+
+def _is_below(module: ModuleType, roots: Sequence[Path]) -> bool:
+    origin = getattr(module, "__file__", None)
+    return bool(origin) and any(Path(str(origin)).is_relative_to(root) for root in roots)
+
+
+def look_in(root: Path) -> None:
+    """Look for users' modules in a folder too, before everything else."""
+    if _finder is not None and root not in _finder.roots:
+        _finder.roots.insert(0, root)
+
+
+def import_anew(module: str, root: Path) -> ModuleType:
+    """Import a user's module from a folder, run anew as in a process of its own.
+
+    Two programs of one file then share no globals.
+
+    Raises:
+        ImportError: If there is no such module, or it imports one that is missing.
+    """
+    with IMPORTING:
+        look_in(root)
+        for name in [n for n, m in list(sys.modules.items()) if _is_below(m, [root])]:
+            del sys.modules[name]
+        importlib.invalidate_caches()
+        return importlib.import_module(module)

@@ -1,0 +1,85 @@
+"""What is said of a name or a module of ROS 2 that we do not answer to."""
+
+from collections.abc import Sequence
+from difflib import get_close_matches
+
+from tftool.interfaces.classes import INTERFACES
+from tftool.ros.host import import_table
+
+FEW = 12
+"""So many names are told in a sentence; more would hide what it says."""
+
+WHERE_TO_LOOK = (
+    "the section 'What is covered' of tftool's README lists what runs without ROS; "
+    "with a sourced ROS 2 the real module is used"
+)
+
+DEFINED = (
+    "an interface is known by its definition: put the .msg, .srv or .action file into its "
+    "package in the workspace's src"
+)
+
+
+def missing_name(module: str, name: str, known: Sequence[str]) -> str:
+    """What to say of a name that a module of ours has not.
+
+    Args:
+        module: The module.
+        name: What was asked of it.
+        known: The names it has.
+    """
+    # Only what may be a slip: another name of ROS 2's is none.
+    near = get_close_matches(name, known, n=1, cutoff=0.8)
+    package = module.partition(".")[0]
+    elsewhere = sorted(
+        one
+        for one, names in import_table.table().items()
+        if one.partition(".")[0] == package and name in names and names[name].name == name
+    )
+    if near:
+        hint = f"; did you mean '{near[0]}'?"
+    elif elsewhere:
+        hint = f"; {elsewhere[0]} has it."
+    else:
+        hint = f"{_listed(module, known)}."
+    remedy = DEFINED if package in INTERFACES.packages() else WHERE_TO_LOOK
+    return f"'{name}' of {module} is not covered{hint} {_sentence(remedy)}"
+
+
+def missing_module(name: str) -> str:
+    """What to say of a module below one of ROS 2's packages that we answer to."""
+    package = name.partition(".")[0]
+    known = sorted(one for one in import_table.table() if one.startswith(f"{package}."))
+    near = get_close_matches(name, known, n=1, cutoff=0.8)
+    hint = f"; did you mean '{near[0]}'?" if near else f"{_listed(package, known)}."
+    return f"{name} is not covered{hint} {_sentence(WHERE_TO_LOOK)}"
+
+
+def missing_package(name: str) -> str:
+    """What to say of a package that is neither installed nor one we answer to."""
+    packages = sorted(
+        {one.partition(".")[0] for one in import_table.table()} | set(INTERFACES.packages())
+    )
+    near = get_close_matches(name, packages, n=1, cutoff=0.8)
+    if near:
+        return f"did you mean '{near[0]}'?"
+    if name.endswith(("_msgs", "_srvs", "_interfaces", "_actions")):
+        return (
+            f"the definitions of {name} are not among tftool's: put the package with its .msg, "
+            ".srv and .action files into the workspace's src"
+        )
+    return (
+        "it is not installed in the Python that runs tftool, and of ROS 2 tftool answers to "
+        f"{', '.join(one for one in packages if one not in INTERFACES.packages())} and "
+        "interface packages"
+    )
+
+
+def _listed(module: str, known: Sequence[str]) -> str:
+    if not known:
+        return ""
+    return f": {module} has {', '.join(known)} here" if len(known) <= FEW else ""
+
+
+def _sentence(text: str) -> str:
+    return f"{text[0].upper()}{text[1:]}"

@@ -1,0 +1,368 @@
+"""ROS 2's names: expanding them, and what `--ros-args` says about them.
+
+World topics are full names without the leading slash.
+"""
+
+import re
+from collections.abc import Callable, Iterable, Mapping, Sequence
+from dataclasses import dataclass, field
+from difflib import get_close_matches
+from functools import cache
+from pathlib import Path
+from typing import Any, NamedTuple
+
+from tftool.errors import InputError, UsageError
+
+_STRANGE = re.compile(r"[^A-Za-z0-9_]")
+_STRANGE_IN_TOPIC = re.compile(r"[^A-Za-z0-9_/~{}]")
+_DIGIT_FIRST = re.compile(r"(?<![^/])[0-9]")
+_SUBSTITUTION = re.compile(r"\{([^{}]*)\}")
+
+
+class Fault(NamedTuple):
+    """Why a name is none.
+
+    Attributes:
+        reason: What a name must be like.
+        at: Where it is not.
+    """
+
+    reason: str
+    at: int
+
+
+@dataclass(frozen=True, slots=True)
+class Remap:
+    """One rule `node:old:=new`; without a node it holds for all of them."""
+
+    node: str | None
+    old: str
+    new: str
+
+
+@dataclass(slots=True)
+class RosOptions:
+    """What `--ros-args` asked for.
+
+    Attributes:
+        name: A new name for the program's nodes (`__node:=`), if any.
+        namespace: Their namespace (`__ns:=`), if given.
+        remaps: Rules for topics, services and actions, the first that fits counts.
+        parameters: (node pattern, name, value), later ones win.
+        levels: Log levels by logger; "" is everybody's.
+    """
+
+    name: str | None = None
+    namespace: str | None = None
+    remaps: list[Remap] = field(default_factory=list)
+    parameters: list[tuple[str, str, Any]] = field(default_factory=list)
+    levels: dict[str, str] = field(default_factory=dict)
+
+    def parameters_for(self, name: str, namespace: str) -> dict[str, Any]:
+        """The values given for a node, by parameter."""
+        full = join(namespace, name)
+        return {key: value for node, key, value in self.parameters if _fits(node, full, name)}
+
+    def remapped(self, full: str, name: str, namespace: str) -> str:
+        """Another full name for `full`, if a rule of this node says so."""
+        for rule in self.remaps:
+            if rule.node is not None and rule.node.strip("/") not in (name, join(namespace, name)):
+                continue
+            if expand(rule.old, name, namespace) == full:
+                return expand(rule.new, name, namespace)
+        return full
+
+
+def _fits(pattern: str, full: str, name: str) -> bool:
+    pattern = pattern.strip("/")
+    if pattern in ("", "**", name, full):
+        return True
+    parts = ["(?:.*/)?" if part == "**" else "[^/]+/" if part == "*" else re.escape(part) + "/"
+             for part in pattern.split("/")]  # fmt: skip
+    return re.fullmatch("".join(parts).removesuffix("/"), full) is not None
+
+
+def join(namespace: str, name: str) -> str:
+    """A full name without leading slash."""
+    return f"{namespace.strip('/')}/{name}".strip("/")
+
+
+def node_name_fault(name: str) -> Fault | None:
+    """Why ROS 2 refuses a node's name, None if it takes it."""
+    strange = _STRANGE.search(name)
+    if not name:
+        return Fault("it must not be empty", 0)
+    if strange is not None:
+        return Fault("only letters, digits and '_' are allowed", strange.start())
+    return Fault("it must not start with a digit", 0) if name[0].isdigit() else None
+
+
+def namespace_fault(namespace: str) -> Fault | None:
+    """Why ROS 2 refuses an absolute namespace, None if it takes it."""
+    if not namespace.startswith("/"):
+        return Fault("it must start with '/'", 0)
+    strange = re.search(r"[^A-Za-z0-9_/]", namespace)
+    if strange is not None:
+        return Fault("only letters, digits, '_' and '/' are allowed", strange.start())
+    return None if namespace == "/" else _fault_of_parts(namespace)
+
+
+def topic_name_fault(name: str) -> Fault | None:
+    """Why ROS 2 refuses a relative, absolute or private topic's name, None if it takes it."""
+    strange = _STRANGE_IN_TOPIC.search(name)
+    if not name:
+        return Fault("it must not be empty", 0)
+    if strange is not None:
+        return Fault("only letters, digits, '_' and '/' are allowed", strange.start())
+    if "~" in name[1:] or (name.startswith("~") and not name.startswith("~/") and name != "~"):
+        return Fault("'~' must come first, with a '/' behind it", name.rindex("~"))
+    for found in _SUBSTITUTION.finditer(name):
+        if found[1] not in ("node", "ns", "namespace"):
+            return Fault("of substitutions there are {node}, {ns} and {namespace}", found.start())
+    plain = _SUBSTITUTION.sub(lambda found: "_" * len(found[0]), name)
+    if "{" in plain or "}" in plain:
+        return Fault("a brace has no partner", re.search("[{}]", plain).start())  # type: ignore[union-attr]
+    return _fault_of_parts(plain)
+
+
+def _fault_of_parts(name: str) -> Fault | None:
+    if name.endswith("/"):
+        return Fault("it must not end with '/'", len(name) - 1)
+    if "//" in name:
+        return Fault("there must be something between two '/'", name.index("//") + 1)
+    digit = _DIGIT_FIRST.search(name)
+    return None if digit is None else Fault("no part may start with a digit", digit.start())
+
+
+def check_node_name(name: str) -> None:
+    """Refuse what ROS 2 refuses as a node's name.
+
+    Raises:
+        UsageError: If it is no name.
+    """
+    fault = node_name_fault(name)
+    if fault is not None:
+        raise UsageError(f"'{name}' cannot be a node's name: {fault.reason}")
+
+
+def check_namespace(namespace: str) -> None:
+    """Refuse what ROS 2 refuses as a namespace.
+
+    Raises:
+        UsageError: If it is none.
+    """
+    fault = namespace_fault(f"/{namespace.strip('/')}")
+    if fault is not None:
+        raise UsageError(f"'{namespace}' cannot be a namespace: {fault.reason}")
+
+
+def expand(given: str, name: str, namespace: str) -> str:
+    """The full name of a topic or service, without leading slash.
+
+    Args:
+        given: Relative, absolute (`/x`) or private (`~/x`).
+        name: The node's name.
+        namespace: The node's namespace.
+
+    Raises:
+        UsageError: If it can be no topic's name.
+    """
+    fault = topic_name_fault(given)
+    if fault is not None:
+        raise UsageError(f"'{given}' cannot be a topic's or service's name: {fault.reason}")
+    known = {"node": name, "ns": namespace.strip("/"), "namespace": namespace.strip("/")}
+    given = _SUBSTITUTION.sub(lambda found: known[found[1]], given)
+    if given.startswith("/"):
+        return given.strip("/")
+    if given.startswith("~"):
+        return join(join(namespace, name), given[1:].strip("/"))
+    return join(namespace, given)
+
+
+def parse(argv: Sequence[str]) -> tuple[RosOptions, list[str]]:
+    """Split a node's arguments into ROS 2's and its own.
+
+    Raises:
+        UsageError: If ROS 2's part is malformed.
+        InputError: If a parameter file cannot be read.
+    """
+    options = RosOptions()
+    own: list[str] = []
+    words = iter(argv)
+    inside = False
+    for word in words:
+        if word == "--ros-args":
+            inside = True
+        elif not inside:
+            if get_close_matches(word, ["--ros-args"], n=1, cutoff=0.85):
+                raise UsageError(f"'{word}' is unknown; did you mean '--ros-args'?")
+            own.append(word)
+        elif word == "--":
+            inside = False
+        else:
+            _take(options, word, words)
+    return options, own
+
+
+_OPTIONS = {
+    "-p": "--param",
+    "--param": "--param",
+    "-r": "--remap",
+    "--remap": "--remap",
+    "--params-file": "--params-file",
+    "--log-level": "--log-level",
+    "-e": "--enclave",
+    "--enclave": "--enclave",
+    "--log-config-file": "--log-config-file",
+}
+_FLAGS = ("stdout-logs", "rosout-logs", "external-lib-logs")
+
+
+def _take(options: RosOptions, word: str, words: Iterable[str]) -> None:
+    if word.startswith(("--enable-", "--disable-")) and word.endswith(_FLAGS):
+        return
+    known = _OPTIONS.get(word)
+    if known is None:
+        if ":=" in word:  # the old form: a bare rule after --ros-args
+            add_remap(options, word)
+            return
+        near = get_close_matches(word, _OPTIONS, n=1)
+        hint = f"; did you mean '{near[0]}'?" if near else ""
+        raise UsageError(f"'{word}' is no option after --ros-args{hint}")
+    value = next(iter(words), None)
+    if value is None:
+        raise UsageError(f"'{word}' after --ros-args wants a value")
+    if known == "--param":
+        add_parameter(options, value)
+    elif known == "--remap":
+        add_remap(options, value)
+    elif known == "--params-file":
+        options.parameters += read_parameters(Path(value))
+    elif known == "--log-level":
+        logger, found, level = value.partition(":=")
+        options.levels[logger if found else ""] = (level if found else logger).upper()
+
+
+def add_parameter(options: RosOptions, text: str) -> None:
+    """Take `name:=value` or `node:name:=value` in."""
+    name, found, value = text.partition(":=")
+    if not found or not name:
+        raise UsageError(f"'{text}' sets no parameter: write name:=value")
+    node, found, rest = name.rpartition(":")
+    options.parameters.append((node if found else "", rest, yaml_value(value)))
+
+
+def add_remap(options: RosOptions, text: str) -> None:
+    """Take `old:=new` or `node:old:=new` in; `__node:=` and `__ns:=` name the node itself."""
+    old, found, new = text.partition(":=")
+    if not found or not old or not new:
+        raise UsageError(f"'{text}' renames nothing: write old:=new")
+    node, found, rest = old.rpartition(":")
+    if rest in ("__node", "__name"):
+        check_node_name(new)
+        options.name = new
+    elif rest == "__ns":
+        check_namespace(new)
+        options.namespace = new
+    else:
+        rule = Remap(node if found else None, rest.removeprefix("rostopic://"), new)
+        for name in (rule.old, rule.new):
+            fault = topic_name_fault(name)
+            if fault is not None:
+                raise UsageError(f"'{text}' renames nothing: in '{name}' {fault.reason}")
+        options.remaps.append(rule)
+
+
+def yaml_value(text: str) -> Any:
+    """A parameter's value as ROS 2 reads it: YAML, so `2` is an int and `2.0` a float."""
+    import yaml
+
+    from tftool import yaml_guard
+
+    try:
+        return yaml_guard.load(text, _loader()) if text else ""
+    except (yaml.YAMLError, ValueError):
+        return text
+
+
+@cache
+def _loader() -> Any:
+    """A loader that takes for numbers what ROS 2 does: `12:30` and `2024-01-05` are texts."""
+    import yaml
+
+    class Loader(yaml.SafeLoader):
+        pass
+
+    kinds = {
+        "int": r"[-+]?(?:0[xX][0-9a-fA-F]+|0[0-7]*|[1-9][0-9]*)$",
+        "float": r"[-+]?(?:(?:[0-9]+\.?[0-9]*|\.[0-9]+)(?:[eE][-+]?[0-9]+)?"
+        r"|\.(?:inf|Inf|INF))$|\.(?:nan|NaN|NAN)$",
+    }
+    others = {f"tag:yaml.org,2002:{kind}" for kind in (*kinds, "timestamp")}
+    Loader.yaml_implicit_resolvers = {
+        first: [pair for pair in pairs if pair[0] not in others]
+        for first, pairs in yaml.SafeLoader.yaml_implicit_resolvers.items()
+    }
+    for kind, pattern in kinds.items():
+        tag = f"tag:yaml.org,2002:{kind}"
+        Loader.add_implicit_resolver(tag, re.compile(pattern), list("-+.0123456789"))
+    return Loader
+
+
+def read_parameters(
+    path: Path, substitute: Callable[[str], str] = str
+) -> list[tuple[str, str, Any]]:
+    """The (node, name, value) of a ROS 2 parameter file.
+
+    Args:
+        path: The file.
+        substitute: Makes the text that is read of the one in the file.
+
+    Raises:
+        InputError: If it cannot be read, is no YAML, or is laid out otherwise.
+    """
+    import yaml
+
+    from tftool import yaml_guard
+
+    try:
+        text = path.read_text(encoding="utf-8")
+    except (OSError, UnicodeDecodeError) as error:
+        reason = error.strerror if isinstance(error, OSError) else "it is not UTF-8 text"
+        raise InputError(f"cannot read the parameter file '{path}': {reason}") from None
+    try:
+        tree = yaml_guard.load(substitute(text), _loader())
+    except (yaml.YAMLError, ValueError) as error:
+        mark = getattr(error, "problem_mark", None)
+        where = f":{mark.line + 1}:{mark.column + 1}" if mark is not None else ""
+        problem = getattr(error, "problem", None) or str(error) or "not YAML"
+        raise InputError(f"{path}{where}: {problem}") from None
+    found: list[tuple[str, str, Any]] = []
+    _walk(tree, "", found)
+    if not found and tree:
+        raise InputError(
+            f"{path}: no parameters in it; the layout is 'node_name:', below it "
+            "'ros__parameters:', below that 'name: value'"
+        )
+    return found
+
+
+def _walk(tree: Any, node: str, found: list[tuple[str, str, Any]]) -> None:
+    if not isinstance(tree, Mapping):
+        return
+    for key, value in tree.items():
+        if key == "ros__parameters":
+            found += [(node, name, one) for name, one in flatten(value or {})]
+        else:
+            _walk(value, join(node, str(key).strip("/")), found)
+
+
+def flatten(tree: Any, prefix: str = "") -> list[tuple[str, Any]]:
+    """Nested settings as (dotted name, value)."""
+    found: list[tuple[str, Any]] = []
+    for key, value in tree.items() if isinstance(tree, Mapping) else ():
+        if isinstance(value, Mapping):
+            found += flatten(value, f"{prefix}{key}.")
+        else:
+            found.append((f"{prefix}{key}", value))
+    return found

@@ -1,0 +1,311 @@
+"""A program of the user's: what `ros2 run` would start as a process of its own.
+
+It has its arguments, its rclpy context and a fiber on which its `main` runs. To
+the world it is a node; the nodes it makes join beside it.
+"""
+
+import asyncio
+import inspect
+import sys
+import threading
+from collections.abc import Awaitable, Callable, Sequence
+from typing import Any, ClassVar, TypeVar
+
+from tftool.errors import TftoolError
+from tftool.ros.host import fibers
+from tftool.ros.host.fibers import CodeLine, Fiber
+from tftool.ros.host.names import RosOptions
+from tftool.runtime.clock import Phase, SimClock
+from tftool.runtime.log import Level
+from tftool.runtime.node import Node
+from tftool.runtime.world import World
+from tftool.stamps import Duration, Stamp, seconds
+
+T = TypeVar("T")
+
+POLLS = 100
+"""How often a program may look in vain at one simulated instant before time moves on."""
+
+READINGS = 2_000
+"""How often it may read the clock at one simulated instant before time moves on."""
+
+REQUESTS = 10_000
+"""How often it may ask for anything at one simulated instant before time moves on."""
+
+TICK = seconds(0.001)
+"""How far simulated time moves then: a loop that only polls must see an end of its waiting."""
+
+
+_living: "set[Program]" = set()
+"""The programs that run at the moment, in whatever world."""
+
+
+class ProgramNode(Node):
+    """A node that a program made: a name, and whatever it subscribes to and serves."""
+
+    def __init__(self, program: "Program", name: str) -> None:
+        self.program = program
+        super().__init__(program.world, name)
+
+
+class Program(Node):
+    """One executable.
+
+    Attributes:
+        label: What it was started as; its node may take that name over in the world.
+        argv: What its `sys.argv` is.
+        options: What `--ros-args` said.
+        strict: Whether time stands still while it runs: on the simulated clock.
+        broadcasts: Whether it sends transforms.
+        listens: Whether it asks for them; one that only sends has its timers go before
+            those of the others in the same instant.
+        failure: What ended it, unless it ended well.
+        status: Its exit status once it has ended, None before.
+        nodes: The seats (`rclpy.seat.NodeSeat`) of the nodes it made, withdrawn at the end.
+    """
+
+    is_shown: ClassVar[bool] = False
+
+    def __init__(
+        self,
+        world: World,
+        name: str,
+        body: Callable[[], object] | None,
+        *,
+        argv: Sequence[str] = (),
+        options: RosOptions | None = None,
+        on_exit: Callable[["Program"], object] | None = None,
+    ) -> None:
+        """Join the world; `body` is what runs, None adopts the calling thread.
+
+        Args:
+            world: Where to live.
+            name: The executable's name.
+            body: Its `main`.
+            argv: Its `sys.argv`.
+            options: What `--ros-args` said.
+            on_exit: Called on the loop's thread once it has ended; without one a program
+                that fails ends the run.
+        """
+        self.label = name
+        self.argv = list(argv)
+        self.options = options or RosOptions()
+        self.strict = isinstance(world.clock, SimClock)
+        self.broadcasts = False
+        self.failure: BaseException | None = None
+        self.listens = False
+        self.status: int | None = None
+        self.context: Any = None
+        self.executor: Any = None
+        self.nodes: list[Any] = []
+        self.log_levels: dict[str, int] = {}
+        self._on_exit = on_exit
+        self._others: set[asyncio.Task[None]] = set()
+        self._loop: asyncio.AbstractEventLoop | None = None
+        self._loop_thread = 0
+        self._asked_at: Stamp = 0
+        self._asked = 0.0
+        if body is None:
+            self.fiber = Fiber.adopt(name)
+        else:
+            self.fiber = self.new_fiber(name, body, on_busy=self._say_busy)
+        self._own(self.fiber)
+        super().__init__(world, name)
+
+    @property
+    def interrupted(self) -> bool:
+        """Whether it was asked to end."""
+        return self.fiber.interrupted
+
+    @property
+    def turn(self) -> Phase:
+        """Where its timers come within an instant."""
+        return Phase.BROADCAST if self.broadcasts and not self.listens else Phase.CONSUME
+
+    # The loop's side.
+
+    async def run(self) -> None:
+        """Run the body; what it leaves open is closed.
+
+        Raises:
+            BaseException: What ended it, if it failed and nobody waits for its exit.
+        """
+        self._loop = asyncio.get_running_loop()
+        self._loop_thread = threading.get_ident()
+        _living.add(self)
+        try:
+            await self.fiber.drive()
+        except Exception as error:
+            self.failure = error
+        finally:
+            _living.discard(self)
+            others = list(self._others)
+            for other in others:
+                other.cancel()
+            if others:
+                await asyncio.gather(*others, return_exceptions=True)
+            self._leave()
+        if self._on_exit is not None:
+            self._on_exit(self)
+        elif self.status and self.failure is not None:
+            if isinstance(self.failure, Exception):
+                raise self.failure
+            raise TftoolError(f"it ended with exit status {self.status}") from self.failure
+
+    def _leave(self) -> None:
+        raised = self.failure or self.fiber.error
+        if isinstance(raised, KeyboardInterrupt):
+            self.status, raised = (130 if self.interrupted else 1), None
+        elif isinstance(raised, SystemExit):
+            self.status = exit_status(raised)
+        else:
+            self.status = 0 if raised is None else 1
+        self.failure = raised
+        for node in reversed(list(self.nodes)):
+            node.withdraw()
+        self.nodes.clear()
+
+    def start_fiber(self, fiber: Fiber) -> "asyncio.Task[None]":
+        """Drive one more thread of this program (on the loop's thread)."""
+        self._own(fiber)
+        task = asyncio.get_running_loop().create_task(fiber.drive(), name=fiber.name)
+        self._others.add(task)
+        task.add_done_callback(self._fiber_ended)
+        return task
+
+    def new_fiber(self, name: str, body: Callable[[], object], **settings: Any) -> Fiber:
+        """One more thread for this program, not begun yet."""
+        return Fiber(
+            name,
+            body,
+            strict=self.strict,
+            told_to_end=lambda: self.clock.interrupted,
+            **settings,
+        )
+
+    def _fiber_ended(self, task: "asyncio.Task[None]") -> None:
+        self._others.discard(task)
+        if not task.cancelled() and (error := task.exception()) is not None:
+            self.say("ERROR", self.name, str(error))
+
+    def _own(self, fiber: Fiber) -> None:
+        fiber.owner = self
+
+    def _say_busy(self, place: CodeLine | None) -> None:
+        where = str(place) if place is not None else "code that is not yours"
+        wait = "simulated time waits for it" if self.strict else "its other callbacks wait for it"
+        names = ", ".join(f"'{node.name}'" for node in self.nodes) or f"'{self.name}'"
+        text = f"{names} has been busy for {fibers.PATIENCE:g} s and {wait}: {where}"
+        self.say("WARN", self.name, text)
+
+    def say(self, level: Level, speaker: str, text: str) -> None:
+        """Log a line of this program's (on the loop's thread)."""
+        self.world.log.add(level, speaker, text, program=self.label)
+
+    # The fibers' side.
+
+    def ask(self, request: Callable[[], Any]) -> Any:
+        """Have something done on the loop's thread, from any thread; see `Fiber.ask`."""
+        __tracebackhide__ = True
+        fiber = fibers.current()
+        if fiber is not None:
+            self._count(1.0 / REQUESTS)
+            return fiber.ask(request)
+        if threading.get_ident() == self._loop_thread:
+            return request()
+        if self.strict:
+            return self._ask_beside(request)
+        if self._loop is None:
+            raise TftoolError(f"program '{self.name}' is not running yet")
+        return asyncio.run_coroutine_threadsafe(_as_coroutine(request), self._loop).result()
+
+    def _ask_beside(self, request: Callable[[], Any]) -> Any:
+        # A pool's thread, for which a fiber waits: the loop stands still meanwhile.
+        value = request()
+        if inspect.isawaitable(value):
+            fibers.discard(value)
+            raise TftoolError(
+                "on simulated time a thread of a pool cannot wait for anything in the world: "
+                "start it with threading.Thread"
+            )
+        return value
+
+    def now(self) -> Stamp:
+        """The moment it is, by the world's clock."""
+        self._count(1.0 / READINGS)
+        return self.clock.now()
+
+    def looked_in_vain(self) -> None:
+        """Note that it asked for something that was not there, without waiting for it."""
+        self._count(1.0 / POLLS)
+
+    def sleep(self, duration: Duration) -> None:
+        """Block this thread for a while; others go on. Asked to end, it returns at once."""
+        if self.interrupted:
+            return
+        self.ask(lambda: self.clock.sleep(max(0, duration), self.turn, self.rank))
+
+    def _count(self, share: float) -> None:
+        # A loop that looks without ever waiting would hold simulated time still for ever.
+        fiber = fibers.current()
+        if not self.strict or fiber is None:
+            return
+        now = self.clock.now()
+        if now != self._asked_at:
+            self._asked_at, self._asked = now, 0.0
+        self._asked += share
+        if self._asked > 1.0 and not self.interrupted:
+            self._asked = 0.0
+            fiber.ask(lambda: self.clock.sleep(TICK, self.turn, self.rank))
+
+
+def exit_status(error: SystemExit) -> int:
+    """The exit status a process would have had."""
+    code = error.code
+    if code is None:
+        return 0
+    if isinstance(code, int):
+        return code & 0xFF
+    sys.stderr.write(f"{code}\n")
+    return 1
+
+
+async def _as_coroutine(request: Callable[[], Any]) -> Any:
+    value = request()
+    return await value if isinstance(value, Awaitable) else value
+
+
+def let_outsiders_join(found: "Callable[[], Program | None] | None") -> None:
+    """Have `found` say whose code is running where nobody else knows; None ends that."""
+    global _outsiders
+    _outsiders = found
+
+
+_outsiders: "Callable[[], Program | None] | None" = None
+
+
+def running() -> Program | None:
+    """The program whose code is running; None outside of one."""
+    fiber = fibers.current()
+    owner: Program | None = None if fiber is None else fiber.owner
+    if owner is None and fiber is None and len(_living) == 1:
+        # A thread that no program started, a pool's say: there is only one it can work for.
+        (owner,) = _living
+    if owner is None and fiber is None and _outsiders is not None:
+        owner = _outsiders()
+    return owner
+
+
+def current() -> Program:
+    """The program whose code is running.
+
+    Raises:
+        TftoolError: Outside of one.
+    """
+    owner = running()
+    if owner is None:
+        raise TftoolError(
+            "this rclpy lives inside tftool: start the file by 'tftool run' or 'tftool launch', "
+            "or use the pytest fixture 'ros_runtime'"
+        )
+    return owner

@@ -1,0 +1,188 @@
+"""The words of ROS 2's own command line, read: `ros2 topic list`, `ros2 service call` and so on."""
+
+import argparse
+from collections.abc import Mapping, Sequence
+from difflib import get_close_matches
+from typing import Any, NoReturn
+
+from tftool.errors import InputError, UsageError
+from tftool.interfaces.classes import INTERFACES, Message
+from tftool.interfaces.schema import FLOATS
+
+
+class _Parser(argparse.ArgumentParser):
+    """Refuses wrong words with a sentence, as all commands do."""
+
+    def error(self, message: str) -> NoReturn:
+        usage = self.format_usage().removeprefix("usage: ").strip()
+        raise UsageError(f"{self.prog}: {message}. Usage: {' '.join(usage.split())}")
+
+
+def parse(words: Sequence[str]) -> argparse.Namespace:
+    """What `ros2 WORDS` asks for; `noun` and `verb` say which of the commands it is.
+
+    Raises:
+        UsageError: If there is no such command, or its words are wrong.
+    """
+    return _parser().parse_args(list(words))
+
+
+def _parser() -> _Parser:
+    parser = _Parser(prog="ros2", add_help=False)
+    nouns = parser.add_subparsers(dest="noun", required=True, metavar="COMMAND")
+
+    def noun(name: str) -> Any:
+        return nouns.add_parser(name, add_help=False).add_subparsers(
+            dest="verb", required=True, metavar="VERB"
+        )
+
+    def verb(of: Any, name: str, *arguments: str) -> Any:
+        made = of.add_parser(name, add_help=False)
+        for argument in arguments:
+            made.add_argument(argument, nargs="?" if argument.startswith("[") else None)
+        return made
+
+    def flag(of: Any, *names: str) -> None:
+        of.add_argument(*names, action="store_true")
+
+    topic = noun("topic")
+    for listed in (verb(topic, "list"),):
+        flag(listed, "-t", "--show-types")
+        flag(listed, "--include-hidden-topics")
+    echo = verb(topic, "echo", "topic")
+    echo.add_argument("type", nargs="?")
+    flag(echo, "--once")
+    verb(topic, "hz", "topic")
+    flag(verb(topic, "info", "topic"), "-v", "--verbose")
+    verb(topic, "type", "topic")
+    pub = verb(topic, "pub", "topic", "type")
+    pub.add_argument("values", nargs="?", default="{}")
+    pub.add_argument("-r", "--rate", type=float, default=1.0)
+    pub.add_argument("-t", "--times", type=int, default=0)
+    pub.add_argument("-w", "--wait-matching-subscriptions", type=int)
+    flag(pub, "-1", "--once")
+
+    service = noun("service")
+    listed = verb(service, "list")
+    flag(listed, "-t", "--show-types")
+    flag(listed, "--include-hidden-services")
+    verb(service, "type", "service")
+    call = verb(service, "call", "service", "type")
+    call.add_argument("values", nargs="?", default="{}")
+
+    param = noun("param")
+    verb(param, "list").add_argument("node", nargs="?")
+    verb(param, "get", "node", "name")
+    verb(param, "set", "node", "name", "value")
+    verb(param, "dump", "node")
+
+    node = noun("node")
+    flag(verb(node, "list"), "-a", "--all")
+    verb(node, "info", "node")
+
+    action = noun("action")
+    flag(verb(action, "list"), "-t", "--show-types")
+    goal = verb(action, "send_goal", "action", "type", "values")
+    flag(goal, "-f", "--feedback")
+
+    verb(noun("interface"), "show", "type")
+    verb(noun("pkg"), "list")
+    return parser
+
+
+def interface(name: str, kind: str) -> Any:
+    """The class of an interface, "package/srv/Name" or "package/Name".
+
+    Raises:
+        UsageError: If it is not known; the nearest is told.
+    """
+    package, _, own = name.strip("/").partition("/")
+    own = own.removeprefix(f"{kind}/")
+    if not own or own not in INTERFACES.names(package, kind):
+        known = [f"{one}/{kind}/{n}" for one in INTERFACES.packages()
+                 for n in INTERFACES.names(one, kind)]  # fmt: skip
+        near = get_close_matches(f"{package}/{kind}/{own}", known, n=1)
+        hint = f"; did you mean '{near[0]}'?" if near else ""
+        raise UsageError(f"there is no interface '{name}' of kind {kind}{hint}")
+    try:
+        return INTERFACES.find(package, kind, own)
+    except InputError as error:
+        raise UsageError(str(error)) from None
+
+
+def definition(name: str) -> str:
+    """The text of an interface's definition.
+
+    Raises:
+        UsageError: If it is not known.
+    """
+    package, _, own = name.partition("/")
+    kind, _, short = own.rpartition("/")
+    for one in [kind] if kind else ["msg", "srv", "action"]:
+        if short in INTERFACES.names(package, one):
+            return INTERFACES.text(package, one, short)
+    interface(name, kind or "msg")
+    raise UsageError(f"there is no interface '{name}'")
+
+
+def fill(message: Any, values: Any, where: str = "") -> None:
+    """Set a message's fields from what YAML gave.
+
+    Raises:
+        UsageError: If a field is not there, or a value does not fit it; the field is named.
+    """
+    known = [field.name for field in message.fields__]
+    if values is None or values == "":
+        return
+    if not isinstance(values, Mapping):
+        what = f"'{where}'" if where else type(message).__name__
+        raise UsageError(f"{what} takes fields, '{{name: value}}', not {values!r}: {known}")
+    fields = {field.name: field for field in message.fields__}
+    for name, value in values.items():
+        path = f"{where}.{name}" if where else str(name)
+        field = fields.get(name)
+        if field is None:
+            near = get_close_matches(str(name), known, n=1)
+            hint = f"; did you mean '{near[0]}'?" if near else ""
+            names = ", ".join(known) or "none"
+            raise UsageError(
+                f"{type(message).__name__} has no field '{path}' (it has {names}){hint}"
+            )
+        current = getattr(message, name)
+        if isinstance(current, Message):
+            fill(current, value, path)
+            continue
+        try:
+            setattr(message, name, _fitting(field, value, path))
+        except (AssertionError, TypeError, ValueError, OverflowError) as error:
+            raise UsageError(f"'{path}' cannot be {value!r}: {error}") from None
+
+
+def _fitting(field: Any, value: Any, path: str) -> Any:
+    if field.size is not None and not isinstance(field.kind, str):
+        if not isinstance(value, list):
+            raise TypeError("it takes a list")
+        made = []
+        for number, one in enumerate(value):
+            element = field.kind()
+            fill(element, one, f"{path}[{number}]")
+            made.append(element)
+        return made
+    if field.kind in FLOATS:
+        if isinstance(value, list):
+            return [float(one) for one in value]
+        return float(value) if type(value) is int else value
+    return value
+
+
+def plain(value: Any) -> Any:
+    """A message as YAML can show it: mappings, lists and single values."""
+    if isinstance(value, Message):
+        return {field.name: plain(getattr(value, field.name)) for field in value.fields__}
+    if isinstance(value, bytes | bytearray):
+        return list(value)
+    if hasattr(value, "tolist"):
+        return value.tolist()
+    if isinstance(value, list | tuple):
+        return [plain(one) for one in value]
+    return value

@@ -1,0 +1,190 @@
+"""What users' files get instead of three standard modules.
+
+In a user's own files `import time` gives a module whose `sleep` and clocks are the
+world's, `import threading` one whose threads take turns too and whose locks wait in the
+world's time, and `import queue` the standard queues over those. The `time`, `threading`
+and `queue` of all other modules stay as they are.
+"""
+
+import asyncio
+import builtins
+import importlib.util
+import queue
+import sys
+import threading
+import time
+from functools import cache
+from types import ModuleType
+from typing import Any
+
+from tftool.ros.host import locks
+from tftool.ros.host.error_text import error_sentence
+from tftool.ros.host.fibers import Fiber
+from tftool.ros.host.locks import running_program
+from tftool.stamps import NANOSECONDS, seconds
+
+_REAL_SLEEP = time.sleep  # noqa: TID251
+
+
+class _Shim(ModuleType):
+    """A standard module with some names replaced."""
+
+    def __init__(self, real: ModuleType, replaced: dict[str, Any]) -> None:
+        super().__init__(real.__name__, real.__doc__)
+        self.__dict__["_real"] = real
+        self.__dict__.update(replaced)
+
+    def __getattr__(self, name: str) -> Any:
+        return getattr(self._real, name)
+
+    def __dir__(self) -> list[str]:
+        return dir(self._real)
+
+
+def _sleep(secs: float) -> None:
+    owner = running_program()
+    if owner is None:
+        _REAL_SLEEP(secs)
+        return
+    if secs < 0:
+        raise ValueError("sleep length must be non-negative")
+    owner.sleep(seconds(secs))
+
+
+def _now_ns() -> int:
+    owner = running_program()
+    return time.time_ns() if owner is None else owner.now()
+
+
+def _elapsed_ns() -> int:
+    owner = running_program()
+    return time.monotonic_ns() if owner is None else owner.now() - owner.clock.epoch
+
+
+class UserThread(threading.Thread):
+    """A thread of a user's program: a fiber more."""
+
+    _fiber: Fiber | None = None
+
+    def start(self) -> None:
+        """Run it beside the code that started it."""
+        owner = running_program()
+        if owner is None:
+            super().start()
+            return
+        self._owner = owner
+        self._fiber = fiber = owner.new_fiber(self.name, self._run_told)
+        # In a list, for a task itself would be awaited.
+        (self._task,) = owner.ask(lambda: [owner.start_fiber(fiber)])
+
+    def _run_told(self) -> None:
+        """Run it; what it raises ends it alone, and is said, as Python does for its threads."""
+        try:
+            self.run()
+        except Exception as error:
+            sentence = f"thread '{self.name}' failed: {error_sentence(error)}"
+            self._owner.ask(lambda: self._owner.error(sentence))
+
+    def join(self, timeout: float | None = None) -> None:
+        """Wait for its end."""
+        if self._fiber is None:
+            super().join(timeout)
+            return
+        if self._owner.interrupted:
+            return
+        task, clock = self._task, self._owner.clock
+
+        async def ended() -> None:
+            waits_for: set[asyncio.Future[None]] = {task}
+            if timeout is not None:
+                due = clock.now() + seconds(max(0.0, timeout))
+                waits_for.add(timer := clock.timer(due, self._owner.turn, self._owner.rank))
+            try:
+                await asyncio.wait(waits_for, return_when=asyncio.FIRST_COMPLETED)
+            finally:
+                if timeout is not None:
+                    timer.cancel()
+
+        self._owner.ask(ended)
+
+    def is_alive(self) -> bool:
+        """Whether it runs."""
+        return super().is_alive() if self._fiber is None else not self._fiber.ended
+
+
+@cache
+def _shims() -> dict[str, ModuleType]:
+    return {
+        "time": _Shim(
+            time,
+            {
+                "sleep": _sleep,
+                "time": lambda: _now_ns() / NANOSECONDS,
+                "time_ns": _now_ns,
+                "monotonic": lambda: _elapsed_ns() / NANOSECONDS,
+                "monotonic_ns": _elapsed_ns,
+                "perf_counter": lambda: _elapsed_ns() / NANOSECONDS,
+                "perf_counter_ns": _elapsed_ns,
+            },
+        ),
+        "threading": _Shim(
+            threading,
+            {
+                "Thread": UserThread,
+                "Event": locks.UserEvent,
+                "Lock": locks.UserLock,
+                "RLock": locks.UserRLock,
+                "Condition": locks.UserCondition,
+                "Semaphore": locks.UserSemaphore,
+                "BoundedSemaphore": locks.UserBoundedSemaphore,
+                "Barrier": locks.UserBarrier,
+            },
+        ),
+    }
+
+
+@cache
+def _queues() -> ModuleType:
+    """The standard queues, over the threading and the time that users get."""
+    spec = importlib.util.find_spec("queue")
+    if spec is None or spec.loader is None:
+        return queue
+    module = importlib.util.module_from_spec(spec)
+    module.__dict__["__builtins__"] = builtins_for_users()
+    spec.loader.exec_module(module)
+    # The one in C waits in real time; the exceptions are the same ones.
+    module.__dict__["SimpleQueue"] = module._PySimpleQueue
+    return module
+
+
+IMPORTING = locks.UserRLock()
+"""Held while users' modules are imported, which may sleep: Python's own locks would hold up
+the event loop, and simulated time with it."""
+
+
+def _is_imported(name: str, fromlist: Any) -> bool:
+    module = sys.modules.get(name)
+    if module is None or getattr(module.__spec__, "_initializing", False):
+        return False
+    return all(one in vars(module) for one in fromlist or ())
+
+
+@cache
+def builtins_for_users() -> dict[str, Any]:
+    """Builtins whose `import` gives users' files our `time` and `threading`."""
+    shims = _shims()
+
+    def import_(
+        name: str, globals: Any = None, locals: Any = None, fromlist: Any = (), level: int = 0
+    ) -> Any:
+        if level == 0 and name in shims:
+            return shims[name]
+        if level == 0 and name == "queue":
+            return _queues()
+        owner = running_program()
+        if owner is not None and owner.strict and not (level == 0 and _is_imported(name, fromlist)):
+            with IMPORTING:
+                return builtins.__import__(name, globals, locals, fromlist, level)
+        return builtins.__import__(name, globals, locals, fromlist, level)
+
+    return {**vars(builtins), "__import__": import_}

@@ -1,0 +1,111 @@
+"""Users' code: loading it, and running it as a program."""
+
+import inspect
+from collections.abc import Callable
+from pathlib import Path
+from types import ModuleType
+from typing import Any
+
+from tftool.errors import InputError, UsageError
+from tftool.ros.host import importing, program
+from tftool.ros.host.error_text import syntax_sentence
+from tftool.ros.host.shims import builtins_for_users
+
+
+def file_body(path: Path) -> Callable[[], None]:
+    """What runs a node's file as `python3 FILE` would.
+
+    A file that defines `main` and never comes to rclpy is made for a console script, as
+    the tutorial's listings are: its `main` is called.
+
+    Raises:
+        InputError: If the file cannot be read or is no Python; the line is shown.
+    """
+    code = compile_file(path)
+
+    def body() -> None:
+        importing.look_in(path.resolve().parent)
+        module = ModuleType("__main__")
+        module.__file__ = str(path)
+        module.__dict__["__builtins__"] = builtins_for_users()
+        exec(code, module.__dict__)
+        owner = program.current()
+        if owner.context is not None:
+            return
+        main = module.__dict__.get("main")
+        if inspect.isfunction(main) and main.__module__ == "__main__":
+            _end_with(main())
+        else:
+            owner.warn(f"'{path.name}' has ended without rclpy.init(): it has made no node")
+
+    return body
+
+
+def compile_file(path: Path) -> Any:
+    """A file's code.
+
+    Raises:
+        InputError: If it cannot be read or is no Python.
+    """
+    try:
+        source = path.read_bytes()
+    except OSError as error:
+        raise InputError(f"cannot read '{path}': {error.strerror}") from None
+    try:
+        # An attribute that users' own `from __future__` decides, not ours.
+        return compile(source, str(path), "exec", dont_inherit=True)
+    except SyntaxError as error:
+        raise InputError(syntax_sentence(error)) from None
+    except ValueError as error:
+        raise InputError(f"'{path}' is no Python text: {error}") from None
+
+
+def entry_point_body(module: str, function: str, *, root: Path) -> Callable[[], None]:
+    """What runs a console script as its installed wrapper would, from its sources in `root`."""
+
+    def body() -> None:
+        target: Any = importing.import_anew(module, root)
+        for part in function.split("."):
+            if not hasattr(target, part):
+                raise UsageError(
+                    f"the console script names {module}:{function}, but there is no '{part}' in "
+                    f"{getattr(target, '__file__', module)}"
+                )
+            target = getattr(target, part)
+        _end_with(target())
+
+    return body
+
+
+def _end_with(status: object) -> None:
+    """End as a console script does with what its function returned."""
+    if status is not None:
+        raise SystemExit(status)
+
+
+def _warn_of_unserved(owner: program.Program) -> None:
+    """Say of a program that ended without ever serving its nodes that it has not."""
+    for node in owner.nodes:
+        if not node.was_served and not owner.interrupted:
+            waits = [one for one in node.entities if one.is_a_callback]
+            if waits:
+                owner.warn(
+                    f"node '{node.name}' has ended without being spun, so none of its "
+                    f"{len(waits)} callbacks was called: rclpy.spin(node) serves them"
+                )
+
+
+def whole(body: Callable[[], None]) -> Callable[[], None]:
+    """A program's body that destroys what it leaves behind, as the end of a node should."""
+
+    def run() -> None:
+        owner = program.current()
+        try:
+            body()
+            _warn_of_unserved(owner)
+        finally:
+            for node in reversed(list(owner.nodes)):
+                if owner.interrupted:
+                    node.ros_node.destroy_node()
+
+    return run

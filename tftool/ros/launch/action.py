@@ -1,0 +1,58 @@
+"""launch's Action: one thing to do."""
+
+import sys
+from collections.abc import Sequence
+from typing import Any, ClassVar
+
+from tftool.ros.host.fibers import user_line
+from tftool.ros.launch.context import LaunchContext
+from tftool.ros.launch.events import ExecutionComplete
+
+
+class Action:
+    """One thing to do: `execute` gives further actions, or None.
+
+    What takes time is handed to the launch (`context.launch`).
+
+    Attributes:
+        condition: Whether it is done at all; None for always.
+        where: "file:line" where the launch file says it.
+        takes_time: Whether it is done only some time after `execute`; the launch says when.
+        is_begun: Whether it was carried out.
+        is_awaited: Whether somebody waited for its end when it was.
+    """
+
+    takes_time: ClassVar[bool] = False
+    is_begun = False
+    is_awaited = False
+
+    def __init__(self, *, condition: Any = None, **kwargs: Any) -> None:
+        self.condition = condition
+        place = user_line(sys._getframe(1))
+        self.where = "" if place is None else f"{place.file}:{place.line}"
+        if kwargs:
+            raise TypeError(
+                f"{type(self).__name__} takes no argument {', '.join(map(repr, kwargs))} here"
+            )
+
+    def visit(self, context: LaunchContext) -> Any:
+        """Do it, if its condition holds; what is to be done next."""
+        if self.condition is not None and not self.condition.evaluate(context):
+            return None
+        following = self.execute(context)
+        # As in ROS 2: who begins to wait for it later is not told.
+        self.is_begun = True
+        if context.launch is None:
+            return following
+        self.is_awaited = context.launch.is_awaited(ExecutionComplete(action=self))
+        if not self.takes_time:
+            context.launch.complete(self)
+        return following
+
+    def execute(self, context: LaunchContext) -> Any:
+        """Do it."""
+        return None
+
+    def describe_sub_entities(self) -> Sequence[Any]:
+        """Actions inside, for looking for arguments."""
+        return ()

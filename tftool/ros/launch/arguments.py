@@ -1,0 +1,95 @@
+"""Arguments of launch files: which there are, which may be passed, how they are shown."""
+
+import re
+from collections.abc import Iterable, Mapping, Sequence
+from difflib import get_close_matches
+from pathlib import Path
+from typing import Any
+
+from tftool.errors import TftoolError, UsageError
+from tftool.ros.launch.action import Action
+from tftool.ros.launch.composition import IncludeLaunchDescription
+from tftool.ros.launch.context import LaunchContext
+from tftool.ros.launch.description import LaunchDescription
+from tftool.ros.launch.settings import DeclareLaunchArgument
+from tftool.ros.launch.substitutions import perform
+
+
+def declared(description: LaunchDescription, context: LaunchContext) -> list[DeclareLaunchArgument]:
+    """The arguments a description declares, those of files it includes too."""
+    found: dict[str, DeclareLaunchArgument] = {}
+
+    def look(entities: Iterable[Any]) -> None:
+        for entity in entities:
+            if isinstance(entity, DeclareLaunchArgument):
+                found.setdefault(entity.name, entity)
+                if entity.default_value is not None:
+                    context.launch_configurations.setdefault(entity.name, "")
+            elif isinstance(entity, IncludeLaunchDescription):
+                before = set(found)
+                files = context.files
+                try:
+                    passed = {perform(context, name) for name, _ in entity.launch_arguments}
+                    inner, path = entity.source.load(context)
+                    if path is not None and path.absolute() not in files:
+                        context.enter_file(path)
+                        look(inner.entities)
+                except TftoolError:
+                    continue  # it is said when the file is really included
+                finally:
+                    context.files = files
+                for name in set(found) - before & passed:
+                    del found[name]
+            elif isinstance(entity, LaunchDescription):
+                look(entity.entities)
+            elif isinstance(entity, Action):
+                look(entity.describe_sub_entities())
+
+    kept = dict(context.launch_configurations)
+    look(description.entities)
+    context.launch_configurations = kept
+    return list(found.values())
+
+
+def refuse_unknown(
+    path: Path, given: Mapping[str, str], known: Sequence[DeclareLaunchArgument]
+) -> None:
+    """Refuse arguments that a launch file neither declares nor so much as mentions.
+
+    Some are used by a LaunchConfiguration with a default, or by a function, undeclared.
+
+    Raises:
+        UsageError: If there is one; the nearest that is declared is told.
+    """
+    names = [one.name for one in known]
+    for name in given:
+        if name not in names and not _mentions(path, name):
+            near = get_close_matches(name, names, n=1)
+            if near:
+                raise UsageError(
+                    f"{path.name} declares no argument '{name}'; did you mean '{near[0]}:=…'?"
+                )
+            there = ", ".join(names) if names else "none"
+            raise UsageError(f"{path.name} declares no argument '{name}' (it declares {there})")
+
+
+def _mentions(path: Path, name: str) -> bool:
+    text = path.read_text(encoding="utf-8", errors="replace")
+    return re.search(rf"""["'\s]{re.escape(name)}["'\s)]""", text) is not None
+
+
+def shown_arguments(arguments: Sequence[DeclareLaunchArgument]) -> str:
+    """What --show-args prints, laid out as `ros2 launch` does."""
+    lines = ["Arguments (pass arguments as '<name>:=<value>'):"]
+    if not arguments:
+        lines += ["", "  No arguments."]
+    for one in arguments:
+        default = one.shown_default()
+        lines += [
+            "",
+            f"    '{one.name}':",
+            f"        {one.description}",
+        ]
+        if default is not None:
+            lines.append(f"        (default: {default})")
+    return "\n".join(lines)

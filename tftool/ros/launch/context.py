@@ -1,0 +1,126 @@
+"""What is known while a launch runs."""
+
+import os
+from collections.abc import Callable, Iterable, Iterator
+from contextlib import contextmanager
+from pathlib import Path
+from types import SimpleNamespace
+from typing import Any
+
+from tftool.errors import UsageError
+from tftool.ros.host.workspace import Workspace
+
+DEEPEST = 50
+"""How many launch files may include each other in a row."""
+
+
+class LaunchContext:
+    """Arguments, environment, the scope one is in, and the launch itself.
+
+    Attributes:
+        launch_configurations: Arguments and their values.
+        environment: Environment variables, a copy.
+        environments: Those that were kept by PushEnvironment.
+        files: The launch file one is in, last, after those that include it.
+        namespace: Where nodes are put.
+        remaps: Rules for all nodes of the scope.
+        parameters: (node, name, value) for the nodes of the scope; "" is each of them.
+        load: Reads a launch file, for those that include one; None outside of a launch.
+        launch: What runs it.
+        event: What is being handled, None while nothing is.
+    """
+
+    def __init__(
+        self,
+        workspace: Workspace | None = None,
+        load: Callable[[Path], Any] | None = None,
+        launch: Any = None,
+        *,
+        argv: Iterable[str] | None = None,
+        noninteractive: bool = False,
+    ) -> None:
+        self.launch_configurations: dict[str, str] = {}
+        self.environment: dict[str, str] = dict(os.environ)
+        self.environments: list[dict[str, str]] = []
+        self.files: tuple[Path, ...] = ()
+        self.namespace = ""
+        self.remaps: list[tuple[str, str]] = []
+        self.parameters: list[tuple[str, str, Any]] = []
+        self.argv = list(argv or ())
+        self._workspace = workspace
+        self.load = load
+        self.launch = launch
+        self.event: Any = None
+        self._numbers: dict[str, int] = {}
+        self._kept: list[tuple[Any, ...]] = []
+
+    @property
+    def workspace(self) -> Workspace:
+        """Where packages are looked for: here, unless that was said."""
+        if self._workspace is None:
+            self._workspace = Workspace(Path.cwd())
+        return self._workspace
+
+    @property
+    def locals(self) -> SimpleNamespace:
+        """What is known here alone: the event that is being handled."""
+        return SimpleNamespace() if self.event is None else SimpleNamespace(event=self.event)
+
+    def number_of(self, name: str) -> int:
+        """A number for a name, the same one each time."""
+        return self._numbers.setdefault(name, len(self._numbers) + 1)
+
+    def perform_substitution(self, substitution: Any) -> str:
+        """The text of a substitution, for functions of a launch file."""
+        return str(substitution.perform(self))
+
+    def enter_file(self, path: Path) -> None:
+        """Be in a launch file from now on.
+
+        Raises:
+            UsageError: If it is included too deep to be meant.
+        """
+        if len(self.files) >= DEEPEST:
+            raise UsageError(f"'{path}' is included {DEEPEST} deep: does it include itself?")
+        self.files = (*self.files, path.absolute())
+
+    def kept(self) -> tuple[Any, ...]:
+        """The scope one is in, to come back to."""
+        return (
+            dict(self.launch_configurations),
+            dict(self.environment),
+            self.files,
+            self.namespace,
+            list(self.remaps),
+            list(self.parameters),
+            self.event,
+        )
+
+    def push(self) -> None:
+        """Begin a scope."""
+        self._kept.append(self.kept())
+
+    def pop(self) -> None:
+        """End it: everything is as before."""
+        self._restore(self._kept.pop())
+
+    @contextmanager
+    def back_to(self, kept: tuple[Any, ...]) -> Iterator[None]:
+        """Be in another scope for a while."""
+        now = self.kept()
+        self._restore(kept)
+        try:
+            yield
+        finally:
+            self._restore(now)
+
+    def _restore(self, kept: tuple[Any, ...]) -> None:
+        (
+            self.launch_configurations,
+            self.environment,
+            self.files,
+            self.namespace,
+            self.remaps,
+            self.parameters,
+            self.event,
+        ) = kept

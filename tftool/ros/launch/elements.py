@@ -1,0 +1,225 @@
+"""launch files in XML and in YAML, read: both give the same elements."""
+
+from collections.abc import Iterable
+from dataclasses import dataclass, field
+from difflib import get_close_matches
+from pathlib import Path
+from typing import Any
+from xml.parsers import expat
+
+import yaml
+
+from tftool import yaml_guard
+from tftool.errors import InputError
+
+DEEPEST = 100
+"""How many levels of elements, or of `$(…)`, may lie in each other."""
+
+
+@dataclass(slots=True)
+class Element:
+    """One element: a tag of XML, a key of YAML.
+
+    Attributes:
+        tag: What it is.
+        values: Its attributes.
+        children: What is inside.
+        where: "file:line".
+        asked: Attributes that were asked for: those it may have.
+        known: Tags of children that were asked for.
+    """
+
+    tag: str
+    where: str
+    values: dict[str, Any] = field(default_factory=dict)
+    children: list["Element"] = field(default_factory=list)
+    asked: set[str] = field(default_factory=set)
+    known: set[str] = field(default_factory=set)
+
+    def get(self, name: str, default: Any = None) -> Any:
+        """An attribute, or something else."""
+        self.asked.add(name)
+        return self.values.get(name, default)
+
+    def need(self, *names: str) -> Any:
+        """An attribute that must be there, under one of its names.
+
+        Raises:
+            InputError: If it is missing.
+        """
+        for name in names:
+            self.asked.add(name)
+        for name in names:
+            if name in self.values:
+                return self.values[name]
+        raise InputError(f"{self.where}: '{self.tag}' needs '{names[0]}'")
+
+    def inside(self, *tags: str) -> list["Element"]:
+        """The children with one of some tags."""
+        self.known.update(tags)
+        return [child for child in self.children if child.tag in tags]
+
+    def all_inside(self) -> list["Element"]:
+        """Every child, whatever it is."""
+        self.known.update(child.tag for child in self.children)
+        return self.children
+
+    def finish(self) -> None:
+        """Refuse attributes and children nobody asked for.
+
+        Raises:
+            InputError: If there is one; the nearest that is known is told.
+        """
+        for name in self.values:
+            if name not in self.asked:
+                raise self.refusal(f"'{self.tag}' has no attribute '{name}'", name, self.asked)
+        for child in self.children:
+            if child.tag not in self.known:
+                what = f"'{self.tag}' has no '{child.tag}' inside"
+                raise child.refusal(what, child.tag, self.known)
+
+    def too_deep(self) -> InputError:
+        """That nobody means so many levels."""
+        return InputError(f"{self.where}: more than {DEEPEST} levels of nesting are too deep")
+
+    def refusal(self, what: str, word: str, known: Iterable[str]) -> InputError:
+        """What is wrong here, and the nearest word that is known."""
+        near = get_close_matches(word, list(known), n=1)
+        hint = f"; did you mean '{near[0]}'?" if near else ""
+        return InputError(f"{self.where}: {what}{hint}")
+
+
+# Reading
+
+
+def read_xml(path: Path) -> list[Element]:
+    """The elements in an XML file.
+
+    Raises:
+        InputError: If it cannot be read; the line is told.
+    """
+    parser = expat.ParserCreate()
+    stack: list[Element] = [Element("", str(path))]
+
+    def start(tag: str, values: dict[str, Any]) -> None:
+        element = Element(tag, f"{path}:{parser.CurrentLineNumber}", dict(values))
+        if len(stack) > DEEPEST:
+            raise element.too_deep()
+        stack[-1].children.append(element)
+        stack.append(element)
+
+    def refuse(*_: Any) -> None:
+        raise InputError(f"{path}:{parser.CurrentLineNumber}: entities are not read")
+
+    parser.StartElementHandler = start
+    parser.EndElementHandler = lambda tag: stack.pop()
+    parser.EntityDeclHandler = refuse
+    try:
+        parser.Parse(path.read_bytes(), True)
+    except OSError as error:
+        raise InputError(f"cannot read '{path}': {error.strerror}") from None
+    except expat.ExpatError as error:
+        where = f"{path}:{error.lineno}:{error.offset + 1}"
+        raise InputError(f"{where}: {expat.ErrorString(error.code)}") from None
+    except (LookupError, ValueError) as error:
+        # Expat asks Python for encodings that it does not know itself.
+        raise InputError(f"{path}:1: {error}; save the file as UTF-8") from None
+    root = stack[0].children[0]
+    if root.tag != "launch":
+        raise InputError(f"{root.where}: a launch file's root is 'launch', not '{root.tag}'")
+    return root.children
+
+
+def read_yaml(path: Path) -> list[Element]:
+    """The elements in a YAML file.
+
+    Raises:
+        InputError: If it cannot be read or is laid out otherwise; the line is told.
+    """
+    try:
+        root = yaml_guard.compose(path.read_text(encoding="utf-8"))
+    except (OSError, UnicodeDecodeError) as error:
+        reason = getattr(error, "strerror", None) or "it is no UTF-8 text"
+        raise InputError(f"cannot read '{path}': {reason}") from None
+    except yaml.YAMLError as error:
+        mark: Any = getattr(error, "problem_mark", None)
+        where = f"{path}:{mark.line + 1}:{mark.column + 1}" if mark else str(path)
+        raise InputError(f"{where}: {getattr(error, 'problem', None) or 'not YAML'}") from None
+    except RecursionError:
+        raise Element("", str(path)).too_deep() from None
+    top = Element("launch", str(path))
+    if not isinstance(root, yaml.MappingNode) or [key.value for key, _ in root.value] != ["launch"]:
+        raise InputError(f"{path}: a launch file has one key at its top, 'launch'")
+    _Yaml(path).children(root.value[0][1], top, 1)
+    return top.children
+
+
+class _Yaml:
+    """Hangs what the nodes of a YAML document say below elements."""
+
+    def __init__(self, path: Path) -> None:
+        self.path = path
+
+    def children(self, node: Any, parent: Element, depth: int) -> None:
+        """Take a list of one-key mappings."""
+        if not isinstance(node, yaml.SequenceNode):
+            where = self.where(node)
+            raise InputError(f"{where}: '{parent.tag}' is a list of actions, each begun with '- '")
+        for item in node.value:
+            if not isinstance(item, yaml.MappingNode) or len(item.value) != 1:
+                where = self.where(item)
+                raise InputError(f"{where}: an action is one key with its attributes below it")
+            key, value = item.value[0]
+            parent.children.append(self.element(self.word(key), value, depth))
+
+    def element(self, tag: str, node: Any, depth: int) -> Element:
+        """Make an element of a mapping of attributes, or of a list of actions."""
+        element = Element(tag, self.where(node))
+        # An alias may stand inside what it stands for.
+        if depth > DEEPEST:
+            raise element.too_deep()
+        if isinstance(node, yaml.SequenceNode):
+            self.children(node, element, depth + 1)
+            return element
+        if not isinstance(node, yaml.MappingNode):
+            raise InputError(
+                f"{element.where}: '{tag}' needs its attributes below it, 'name: value'"
+            )
+        for key, value in node.value:
+            name = self.word(key)
+            nested = isinstance(value, yaml.SequenceNode) and any(
+                isinstance(one, yaml.MappingNode) for one in value.value
+            )
+            if nested and name == "children":
+                self.children(value, element, depth + 1)
+            elif nested:
+                element.children += [self.element(name, one, depth + 1) for one in value.value]
+            else:
+                element.values[name] = self.value(value)
+        return element
+
+    def word(self, node: Any) -> str:
+        """A key.
+
+        Raises:
+            InputError: If it is no single word.
+        """
+        if not isinstance(node, yaml.ScalarNode):
+            raise InputError(f"{self.where(node)}: a key is one word, not a list or a mapping")
+        return str(node.value)
+
+    def value(self, node: Any) -> Any:
+        """An attribute's value.
+
+        Raises:
+            InputError: If it is none that YAML knows by itself.
+        """
+        try:
+            return yaml_guard.construct(node)
+        except (yaml.YAMLError, ValueError) as error:
+            reason = getattr(error, "problem", None) or error
+            raise InputError(f"{self.where(node)}: {reason}") from None
+
+    def where(self, node: Any) -> str:
+        """The place of a node: "file:line"."""
+        return f"{self.path}:{node.start_mark.line + 1}"

@@ -1,0 +1,462 @@
+"""Carries a launch description out: all its nodes in one process, on one loop."""
+
+import asyncio
+import shlex
+import signal
+from collections.abc import Callable, Iterable, Mapping, Sequence
+from functools import partial
+from pathlib import Path
+from typing import Any, ClassVar
+
+from tftool.errors import InputError, TftoolError, UsageError
+from tftool.ros import ros2
+from tftool.ros.host import executables, program, user_code
+from tftool.ros.host.error_text import error_sentence
+from tftool.ros.host.program import Program, ProgramNode
+from tftool.ros.host.workspace import Workspace
+from tftool.ros.launch.arguments import declared, refuse_unknown
+from tftool.ros.launch.commands import SystemCommand, begin, lines_of, run_at_once
+from tftool.ros.launch.context import LaunchContext
+from tftool.ros.launch.description import LaunchDescription
+from tftool.ros.launch.ending import interrupt
+from tftool.ros.launch.event_queue import EventQueue
+from tftool.ros.launch.events import (
+    Event,
+    ExecutionComplete,
+    ProcessExited,
+    ProcessIO,
+    ProcessStarted,
+    Shutdown,
+    ShutdownProcess,
+)
+from tftool.ros.launch.files import load_file
+from tftool.ros.launch.processes import Executable
+from tftool.ros.rclpy.exceptions import NotInitializedException
+from tftool.runtime.clock import SimClock
+from tftool.runtime.log import LogRecord
+from tftool.runtime.node import Node
+from tftool.runtime.world import World
+from tftool.stamps import seconds
+
+Say = Callable[[str, str, str], object]
+"""Is told level, who speaks ("launch", "listener-4") and a line."""
+
+
+SOONEST = 0.1
+"""Seconds before a program is started again at least: one that ends at once must let time pass."""
+
+
+class Launch(Node):
+    """What `ros2 launch` is: starts what a description says, and watches it.
+
+    Attributes:
+        failed: Labels of programs that ended with another exit status than 0.
+        ended: Set once everything it started has ended.
+        handlers: Who waits for events.
+        labels: What each node of ours is called in log lines, by the node's name.
+    """
+
+    is_shown: ClassVar[bool] = False
+
+    def __init__(
+        self,
+        world: World,
+        what: Path | LaunchDescription,
+        *,
+        workspace: Workspace | None = None,
+        arguments: Mapping[str, str] | None = None,
+        say: Say = lambda level, who, text: None,
+        context: LaunchContext | None = None,
+        name: str = "launch",
+    ) -> None:
+        """Read a launch file, or take a description.
+
+        Args:
+            world: Where to launch.
+            what: The launch file, or what it would give.
+            workspace: Where packages are looked for; here when None.
+            arguments: Values for the arguments it declares.
+            say: Takes the launch's lines.
+            context: What is known while it runs; a new one when None.
+            name: Its own name in the world.
+
+        Raises:
+            InputError: If it cannot be read.
+            UsageError: If an argument is passed that it does not declare.
+        """
+        self.context = context or LaunchContext(workspace)
+        self.context.load, self.context.launch = load_file, self
+        if isinstance(what, Path):
+            self.description = load_file(what)
+            self.context.enter_file(what)
+            refuse_unknown(what, arguments or {}, declared(self.description, self.context))
+        else:
+            self.description = what
+        self.context.launch_configurations.update(arguments or {})
+        self.failed: list[str] = []
+        self.ended = asyncio.Event()
+        self.handlers: list[Any] = []
+        self.labels: dict[str, str] = {}
+        self._say = say
+        self._running: dict[str, Callable[[], object]] = {}  # how each is ended
+        self._timers: set[asyncio.Task[None]] = set()
+        self._watches: set[asyncio.Task[None]] = set()
+        self._respawns: dict[str, tuple[float, Callable[[], None]]] = {}
+        self._count = 0
+        self._closing = False
+        self._events = EventQueue(self._tell)
+        self._over: asyncio.Future[None] | None = None
+        self._actions: dict[str, Any] = {}  # by label
+        super().__init__(world, name)
+        world.log.listen(self._logged, name)
+
+    async def run(self) -> None:
+        """Launch, and stay until everything has ended or a Shutdown is emitted.
+
+        Raises:
+            UsageError: If something cannot be started as the description says.
+        """
+        self._over = asyncio.get_running_loop().create_future()
+        try:
+            self.do([self.description])
+            self._look_round()
+            await self._over
+        finally:
+            self._closing = True
+            for timer in self._timers:
+                timer.cancel()
+            for end in list(self._running.values()):
+                end()
+            await asyncio.gather(*self._timers, *self._watches, return_exceptions=True)
+        while self._running:
+            self._over = asyncio.get_running_loop().create_future()
+            await self._over
+        self.ended.set()
+
+    # What actions ask for
+
+    def do(self, entities: Any) -> None:
+        """Carry out entities, and what they give, one after the other.
+
+        Raises:
+            UsageError: If one cannot be carried out as the launch file says; its line is told.
+            InputError: If the launch file's own code raises.
+        """
+        with self._events.held():
+            for entity in entities if isinstance(entities, Iterable) else [entities]:
+                following = self._visit(entity)
+                if following:
+                    self.do(following)
+
+    def _visit(self, entity: Any) -> Any:
+        if not hasattr(entity, "visit"):
+            raise UsageError(f"a launch description holds actions, not {entity!r}")
+        where = getattr(entity, "where", "")
+        try:
+            return entity.visit(self.context)
+        except (UsageError, InputError) as error:
+            kind = UsageError if isinstance(error, UsageError) else InputError
+            raise kind(f"{where}: {error}" if where else f"{error}") from error
+        except TftoolError:
+            raise
+        except Exception as error:
+            raise InputError(f"{where}: {error_sentence(error)}") from error
+
+    def emit(self, event: Event) -> None:
+        """Tell an event to whoever waits for it, once what is being carried out is done."""
+        self._events.add(event)
+
+    def _tell(self, event: Event) -> None:
+        for handler in list(self.handlers):
+            if handler.matches(event):
+                if handler.handle_once:
+                    self.handlers.remove(handler)
+                self.context.event = event
+                try:
+                    entities = handler.handle(event, self.context)
+                except Exception as error:
+                    raise InputError(error_sentence(error)) from error
+                self.do(entities or ())
+                self.context.event = None
+        if isinstance(event, ShutdownProcess):
+            for label, action in self._actions.items():
+                if label in self._running and event.process_matcher(action):
+                    self._running[label]()
+        if isinstance(event, Shutdown) and not self._closing:
+            self._closing = True
+            self._say("INFO", "launch", f"shutting down: {event.reason}")
+            self._end()
+
+    def hear(self, topic: str, kind: type[Any], callback: Callable[[Any], object]) -> None:
+        """Have `callback` called with every message of a topic; what it raises ends the launch."""
+        self.subscribe(topic, kind, lambda message: self._guarded(lambda: callback(message)))
+
+    def _wrote(self, label: str, line: str, *, to_stdout: bool) -> None:
+        """Take in a line that a process has written."""
+        event = ProcessIO(
+            action=self._actions.get(label),
+            process_name=label,
+            text=f"{line}\n".encode(),
+            from_stdout=to_stdout,
+        )
+        if self.is_awaited(event):
+            self._guarded(lambda: self.emit(event))
+
+    def _logged(self, record: LogRecord) -> None:
+        if record.program in self._actions:
+            line = f"[{record.level}] [{record.node}]: {record.text}"
+            self._wrote(record.program, line, to_stdout=False)
+
+    def _line(self, label: str, line: str) -> None:
+        self._say("", label, line)
+        self._wrote(label, line, to_stdout=True)
+
+    def is_awaited(self, event: Event) -> bool:
+        """Whether somebody waits for an event."""
+        return any(handler.matches(event) for handler in self.handlers)
+
+    def complete(self, action: Any) -> None:
+        """Tell that an action is done."""
+        if action.is_awaited:
+            self.emit(ExecutionComplete(action=action))
+
+    def interrupt(self) -> None:
+        """Say that the user ends the launch; who ends the world ends it too."""
+        self._closing = True
+        self._say("WARNING", "launch", "user interrupted with ctrl-c (SIGINT)")
+        event = Shutdown(reason="ctrl-c (SIGINT)", due_to_sigint=True)
+        self._guarded(lambda: self.emit(event))
+
+    def info(self, text: str) -> None:
+        """Say something."""
+        self._say("INFO", "launch", text)
+
+    def warn(self, text: str) -> None:
+        """Say what is odd."""
+        self._say("WARNING", "launch", text)
+
+    def later(self, action: Any, period: float, actions: Sequence[Any]) -> None:
+        """Carry actions out after so many seconds, in the scope of now; `action` asks for it."""
+        kept = self.context.kept()
+
+        async def wait() -> None:
+            await self.clock.sleep(seconds(period), self.phase, self.rank)
+            with self.context.back_to(kept):
+                self._guarded(lambda: self.do(actions))
+                self._guarded(lambda: self.complete(action))
+
+        self._start_task(wait(), self._timers)
+
+    def start_node(self, action: Any, executable: Executable, respawn: float | None) -> None:
+        """Start a package's executable.
+
+        Args:
+            action: What asked for it, for events.
+            executable: What to start.
+            respawn: After how many seconds it is started again once it has ended; None for never.
+        """
+        label = self._label(executable.label)
+        self._actions[label] = action
+        options = executable.options
+        argv = [executable.name, *executable.arguments, "--ros-args"]
+        if options.name:
+            argv += ["-r", f"__node:={options.name}"]
+        if options.namespace:
+            argv += ["-r", f"__ns:=/{options.namespace.strip('/')}"]
+        argv += [
+            word for _, name, value in options.parameters for word in ("-p", f"{name}:={value}")
+        ]
+
+        def start() -> None:
+            try:
+                node = executables.start(
+                    self.world,
+                    self.context.workspace,
+                    executable.package,
+                    executable.name,
+                    label=label,
+                    argv=argv,
+                    arguments=executable.arguments,
+                    options=options,
+                    on_exit=partial(self._program_ended, action, label),
+                )
+            except executables.HasItsOwnCommand as error:
+                # The others do without it.
+                self.warn(f"left out: {error}")
+                return
+            if isinstance(node, Program):
+                self._running[label] = partial(self.world.remove, node)
+            else:
+                self.labels[node.name] = label
+                # It lives as long as the world, which ends with the launch.
+                self._running[label] = partial(self._ended, action, label, 0, "")
+            self._say("INFO", label, "process started")
+            self.emit(ProcessStarted(action=action, process_name=label))
+
+        self._start(label, start, respawn)
+
+    def start_process(
+        self, action: Any, name: str, command: SystemCommand, respawn: float | None
+    ) -> None:
+        """Start a command of the system; on simulated time it takes no time.
+
+        Args:
+            action: What asked for it, for events.
+            name: What it is called in the log, before its number.
+            command: What to start.
+            respawn: As for `start_node`.
+        """
+        label = self._label(name)
+        self._actions[label] = action
+
+        def start() -> None:
+            self._say("INFO", label, f"process started: {shlex.join(command.words)}")
+            self.emit(ProcessStarted(action=action, process_name=label))
+            if isinstance(self.clock, SimClock):
+                status, reason = run_at_once(command, lambda line: self._line(label, line))
+                # Not at once: who waits for its end may be named further down in the file.
+                self._start_task(self._end_soon(action, label, status, reason), self._watches)
+            else:
+                self._start_task(self._watch(action, label, command), self._watches)
+
+        self._start(label, start, respawn)
+
+    def start_ros2(self, action: Any, words: Sequence[str], respawn: float | None) -> None:
+        """Carry `ros2 WORDS` out as a program of the world.
+
+        Args:
+            action: What asked for it, for events.
+            words: What follows `ros2`.
+            respawn: As for `start_node`.
+
+        Raises:
+            UsageError: If the words are no command of ROS 2's that is known here.
+        """
+        label = self._label("ros2")
+        self._actions[label] = action
+
+        def show(line: str) -> None:
+            program.current().ask(lambda: self._line(label, line))
+
+        body = ros2.body(words, self.context.workspace, show)
+
+        def start() -> None:
+            self._say("INFO", label, f"process started: {shlex.join(['ros2', *words])}")
+            started = Program(
+                self.world,
+                label,
+                user_code.whole(body),
+                argv=["ros2", *words],
+                on_exit=partial(self._program_ended, action, label),
+            )
+            self._running[label] = partial(self.world.remove, started)
+            self.emit(ProcessStarted(action=action, process_name=label))
+
+        self._start(label, start, respawn)
+
+    def _start(self, label: str, start: Callable[[], None], respawn: float | None) -> None:
+        if self._closing:
+            # The end of one may be what another waits for to begin.
+            return
+        if respawn is not None:
+            self._respawns[label] = (max(respawn, SOONEST), start)
+        start()
+
+    async def _end_soon(self, action: Any, label: str, status: int, reason: str) -> None:
+        self._ended(action, label, status, reason)
+
+    async def _watch(self, action: Any, label: str, command: SystemCommand) -> None:
+        try:
+            process = await begin(command)
+        except UsageError as error:
+            self._ended(action, label, 127, str(error))
+            return
+        self._running[label] = partial(interrupt, process)
+        if self._closing:
+            interrupt(process)
+        if process.stdout is not None:
+            async for line in lines_of(process.stdout):
+                self._line(label, line)
+        status = await process.wait()
+        self._ended(action, label, status, "")
+
+    # What ends
+
+    def _program_ended(self, action: Any, label: str, ended: Program) -> None:
+        # Its name is free again: it may be started anew.
+        self.world.remove(ended)
+        reason = "" if ended.failure is None else error_sentence(ended.failure)
+        if isinstance(ended.failure, SystemExit):
+            reason = ""
+        # Asked to end before it made its node, it finds rclpy shut down.
+        too_late = ended.interrupted and isinstance(ended.failure, NotInitializedException)
+        interrupted = ended.status == 130 or too_late
+        self._ended(action, label, 0 if interrupted else ended.status or 0, reason)
+
+    def _ended(self, action: Any, label: str, status: int, reason: str) -> None:
+        self._running.pop(label, None)
+        stopped = self._closing and status in (-signal.SIGINT, -signal.SIGTERM, 130)
+        if status == 0 or stopped:
+            self._say("INFO", label, "process has finished cleanly")
+        else:
+            self.failed.append(label)
+            told = f": {reason}" if reason else ""
+            self._say("ERROR", label, f"process has died, exit status {status}{told}")
+        event = ProcessExited(action=action, process_name=label, returncode=status)
+        self._guarded(lambda: self.emit(event))
+        if not self._respawn(label):
+            self._guarded(lambda: self.complete(action))
+        self._look_round()
+
+    def _respawn(self, label: str) -> bool:
+        if label not in self._respawns or self._closing:
+            return False
+        delay, start = self._respawns[label]
+
+        async def wait() -> None:
+            await self.clock.sleep(seconds(delay), self.phase, self.rank)
+            self._guarded(start)
+
+        self._start_task(wait(), self._timers)
+        return True
+
+    def _guarded(self, work: Callable[[], object]) -> None:
+        """Do something later than the launch began: what is wrong ends the launch."""
+        try:
+            work()
+        except Exception as error:
+            ours = isinstance(error, TftoolError)
+            self._say("ERROR", "launch", str(error) if ours else error_sentence(error))
+            self.failed.append("launch")
+            self._end()
+
+    def _look_round(self) -> None:
+        if self._closing or not (self._running or self._timers or self._watches):
+            self._end()
+
+    def _end(self) -> None:
+        if self._over is not None and not self._over.done():
+            self._over.set_result(None)
+
+    def _start_task(self, coroutine: Any, kept: "set[asyncio.Task[None]]") -> None:
+        task = asyncio.get_running_loop().create_task(coroutine)
+        kept.add(task)
+
+        def ended(task: "asyncio.Task[None]") -> None:
+            kept.discard(task)
+            self._look_round()
+
+        task.add_done_callback(ended)
+
+    def _label(self, name: str) -> str:
+        self._count += 1
+        return f"{name}-{self._count}"
+
+    def label_of(self, record: LogRecord) -> str:
+        """Which process a line of the log comes from."""
+        if record.program:
+            return record.program
+        for node in self.world.nodes:
+            if isinstance(node, ProgramNode) and node.name == record.node:
+                return node.program.label
+        return self.labels.get(record.node, "launch")

@@ -1,0 +1,48 @@
+"""Launch files: Python, XML or YAML in, a description out."""
+
+from pathlib import Path
+from types import ModuleType
+
+from tftool.errors import InputError
+from tftool.ros.host import user_code
+from tftool.ros.host.error_text import error_sentence
+from tftool.ros.launch.description import LaunchDescription
+from tftool.ros.launch.elements import read_xml, read_yaml
+from tftool.ros.launch.frontend import actions_of
+
+
+def load_file(path: Path) -> LaunchDescription:
+    """The description in a launch file.
+
+    Raises:
+        InputError: If it cannot be read, is none, or raises; the user's own line is shown.
+    """
+    if path.suffix == ".xml":
+        return LaunchDescription(actions_of(read_xml(path)))
+    if path.suffix in (".yaml", ".yml"):
+        return LaunchDescription(actions_of(read_yaml(path)))
+    return _from_python(path)
+
+
+def _from_python(path: Path) -> LaunchDescription:
+    code = user_code.compile_file(path)
+    module = ModuleType("launch_file")
+    module.__file__ = str(path)
+    try:
+        exec(code, module.__dict__)
+        make = module.__dict__.get("generate_launch_description")
+        if make is None:
+            raise InputError(
+                f"'{path}' is no launch file: it has no function generate_launch_description()"
+            )
+        description = make()
+    except InputError:
+        raise
+    except Exception as error:
+        raise InputError(f"{path}: {error_sentence(error)}") from error
+    if not isinstance(description, LaunchDescription):
+        raise InputError(
+            f"{path}: generate_launch_description() must return a LaunchDescription, not "
+            f"{type(description).__name__}"
+        )
+    return description

@@ -1,0 +1,256 @@
+"""What the elements of XML and YAML launch files mean: the actions of Python's."""
+
+import shlex
+from collections.abc import Callable, Iterable, Mapping
+from functools import partial
+from types import MappingProxyType
+from typing import Any
+
+from tftool.errors import UsageError
+from tftool.ros.launch import composition, nodes, parameters, processes, reactions, settings
+from tftool.ros.launch.conditions import IfCondition, UnlessCondition
+from tftool.ros.launch.description import LaunchDescriptionSource
+from tftool.ros.launch.elements import Element
+from tftool.ros.launch.parsing import parsed
+from tftool.ros.launch.substitutions import TextSubstitution, is_true
+
+_COMPONENTS = "composable nodes are libraries in C++; 'node' starts programs in Python"
+
+_ELSEWHERE = {
+    "node_container": _COMPONENTS,
+    "load_composable_node": _COMPONENTS,
+    "lifecycle_node": "a node with a life cycle of its own; 'node' starts one without",
+}
+"""Elements of ROS 2's that have no meaning here, and why."""
+
+
+def actions_of(elements: Iterable[Element]) -> list[Any]:
+    """The actions that elements stand for.
+
+    Raises:
+        InputError: If one says something unknown; its line is told, and the nearest known word.
+    """
+    return [_action(element) for element in elements]
+
+
+def _action(element: Element) -> Any:
+    tag = element.tag.replace("-", "_")
+    if tag in _ELSEWHERE:
+        raise element.refusal(f"'{element.tag}' is not covered: {_ELSEWHERE[tag]}", "", ())
+    make = _MEANINGS.get(tag)
+    if make is None:
+        what = f"there is no '{element.tag}' in a launch file"
+        raise element.refusal(what, element.tag, _MEANINGS)
+    condition: Any = None
+    if (text := element.get("if")) is not None:
+        condition = IfCondition(parsed(text, element.where))
+    elif (text := element.get("unless")) is not None:
+        condition = UnlessCondition(parsed(text, element.where))
+    made = make(element)
+    element.finish()
+    made.condition = condition
+    made.where = element.where
+    return made
+
+
+def _text(element: Element, *names: str) -> Any:
+    return parsed(element.need(*names), element.where)
+
+
+def _optional(element: Element, name: str, default: Any = None) -> Any:
+    value = element.get(name)
+    return default if value is None else parsed(value, element.where)
+
+
+def _flag(element: Element, name: str, default: str) -> bool:
+    """An attribute that decides while the file is read, so no substitution."""
+    text = str(element.get(name, default))
+    try:
+        return is_true(text)
+    except UsageError:
+        what = f"'{name}' of '{element.tag}' is true or false, not '{text}'"
+        raise element.refusal(what, "", ()) from None
+
+
+def _each(element: Element, read: Callable[[Element], Any], *tags: str) -> list[Any]:
+    """What the children of one kind say, nothing in them left over."""
+    found = []
+    for child in element.inside(*tags):
+        found.append(read(child))
+        child.finish()
+    return found
+
+
+def _pair(first: str, second: str) -> Callable[[Element], tuple[Any, Any]]:
+    return lambda child: (_text(child, first), _text(child, second))
+
+
+def _arg(element: Element) -> Any:
+    choices = _each(element, lambda child: child.need("value"), "choice")
+    return settings.DeclareLaunchArgument(
+        str(element.need("name")),
+        default_value=_optional(element, "default"),
+        description=element.get("description"),
+        choices=choices or None,
+    )
+
+
+def _startable(element: Element) -> dict[str, Any]:
+    """What nodes and commands have in common."""
+    for name in ("emulate_tty", "sigterm_timeout", "sigkill_timeout"):
+        element.get(name)
+    on_exit = element.get("on_exit")
+    if on_exit not in (None, "shutdown"):
+        raise element.refusal(f"on_exit may be 'shutdown', not '{on_exit}'", "", ())
+    return {
+        "on_exit": reactions.Shutdown(reason=f"{element.tag} ended") if on_exit else None,
+        "output": element.get("output", "log"),
+        "respawn": _optional(element, "respawn", "false"),
+        "respawn_delay": _optional(element, "respawn_delay"),
+        "prefix": _optional(element, "launch-prefix"),
+        "cwd": _optional(element, "cwd"),
+        "additional_env": _each(element, _pair("name", "value"), "env") or None,
+    }
+
+
+def _node(element: Element) -> Any:
+    return nodes.Node(
+        package=_text(element, "pkg"),
+        executable=_text(element, "exec"),
+        name=_optional(element, "name"),
+        namespace=_optional(element, "namespace"),
+        exec_name=_optional(element, "exec_name"),
+        arguments=_words(element.get("args"), element),
+        ros_arguments=_words(element.get("ros_args"), element),
+        parameters=_each(element, _param, "param"),
+        remappings=_each(element, _pair("from", "to"), "remap"),
+        **_startable(element),
+    )
+
+
+def _words(text: Any, element: Element) -> list[Any]:
+    """The words of a command line, parted as a shell does; a substitution stays whole."""
+    if text is None:
+        return []
+    words: list[Any] = [[]]
+    for part in parsed(text, element.where):
+        if not isinstance(part, TextSubstitution):
+            words[-1].append(part)
+            continue
+        try:
+            found = shlex.split(part.text)
+        except ValueError:
+            raise element.refusal(f"a quote in '{text}' is not closed", "", ()) from None
+        if part.text[0].isspace():
+            words.append([])
+        for number, word in enumerate(found):
+            words += [[]] if number else []
+            words[-1].append(TextSubstitution(text=word))
+        if part.text[-1].isspace():
+            words.append([])
+    return [word for word in words if word]
+
+
+_TYPES: Mapping[str, type] = MappingProxyType(
+    {"str": str, "int": int, "float": float, "bool": bool}
+)
+
+
+def _param(element: Element, prefix: str = "") -> Any:
+    if "from" in element.values:
+        return parameters.ParameterFile(
+            _text(element, "from"), allow_substs=_flag(element, "allow_substs", "false")
+        )
+    name = prefix + str(element.need("name"))
+    if element.inside("param"):
+        whole: dict[str, Any] = {}
+        for below in _each(element, partial(_param, prefix=f"{name}."), "param"):
+            whole.update(below)
+        return whole
+    value, kind = element.need("value"), element.get("type")
+    if kind is not None and kind not in _TYPES:
+        raise element.refusal(f"a type is {', '.join(_TYPES)}, not '{kind}'", str(kind), _TYPES)
+    if not isinstance(value, str):
+        return {name: value}
+    value_type = None if kind is None else _TYPES[kind]
+    return {name: parameters.ParameterValue(parsed(value, element.where), value_type=value_type)}
+
+
+def _include(element: Element) -> Any:
+    arguments = _each(element, _pair("name", "value"), "arg", "let")
+    source = LaunchDescriptionSource(None, _text(element, "file"))
+    return composition.IncludeLaunchDescription(source, launch_arguments=arguments)
+
+
+def _group(element: Element) -> Any:
+    kept = dict(_each(element, _kept, "keep"))
+    return composition.GroupAction(
+        actions_of(child for child in element.all_inside() if child.tag != "keep"),
+        scoped=_flag(element, "scoped", "true"),
+        forwarding=_flag(element, "forwarding", "true"),
+        launch_configurations=kept,
+    )
+
+
+def _kept(child: Element) -> tuple[str, Any]:
+    return str(child.need("name")), _text(child, "value")
+
+
+def _reset(element: Element) -> Any:
+    return settings.ResetLaunchConfigurations(dict(_each(element, _kept, "keep")))
+
+
+def _executable(element: Element) -> Any:
+    shell, text = _flag(element, "shell", "false"), element.need("cmd")
+    return processes.ExecuteProcess(
+        # A shell reads its quotes itself.
+        cmd=[parsed(text, element.where)] if shell else _words(text, element),
+        name=_optional(element, "name"),
+        shell=shell,
+        **_startable(element),
+    )
+
+
+def _timer(element: Element) -> Any:
+    return composition.TimerAction(
+        period=_text(element, "period"), actions=actions_of(element.all_inside())
+    )
+
+
+def _append_env(element: Element) -> Any:
+    return settings.AppendEnvironmentVariable(
+        _text(element, "name"),
+        _text(element, "value"),
+        prepend=_flag(element, "prepend", "false"),
+        separator=_optional(element, "separator", ":"),
+    )
+
+
+_MEANINGS: dict[str, Callable[[Element], Any]] = {
+    "arg": _arg,
+    "let": lambda e: settings.SetLaunchConfiguration(_text(e, "name"), _text(e, "value")),
+    "node": _node,
+    "include": _include,
+    "group": _group,
+    "push_ros_namespace": lambda e: nodes.PushRosNamespace(_text(e, "namespace")),
+    "set_env": lambda e: settings.SetEnvironmentVariable(_text(e, "name"), _text(e, "value")),
+    "unset_env": lambda e: settings.UnsetEnvironmentVariable(_text(e, "name")),
+    "append_env": _append_env,
+    "set_parameter": lambda e: parameters.SetParameter(
+        _text(e, "name"), parameters.ParameterValue(_text(e, "value"))
+    ),
+    "set_parameters_from_file": lambda e: parameters.SetParametersFromFile(
+        _text(e, "filename"), _optional(e, "node_name")
+    ),
+    "set_use_sim_time": lambda e: parameters.SetUseSimTime(_text(e, "value")),
+    "set_remap": lambda e: nodes.SetRemap(_text(e, "from"), _text(e, "to")),
+    "executable": _executable,
+    "reset": _reset,
+    "push_env": lambda e: settings.PushEnvironment(),
+    "pop_env": lambda e: settings.PopEnvironment(),
+    "reset_env": lambda e: settings.ResetEnvironment(),
+    "timer": _timer,
+    "ros_timer": _timer,
+    "log": lambda e: reactions.LogInfo(msg=_text(e, "message")),
+    "shutdown": lambda e: reactions.Shutdown(reason=_optional(e, "reason", "reason not given")),
+}

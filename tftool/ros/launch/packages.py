@@ -1,0 +1,54 @@
+"""ament_index_python: where packages are."""
+
+from pathlib import Path
+
+from tftool.errors import UsageError
+from tftool.ros.host.workspace import Workspace
+
+
+class PackageNotFoundError(KeyError):
+    """There is no such package."""
+
+    def __str__(self) -> str:
+        return str(self.args[0]) if self.args else ""
+
+
+_current: list[Workspace] = []
+
+
+def use(workspace: Workspace) -> None:
+    """Look in this workspace from now on."""
+    _current[:] = [workspace]
+
+
+def _workspace() -> Workspace:
+    if not _current:
+        _current.append(Workspace(Path.cwd()))
+    return _current[0]
+
+
+def get_package_share_directory(package_name: str, print_warning: bool = True) -> str:
+    """A package's share directory: in a workspace, its sources.
+
+    Raises:
+        PackageNotFoundError: If there is no such package.
+    """
+    try:
+        return str(_workspace().share(package_name))
+    except UsageError as error:
+        raise PackageNotFoundError(str(error)) from None
+
+
+def get_package_share_path(package_name: str, print_warning: bool = True) -> Path:
+    """The same as a Path."""
+    return Path(get_package_share_directory(package_name))
+
+
+def get_package_prefix(package_name: str) -> str:
+    """A package's prefix; without an installation, the same folder."""
+    return get_package_share_directory(package_name)
+
+
+def get_packages_with_prefixes() -> dict[str, str]:
+    """Every package and its folder."""
+    return {name: str(package.path) for name, package in _workspace().packages.items()}

@@ -1,0 +1,113 @@
+"""Texts of XML and YAML launch files: `$(var name)`, `$(find-pkg-share pkg)`, nested at will."""
+
+from collections.abc import Callable, Iterable
+from difflib import get_close_matches
+from typing import Any
+
+from tftool.errors import InputError
+from tftool.ros.launch import logic, substitutions
+from tftool.ros.launch.elements import DEEPEST
+from tftool.ros.launch.substitutions import TextSubstitution
+
+
+def parsed(text: Any, where: str) -> list[Any]:
+    """A text with its `$(…)` parts as substitutions.
+
+    Raises:
+        InputError: If a part is not closed, or not known, or there are more than anybody means.
+    """
+    if str(text).count("$(") > DEEPEST:
+        raise InputError(f"{where}: more than {DEEPEST} '$(…)' in one text are too many")
+    parts, rest = _parse(str(text), 0, where, closing=False)
+    if rest != len(str(text)):
+        raise InputError(f"{where}: '{text}' has a ')' too many")
+    return parts
+
+
+def _parse(text: str, start: int, where: str, *, closing: bool) -> tuple[list[Any], int]:
+    parts: list[Any] = []
+    plain = ""
+    at = start
+    while at < len(text):
+        if text.startswith("$(", at):
+            if plain:
+                parts.append(TextSubstitution(text=plain))
+                plain = ""
+            made, at = _substitution(text, at + 2, where)
+            parts.append(made)
+        elif closing and (text[at] == ")" or text[at] == " "):
+            break
+        else:
+            plain += text[at]
+            at += 1
+    if plain:
+        parts.append(TextSubstitution(text=plain))
+    return parts, at
+
+
+def _substitution(text: str, start: int, where: str) -> tuple[Any, int]:
+    """One `$(name argument argument)`, from after its bracket."""
+    words: list[list[Any]] = []
+    at = start
+    while at < len(text) and text[at] != ")":
+        if text[at] == " ":
+            at += 1
+        elif text[at] in "'\"":
+            end = text.find(text[at], at + 1)
+            if end < 0:
+                raise InputError(f"{where}: a quote in '{text}' is not closed")
+            inner, _ = _parse(text[at + 1 : end], 0, where, closing=False)
+            words.append(inner)
+            at = end + 1
+        else:
+            word, at = _parse(text, at, where, closing=True)
+            words.append(word)
+    if at >= len(text):
+        raise InputError(f"{where}: '$(' in '{text}' is not closed by ')'")
+    if not words or not words[0] or not isinstance(words[0][0], TextSubstitution):
+        raise InputError(f"{where}: '$()' in '{text}' names nothing")
+    name = words[0][0].text
+    make = _SUBSTITUTIONS.get(name)
+    if make is None:
+        near = get_close_matches(name, _SUBSTITUTIONS, n=1)
+        hint = f"; did you mean '$({near[0]} …)'?" if near else ""
+        raise InputError(f"{where}: '$({name} …)' is not known{hint}")
+    try:
+        return make(*words[1:]), at + 1
+    except TypeError:
+        raise InputError(f"{where}: '$({name} …)' is given the wrong number of words") from None
+
+
+_SUBSTITUTIONS: dict[str, Callable[..., Any]] = {
+    "var": lambda name, default=None: substitutions.LaunchConfiguration(name, default=default),
+    "env": lambda name, default=None: substitutions.EnvironmentVariable(
+        name, default_value=default
+    ),
+    "find-pkg-share": substitutions.FindPackageShare,
+    "find-pkg-prefix": substitutions.FindPackageShare,
+    "dirname": substitutions.ThisLaunchFileDir,
+    "filename": substitutions.ThisLaunchFile,
+    "eval": lambda *words: substitutions.PythonExpression(_spaced(words)),
+    "command": lambda command, on_stderr="fail": substitutions.Command(
+        command, on_stderr=on_stderr
+    ),
+    "file-content": substitutions.FileContent,
+    "exec-in-pkg": substitutions.ExecutableInPackage,
+    "anon": substitutions.AnonName,
+    "not": logic.NotSubstitution,
+    "and": logic.AndSubstitution,
+    "or": logic.OrSubstitution,
+    "equals": logic.EqualsSubstitution,
+    "not-equals": logic.NotEqualsSubstitution,
+    "any": lambda *words: logic.AnySubstitution(*words),
+    "all": lambda *words: logic.AllSubstitution(*words),
+    "if": logic.IfElseSubstitution,
+    "find-exec": lambda name: substitutions.FindExecutable(name=name),
+}
+
+
+def _spaced(words: Iterable[list[Any]]) -> list[Any]:
+    joined: list[Any] = []
+    for word in words:
+        joined += [TextSubstitution(text=" "), *word] if joined else word
+    return joined

@@ -1,0 +1,186 @@
+"""launch's actions that start something with an end of its own."""
+
+import shlex
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any, ClassVar
+
+from tftool.errors import UsageError
+from tftool.ros.host import names
+from tftool.ros.host.names import RosOptions
+from tftool.ros.launch.action import Action
+from tftool.ros.launch.commands import SystemCommand
+from tftool.ros.launch.context import LaunchContext
+from tftool.ros.launch.events import OnProcessExit
+from tftool.ros.launch.substitutions import ROS2, is_true, perform
+
+LONGEST = 1e9
+"""How many seconds something may wait: about thirty years."""
+
+
+@dataclass(frozen=True, slots=True)
+class Executable:
+    """An executable, ready to be started.
+
+    Attributes:
+        package: Its package; None for a file.
+        name: Its name there, or the file.
+        arguments: Its own arguments.
+        options: ROS 2's.
+        label: What it is called in the log, before its number.
+    """
+
+    package: str | None
+    name: str
+    arguments: Sequence[str]
+    options: RosOptions
+    label: str
+
+
+class Startable(Action):
+    """What is started, ends some time, and may be started again."""
+
+    takes_time: ClassVar[bool] = True
+
+    def __init__(
+        self,
+        *,
+        on_exit: Any = None,
+        respawn: Any = False,
+        respawn_delay: Any = None,
+        prefix: Any = None,
+        output: Any = "log",
+        **kwargs: Any,
+    ) -> None:
+        # These are about how real processes end, and where their output goes.
+        for name in ("emulate_tty", "sigterm_timeout", "sigkill_timeout", "log_cmd",
+                     "output_format", "cached_output"):  # fmt: skip
+            kwargs.pop(name, None)
+        super().__init__(**kwargs)
+        self.on_exit, self.prefix, self.output = on_exit, prefix, output
+        self.respawn, self.respawn_delay = respawn, respawn_delay
+
+    def handle_exit(self, context: LaunchContext) -> None:
+        """Have done what is to be done once it has ended."""
+        if self.on_exit is not None:
+            context.launch.handlers.append(
+                OnProcessExit(target_action=self, on_exit=self.on_exit, handle_once=True)
+            )
+
+    def respawn_after(self, context: LaunchContext) -> float | None:
+        """After how many seconds it is started again; None if it is not.
+
+        Raises:
+            UsageError: If that is no number.
+        """
+        if not is_true(perform(context, self.respawn)):
+            return None
+        return seconds_of(context, self.respawn_delay or 0.0, "a respawn_delay")
+
+    def say_unused(self, context: LaunchContext, *names: str) -> None:
+        """Say what was given and has no effect here."""
+        given = [name for name in ("prefix", *names) if getattr(self, name)]
+        if given:
+            verb = "has" if len(given) == 1 else "have"
+            what = f"{' and '.join(given)} of a {type(self).__name__}"
+            context.launch.warn(f"{what} {verb} no effect here")
+
+
+def seconds_of(context: LaunchContext, value: Any, what: str) -> float:
+    """A number of seconds.
+
+    Raises:
+        UsageError: If it is none.
+    """
+    text = perform(context, value)
+    try:
+        found = float(text)
+    except ValueError:
+        found = -1.0
+    if not 0.0 <= found <= LONGEST:
+        raise UsageError(f"{what} is seconds from 0 to {LONGEST:g}, not '{text}'")
+    return found
+
+
+class ExecuteProcess(Startable):
+    """A command of the system."""
+
+    def __init__(
+        self,
+        *,
+        cmd: Iterable[Any],
+        name: Any = None,
+        cwd: Any = None,
+        env: Mapping[Any, Any] | None = None,
+        additional_env: Mapping[Any, Any] | None = None,
+        shell: Any = False,
+        **kwargs: Any,
+    ) -> None:
+        super().__init__(**kwargs)
+        self.cmd = list(cmd)
+        self.process_name = name
+        self.cwd, self.env, self.additional_env = cwd, env, additional_env
+        self.shell = shell
+
+    def execute(self, context: LaunchContext) -> Any:
+        """Start it."""
+        words = [perform(context, word) for word in self.cmd]
+        if not words or not words[0].strip():
+            raise UsageError("ExecuteProcess is given no command")
+        environment = dict(context.environment)
+        if self.env is not None:
+            environment = _texts(context, self.env)
+        environment.update(_texts(context, self.additional_env or {}))
+        cwd = None if self.cwd is None else perform(context, self.cwd)
+        if self.process_name is None:
+            name = Path(words[0].split()[0]).name
+        else:
+            name = perform(context, self.process_name)
+        self.handle_exit(context)
+        self.say_unused(context)
+        shell = is_true(perform(context, self.shell))
+        if (ros2 := _ros2_words(words, shell)) is not None:
+            return self._execute_ros2(context, ros2)
+        if shell:
+            words = ["/bin/sh", "-c", " ".join(words)]
+        command = SystemCommand(words, environment, cwd)
+        context.launch.start_process(self, name, command, self.respawn_after(context))
+        return None
+
+    def _execute_ros2(self, context: LaunchContext, words: Sequence[str]) -> Any:
+        """Do what `ros2 WORDS` does, without a process: start a node, or ask the session."""
+        if words[:1] == ["run"] and len(words) > 2:
+            options, arguments = names.parse(words[3:])
+            options.namespace = options.namespace or context.namespace or None
+            started = Executable(words[1], words[2], arguments, options, words[2])
+            context.launch.start_node(self, started, self.respawn_after(context))
+            return None
+        if words[:1] == ["launch"] and len(words) > 1:
+            raise UsageError(
+                "a launch file starts another one by IncludeLaunchDescription, not by 'ros2 launch'"
+            )
+        context.launch.start_ros2(self, words, self.respawn_after(context))
+        return None
+
+
+def _ros2_words(words: Sequence[str], shell: bool) -> list[str] | None:
+    """What follows `ros2` in a command; None if it is another one, or a shell's script."""
+    if shell:
+        try:
+            lexer = shlex.shlex(" ".join(words), posix=True, punctuation_chars=True)
+            lexer.whitespace_split = True
+            words = list(lexer)
+        except ValueError:
+            return None
+        if any(word and not word.strip("();<>|&") for word in words):
+            return None
+    if not words or Path(words[0]).name != ROS2:
+        return None
+    return list(words[1:])
+
+
+def _texts(context: LaunchContext, given: Any) -> dict[str, str]:
+    """Environment variables, from a mapping or from pairs."""
+    pairs = given.items() if isinstance(given, Mapping) else given
+    return {perform(context, key): perform(context, value) for key, value in pairs}

@@ -1,0 +1,88 @@
+"""launch's actions that say something, wait for events, or make them happen."""
+
+from typing import Any
+
+from tftool.errors import UsageError
+from tftool.ros.launch.action import Action
+from tftool.ros.launch.context import LaunchContext
+from tftool.ros.launch.events import Event, EventHandler, OnExecutionComplete
+from tftool.ros.launch.events import Shutdown as ShutdownEvent
+from tftool.ros.launch.substitutions import perform
+
+
+class LogInfo(Action):
+    """Says something."""
+
+    def __init__(self, *, msg: Any, **kwargs: Any) -> None:
+        super().__init__(**kwargs)
+        self.msg = msg
+
+    def execute(self, context: LaunchContext) -> Any:
+        """Say it."""
+        context.launch.info(perform(context, self.msg))
+
+
+class RegisterEventHandler(Action):
+    """Does something when something happens."""
+
+    def __init__(self, event_handler: EventHandler, **kwargs: Any) -> None:
+        super().__init__(**kwargs)
+        self.event_handler = event_handler
+
+    def execute(self, context: LaunchContext) -> Any:
+        """Begin to listen."""
+        context.launch.handlers.append(self.event_handler)
+        handler = self.event_handler
+        if isinstance(handler, OnExecutionComplete) and getattr(handler.target, "is_begun", False):
+            context.launch.warn(
+                f"an OnExecutionComplete is never told, as in ROS 2: its {_kind(handler.target)} "
+                "was carried out before. Register it above its target_action"
+            )
+
+
+def _kind(value: Any) -> str:
+    return type(value).__name__
+
+
+class UnregisterEventHandler(Action):
+    """Does it no more."""
+
+    def __init__(self, event_handler: EventHandler, **kwargs: Any) -> None:
+        super().__init__(**kwargs)
+        self.event_handler = event_handler
+
+    def execute(self, context: LaunchContext) -> Any:
+        """Listen no more."""
+        if self.event_handler in context.launch.handlers:
+            context.launch.handlers.remove(self.event_handler)
+
+
+class EmitEvent(Action):
+    """Makes something happen."""
+
+    def __init__(self, *, event: Event, **kwargs: Any) -> None:
+        super().__init__(**kwargs)
+        self.event = event
+
+    def execute(self, context: LaunchContext) -> Any:
+        """Emit it.
+
+        Raises:
+            UsageError: If it is none.
+        """
+        if not isinstance(self.event, Event):
+            action = " of launch.actions" if isinstance(self.event, Action) else ""
+            raise UsageError(f"EmitEvent needs an event, not a {_kind(self.event)}{action}")
+        context.launch.emit(self.event)
+
+
+class Shutdown(Action):
+    """Ends the launch."""
+
+    def __init__(self, *, reason: Any = "reason not given", **kwargs: Any) -> None:
+        super().__init__(**kwargs)
+        self.reason = reason
+
+    def execute(self, context: LaunchContext) -> Any:
+        """End it."""
+        context.launch.emit(ShutdownEvent(reason=perform(context, self.reason)))

@@ -1,0 +1,63 @@
+"""launch's LaunchService: a launch that a program makes and runs by itself."""
+
+import logging
+import sys
+from typing import Any
+
+from tftool.ros.host import program
+from tftool.ros.launch.context import LaunchContext
+from tftool.ros.launch.description import LaunchDescription
+from tftool.ros.launch.engine import Launch
+
+
+class LaunchService:
+    """Carries launch descriptions out, as the program it is made in."""
+
+    def __init__(
+        self, *, argv: Any = None, noninteractive: bool = False, debug: bool = False
+    ) -> None:
+        self.context = LaunchContext(argv=argv)
+        self._entities: list[Any] = []
+        self._launch: Launch | None = None
+
+    def include_launch_description(self, launch_description: LaunchDescription) -> None:
+        """Carry a description out too, once it runs."""
+        self._entities.append(launch_description)
+
+    def run(self, *, shutdown_when_idle: bool = True) -> int:
+        """Launch, and block until everything has ended.
+
+        Returns:
+            0, or 1 if something failed.
+        """
+        owner = program.current()
+
+        def say(level: str, who: str, text: str) -> None:
+            sys.stderr.write(f"[{level}] [{who}]: {text}\n" if level else f"[{who}] {text}\n")
+
+        def start() -> list[Launch]:
+            name = owner.world.free_name("launch")
+            description = LaunchDescription(self._entities)
+            return [Launch(owner.world, description, context=self.context, say=say, name=name)]
+
+        (self._launch,) = owner.ask(start)
+        owner.ask(self._launch.ended.wait)
+        return int(bool(self._launch.failed))
+
+    def shutdown(self) -> None:
+        """End what runs."""
+        launch = self._launch
+        if launch is not None:
+            program.current().ask(launch.interrupt)
+
+
+def get_logger(name: str | None = None) -> logging.Logger:
+    """A logger of Python's own that writes to standard error as launch does."""
+    root = logging.getLogger("launch")
+    if not root.handlers:
+        handler = logging.StreamHandler()
+        handler.setFormatter(logging.Formatter("[%(levelname)s] [%(name)s]: %(message)s"))
+        root.addHandler(handler)
+        root.setLevel(logging.INFO)
+        root.propagate = False
+    return root if name in (None, "launch") else root.getChild(str(name))

@@ -1,0 +1,191 @@
+"""launch's actions that set what later ones find: arguments and environment variables."""
+
+import os
+from collections.abc import Mapping, Sequence
+from typing import Any
+
+from tftool.errors import UsageError
+from tftool.ros.launch.action import Action
+from tftool.ros.launch.context import LaunchContext
+from tftool.ros.launch.substitutions import describe, is_true, perform
+
+
+class DeclareLaunchArgument(Action):
+    """An argument that the launch file takes."""
+
+    def __init__(
+        self,
+        name: str,
+        *,
+        default_value: Any = None,
+        description: str | None = None,
+        choices: Sequence[str] | None = None,
+        **kwargs: Any,
+    ) -> None:
+        super().__init__(**kwargs)
+        self.name = name
+        self.default_value = default_value
+        self.choices = None if choices is None else list(choices)
+        self.description = description or "no description given"
+        if self.choices is not None:
+            end = "" if self.description.endswith(".") else "."
+            self.description += f"{end} Valid choices are: {self.choices}"
+
+    def execute(self, context: LaunchContext) -> Any:
+        """Take the default unless a value was passed.
+
+        Raises:
+            UsageError: If there is neither, or the value is none of the choices.
+        """
+        configurations = context.launch_configurations
+        if self.name not in configurations:
+            if self.default_value is None:
+                raise UsageError(
+                    f"launch argument '{self.name}' ({self.description}) has no default: pass "
+                    f"{self.name}:=…"
+                )
+            configurations[self.name] = perform(context, self.default_value)
+        value = configurations[self.name]
+        if self.choices is not None and value not in self.choices:
+            raise UsageError(
+                f"launch argument '{self.name}' is one of {', '.join(self.choices)}, not '{value}'"
+            )
+        return None
+
+    def shown_default(self) -> str | None:
+        """The default as --show-args shows it."""
+        return None if self.default_value is None else describe(self.default_value)
+
+
+class SetLaunchConfiguration(Action):
+    """Gives an argument a value."""
+
+    def __init__(self, name: Any, value: Any, **kwargs: Any) -> None:
+        super().__init__(**kwargs)
+        self.name, self.value = name, value
+
+    def execute(self, context: LaunchContext) -> Any:
+        """Set it."""
+        context.launch_configurations[perform(context, self.name)] = perform(context, self.value)
+
+
+class UnsetLaunchConfiguration(Action):
+    """Takes an argument's value away."""
+
+    def __init__(self, name: Any, **kwargs: Any) -> None:
+        super().__init__(**kwargs)
+        self.name = name
+
+    def execute(self, context: LaunchContext) -> Any:
+        """Unset it."""
+        context.launch_configurations.pop(perform(context, self.name), None)
+
+
+class ResetLaunchConfigurations(Action):
+    """Takes the values of all arguments away, or gives others in their place."""
+
+    def __init__(
+        self, launch_configurations: Mapping[Any, Any] | None = None, **kwargs: Any
+    ) -> None:
+        super().__init__(**kwargs)
+        self.kept = dict(launch_configurations or {})
+
+    def execute(self, context: LaunchContext) -> Any:
+        """Reset them."""
+        given = {perform(context, key): perform(context, one) for key, one in self.kept.items()}
+        context.launch_configurations = given
+
+
+class SetEnvironmentVariable(Action):
+    """Gives an environment variable a value, for processes to come."""
+
+    def __init__(self, name: Any, value: Any, **kwargs: Any) -> None:
+        super().__init__(**kwargs)
+        self.name, self.value = name, value
+
+    def execute(self, context: LaunchContext) -> Any:
+        """Set it."""
+        context.environment[perform(context, self.name)] = perform(context, self.value)
+
+
+class AppendEnvironmentVariable(Action):
+    """Lengthens an environment variable, at its end or its beginning."""
+
+    def __init__(
+        self,
+        name: Any,
+        value: Any,
+        prepend: Any = False,
+        separator: Any = os.pathsep,
+        **kwargs: Any,
+    ) -> None:
+        super().__init__(**kwargs)
+        self.name, self.value = name, value
+        self.prepend, self.separator = prepend, separator
+
+    def execute(self, context: LaunchContext) -> Any:
+        """Lengthen it."""
+        name, value = perform(context, self.name), perform(context, self.value)
+        before = context.environment.get(name)
+        parts = [value] if before is None else [before, value]
+        if is_true(perform(context, self.prepend)):
+            parts.reverse()
+        context.environment[name] = perform(context, self.separator).join(parts)
+
+
+class UnsetEnvironmentVariable(Action):
+    """Takes an environment variable away."""
+
+    def __init__(self, name: Any, **kwargs: Any) -> None:
+        super().__init__(**kwargs)
+        self.name = name
+
+    def execute(self, context: LaunchContext) -> Any:
+        """Unset it."""
+        context.environment.pop(perform(context, self.name), None)
+
+
+class PushEnvironment(Action):
+    """Keeps the environment variables as they are, for a PopEnvironment."""
+
+    def execute(self, context: LaunchContext) -> Any:
+        """Keep them."""
+        context.environments.append(dict(context.environment))
+
+
+class PopEnvironment(Action):
+    """Brings back the environment variables of the last PushEnvironment."""
+
+    def execute(self, context: LaunchContext) -> Any:
+        """Bring them back.
+
+        Raises:
+            UsageError: If there was none.
+        """
+        if not context.environments:
+            raise UsageError("there is no PushEnvironment before this PopEnvironment")
+        context.environment = context.environments.pop()
+
+
+class ResetEnvironment(Action):
+    """Brings back the environment variables that the launch began with."""
+
+    def execute(self, context: LaunchContext) -> Any:
+        """Bring them back."""
+        context.environment = dict(os.environ)
+
+
+class Push(Action):
+    """Begins a scope."""
+
+    def execute(self, context: LaunchContext) -> Any:
+        """Begin a scope."""
+        context.push()
+
+
+class Pop(Action):
+    """Ends a scope."""
+
+    def execute(self, context: LaunchContext) -> Any:
+        """End it."""
+        context.pop()

@@ -1,0 +1,385 @@
+"""launch's substitutions: texts that are known when the launch runs."""
+
+import math
+import os
+import shutil
+from collections.abc import Iterable, Sequence
+from difflib import get_close_matches
+from pathlib import Path
+from typing import Any, Final
+
+from tftool.errors import UsageError
+from tftool.ros.launch import commands, packages
+from tftool.ros.launch.context import LaunchContext
+
+ROS2: Final = "ros2"
+"""The command of ROS 2 that is carried out without a process of its own."""
+
+ON_STDERR: Final = ("fail", "warn", "ignore", "capture")
+"""What a `Command` may do about output on its standard error."""
+
+
+class SubstitutionFailure(UsageError):
+    """A text that cannot be made."""
+
+
+class Substitution:
+    """A text to come."""
+
+    def perform(self, context: LaunchContext) -> str:
+        """The text."""
+        raise NotImplementedError
+
+    def describe(self) -> str:
+        """How it shows itself."""
+        return f"{type(self).__name__}()"
+
+    def __truediv__(self, other: Any) -> "PathJoinSubstitution":
+        return PathJoinSubstitution([self, other])
+
+
+SomeSubstitutionsType = Any
+"""What may stand where a text is wanted, for annotations."""
+
+
+def perform(context: LaunchContext, value: Any) -> str:
+    """The text of anything that may be text: a substitution, or a list that is joined."""
+    if value is None:
+        return ""
+    if isinstance(value, Substitution):
+        return value.perform(context)
+    if isinstance(value, str):
+        return value
+    if isinstance(value, Path):
+        return str(value)
+    if isinstance(value, Iterable):
+        return "".join(perform(context, one) for one in value)
+    return str(value)
+
+
+def describe(value: Any) -> str:
+    """How anything that may be text shows itself before it is known."""
+    if isinstance(value, Substitution):
+        return value.describe()
+    if isinstance(value, Sequence) and value and not isinstance(value, str):
+        return " + ".join(describe(one) for one in value)
+    return repr(str(value or ""))
+
+
+def is_true(text: str) -> bool:
+    """What launch takes for true.
+
+    Raises:
+        UsageError: If it is neither true nor false.
+    """
+    word = text.strip().lower()
+    if word in ("true", "1"):
+        return True
+    if word in ("false", "0"):
+        return False
+    raise UsageError(f"a condition is 'true', 'false', '1' or '0', not '{text}'")
+
+
+class TextSubstitution(Substitution):
+    """A plain text."""
+
+    def __init__(self, *, text: str) -> None:
+        if not isinstance(text, str):
+            raise TypeError(
+                f"TextSubstitution expected a str object in the 'text' argument, got {text!r}"
+            )
+        self.text = text
+
+    def perform(self, context: LaunchContext) -> str:
+        """The text."""
+        return self.text
+
+    def describe(self) -> str:
+        """The text, quoted."""
+        return f"'{self.text}'"
+
+
+class LaunchConfiguration(Substitution):
+    """The value of a launch argument."""
+
+    def __init__(self, variable_name: Any, *, default: Any = None) -> None:
+        self.variable_name = variable_name
+        self.default = default
+
+    def perform(self, context: LaunchContext) -> str:
+        """The value now."""
+        name = perform(context, self.variable_name)
+        if name in context.launch_configurations:
+            return context.launch_configurations[name]
+        if self.default is not None:
+            return perform(context, self.default)
+        near = get_close_matches(name, context.launch_configurations, n=1)
+        hint = f"; did you mean '{near[0]}'?" if near else ""
+        raise SubstitutionFailure(
+            f"launch configuration '{name}' does not exist: declare it with "
+            f"DeclareLaunchArgument, or pass {name}:=…{hint}"
+        )
+
+    def describe(self) -> str:
+        """LaunchConfig('name')."""
+        return f"LaunchConfig({describe(self.variable_name)})"
+
+
+class EnvironmentVariable(Substitution):
+    """The value of an environment variable."""
+
+    def __init__(self, name: Any, *, default_value: Any = None) -> None:
+        self.name = name
+        self.default_value = default_value
+
+    def perform(self, context: LaunchContext) -> str:
+        """The value now."""
+        name = perform(context, self.name)
+        if name in context.environment:
+            return context.environment[name]
+        if self.default_value is not None:
+            return perform(context, self.default_value)
+        raise SubstitutionFailure(f"environment variable '{name}' does not exist")
+
+    def describe(self) -> str:
+        """EnvVar('NAME')."""
+        return f"EnvVar({describe(self.name)})"
+
+
+class LocalSubstitution(Substitution):
+    """What is known at a place alone: 'event.reason' in what an event's handler does."""
+
+    def __init__(self, expression: str, description: str | None = None) -> None:
+        self.expression = expression
+        self.description = description
+
+    def perform(self, context: LaunchContext) -> str:
+        """The value now."""
+        value: Any = context.locals
+        for name in self.expression.split("."):
+            if not hasattr(value, name):
+                known = ", ".join(one for one in vars(value) if not one.startswith("_"))
+                raise SubstitutionFailure(
+                    f"there is no '{name}' for '{self.expression}' here, "
+                    f"but {known or 'nothing: only what a handler does knows its event'}"
+                )
+            value = getattr(value, name)
+        return str(value)
+
+    def describe(self) -> str:
+        """LocalVar('event.reason')."""
+        return f"LocalVar('{self.description or self.expression}')"
+
+
+class PathJoinSubstitution(Substitution):
+    """Path parts, joined."""
+
+    def __init__(self, substitutions: Iterable[Any]) -> None:
+        self.substitutions = list(substitutions)
+
+    def perform(self, context: LaunchContext) -> str:
+        """The path."""
+        return os.path.join(*(perform(context, one) for one in self.substitutions))
+
+    def describe(self) -> str:
+        """PathJoinSubstitution('parts')."""
+        parts = ", ".join(describe(one) for one in self.substitutions)
+        return f"PathJoinSubstitution('{parts}')"
+
+
+class StringJoinSubstitution(Substitution):
+    """Texts, joined by a delimiter."""
+
+    def __init__(self, substitutions: Iterable[Any], delimiter: Any = "") -> None:
+        self.substitutions = list(substitutions)
+        self.delimiter = delimiter
+
+    def perform(self, context: LaunchContext) -> str:
+        """The joined text."""
+        return perform(context, self.delimiter).join(
+            perform(context, one) for one in self.substitutions
+        )
+
+
+class PythonExpression(Substitution):
+    """What an expression of Python gives; it is the launch file's own code."""
+
+    def __init__(self, expression: Any, python_modules: Any = ("math",)) -> None:
+        self.expression = expression
+        self.python_modules = python_modules
+
+    def perform(self, context: LaunchContext) -> str:
+        """The expression's value as text."""
+        text = perform(context, self.expression)
+        given = self.python_modules
+        modules = [given] if isinstance(given, str | Substitution) else given
+        try:
+            names: dict[str, Any] = {**vars(math), "os": os}
+            for module in modules:
+                name = perform(context, module)
+                names[name.partition(".")[0]] = __import__(name)
+            return str(eval(text, names))
+        except Exception as error:
+            raise SubstitutionFailure(
+                f"cannot evaluate the expression '{text}': {type(error).__name__}: {error}"
+            ) from None
+
+    def describe(self) -> str:
+        """PythonExpr(expression)."""
+        return f"PythonExpr({describe(self.expression)})"
+
+
+class ThisLaunchFile(Substitution):
+    """The path of the launch file."""
+
+    def perform(self, context: LaunchContext) -> str:
+        """The path."""
+        return str(context.files[-1]) if context.files else ""
+
+
+class ThisLaunchFileDir(Substitution):
+    """The folder of the launch file."""
+
+    def perform(self, context: LaunchContext) -> str:
+        """The folder."""
+        return str(context.files[-1].parent) if context.files else ""
+
+
+class AnonName(Substitution):
+    """A name that no other node has."""
+
+    def __init__(self, name: Any) -> None:
+        self.name = name
+
+    def perform(self, context: LaunchContext) -> str:
+        """The name with a number, the same one each time in this launch."""
+        name = perform(context, self.name)
+        return f"{name}_{context.number_of(name)}"
+
+
+class FindPackageShare(Substitution):
+    """A package's share directory."""
+
+    def __init__(self, package: Any) -> None:
+        self.package = package
+
+    def perform(self, context: LaunchContext) -> str:
+        """Its path: in a workspace, the package's sources."""
+        return str(context.workspace.share(perform(context, self.package)))
+
+    @staticmethod
+    def find(package_name: str) -> str:
+        """A package's path at once, for launch files that join paths themselves."""
+        return packages.get_package_share_directory(package_name)
+
+    def describe(self) -> str:
+        """FindPackageShare(pkg='name')."""
+        return f"FindPackageShare(pkg={describe(self.package)})"
+
+
+FindPackage = FindPackagePrefix = FindPackageShare
+
+
+class FindExecutable(Substitution):
+    """The path of a command."""
+
+    def __init__(self, *, name: Any) -> None:
+        self.name = name
+
+    def perform(self, context: LaunchContext) -> str:
+        """Its path."""
+        name = perform(context, self.name)
+        if name == ROS2:
+            # ExecuteProcess carries it out itself.
+            return name
+        found = shutil.which(name)
+        if found is None:
+            raise SubstitutionFailure(f"there is no command '{name}' on the PATH")
+        return found
+
+
+class FileContent(Substitution):
+    """What stands in a text file."""
+
+    def __init__(self, path: Any) -> None:
+        self.path = path
+
+    def perform(self, context: LaunchContext) -> str:
+        """The text."""
+        path = perform(context, self.path)
+        try:
+            return Path(path).read_text(encoding="utf-8")
+        except (OSError, UnicodeDecodeError) as error:
+            reason = getattr(error, "strerror", None) or "it is no UTF-8 text"
+            raise SubstitutionFailure(f"cannot read '{path}': {reason}") from None
+
+
+class ExecutableInPackage(Substitution):
+    """The path of a package's executable."""
+
+    def __init__(self, executable: Any, package: Any) -> None:
+        self.executable, self.package = executable, package
+
+    def perform(self, context: LaunchContext) -> str:
+        """Its file in the package's sources."""
+        name, package = perform(context, self.executable), perform(context, self.package)
+        found = context.workspace.package(package).script_file(name)
+        if found is None:
+            raise SubstitutionFailure(
+                f"package '{package}' has no file '{name}' to run; a console script has none "
+                "before it is installed: start it by Node(package=…, executable=…)"
+            )
+        return str(found)
+
+
+class Command(Substitution):
+    """What a command writes."""
+
+    def __init__(self, command: Any, *, on_stderr: Any = "fail") -> None:
+        """Prepare to run a command.
+
+        Args:
+            command: It and its arguments, as in a shell.
+            on_stderr: What to do if it writes to its standard error: "fail", "warn", "ignore",
+                or "capture" that as part of its output.
+        """
+        self.command = command
+        self.on_stderr = on_stderr
+
+    def perform(self, context: LaunchContext) -> str:
+        """Its output."""
+        import shlex
+        import subprocess
+
+        words = shlex.split(perform(context, self.command))
+        on_stderr = perform(context, self.on_stderr)
+        if on_stderr not in ON_STDERR:
+            raise SubstitutionFailure(
+                f"on_stderr is {', '.join(map(repr, ON_STDERR))}, not '{on_stderr}'"
+            )
+        captured = on_stderr == "capture"
+        try:
+            done = subprocess.run(
+                words,
+                stdout=subprocess.PIPE,
+                stderr=subprocess.STDOUT if captured else subprocess.PIPE,
+                text=True,
+                check=True,
+                stdin=subprocess.DEVNULL,
+                timeout=commands.LONGEST_RUN,
+            )
+        except subprocess.TimeoutExpired:
+            limit = f"{commands.LONGEST_RUN:g} s"
+            raise SubstitutionFailure(
+                f"the command {words} had not ended after {limit}: its output is needed before the "
+                "launch goes on; start one that runs on by ExecuteProcess"
+            ) from None
+        except (OSError, subprocess.CalledProcessError) as error:
+            raise SubstitutionFailure(f"the command {words} failed: {error}") from None
+        if done.stderr and on_stderr != "ignore":
+            sentence = f"the command {words} wrote to its standard error: {done.stderr.strip()}"
+            if on_stderr == "fail":
+                raise SubstitutionFailure(f"{sentence} (on_stderr says whether it may)")
+            if context.launch is not None:
+                context.launch.warn(sentence)
+        return done.stdout

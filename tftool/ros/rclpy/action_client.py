@@ -1,0 +1,194 @@
+"""rclpy.action's client: sends goals, hears of them, gives them up."""
+
+import asyncio
+from collections.abc import Callable
+from typing import Any
+
+from tftool.errors import TftoolError
+from tftool.interfaces.classes import INTERFACES, duplicate
+from tftool.ros.host import values
+from tftool.ros.rclpy.action_goals import STATUS, GoalStatus, new_id
+from tftool.ros.rclpy.entities import Requester
+from tftool.ros.rclpy.executors import wait_for
+from tftool.ros.rclpy.futures import Future
+from tftool.ros.rclpy.seat import seat_of
+from tftool.runtime.topics import GoalHandle as WorldGoal
+
+
+class _Result:
+    """What get_result answers: a status number and the result message."""
+
+    def __init__(self, status: int, result: Any) -> None:
+        self.status = status
+        self.result = result
+
+
+class _Feedback:
+    """What a feedback callback is given."""
+
+    def __init__(self, goal_id: Any, feedback: Any) -> None:
+        self.goal_id = goal_id
+        self.feedback = feedback
+
+
+class ClientGoalHandle:
+    """A goal, as the one who sent it holds it."""
+
+    def __init__(self, client: "ActionClient", goal_id: Any, goal: WorldGoal | None) -> None:
+        self._client = client
+        self._goal = goal
+        self.goal_id = goal_id
+        self.accepted = goal is not None
+        self.status = int(GoalStatus.STATUS_EXECUTING if goal else GoalStatus.STATUS_UNKNOWN)
+        self._result: Future | None = None
+
+    def get_result_async(self) -> Future:
+        """A future of the result: `.status` and `.result`."""
+        if self._result is None:
+            self._result = self._client.watch(self, self._goal)
+        return self._result
+
+    def get_result(self) -> Any:
+        """Block until the result is there."""
+        future = self.get_result_async()
+        wait_for(self._client.seat, future, None)
+        return future.result()
+
+    def cancel_goal_async(self) -> Future:
+        """Ask the server to stop; a future of its answer."""
+        return self._client.cancel(self, self._goal)
+
+    def cancel_goal(self) -> Any:
+        """Ask the server to stop, and block until it has answered."""
+        future = self.cancel_goal_async()
+        wait_for(self._client.seat, future, None)
+        return future.result()
+
+
+class ActionClient(Requester):
+    """Sends goals to an action's server."""
+
+    def __init__(
+        self,
+        node: Any,
+        action_type: Any,
+        action_name: str,
+        *,
+        callback_group: Any = None,
+        **profiles: Any,
+    ) -> None:
+        seat = seat_of(node)
+        super().__init__(seat, callback_group or node.default_callback_group)
+        self._type = action_type
+        self._name = action_name
+        self.full = seat.full(action_name)
+        seat.keep(lambda: self)
+
+    def server_is_ready(self) -> bool:
+        """Whether somebody serves the action."""
+        world = self.seat.world
+        ready = bool(self.seat.program.ask(lambda: self.full in world.actions()))
+        if not ready:
+            self.seat.program.looked_in_vain()
+        return ready
+
+    def wait_for_server(self, timeout_sec: float | None = None) -> bool:
+        """Block until somebody serves it; whether somebody does."""
+        return self.seat.wait_until(lambda: self.full in self.seat.world.actions(), timeout_sec)
+
+    def send_goal_async(
+        self,
+        goal: Any,
+        feedback_callback: Callable[[Any], Any] | None = None,
+        goal_uuid: Any = None,
+    ) -> Future:
+        """Send a goal; a future of its `ClientGoalHandle`.
+
+        Raises:
+            TypeError: If the goal is of another type.
+        """
+        if not isinstance(goal, self._type.Goal):
+            raise TypeError(f"Expected {self._type.Goal}, got {type(goal)}")
+        future = Future(executor=self.seat.executor)
+        goal_id = goal_uuid or new_id()
+        copy = duplicate(goal)
+
+        def on_feedback(value: Any) -> None:
+            if feedback_callback is None:
+                return
+            message = values.unpack(value, self._type.Feedback)
+            told = feedback_callback
+            self.put(lambda: told(_Feedback(goal_id, message)))
+
+        async def send() -> None:
+            world = self.seat.world
+            offer = world.actions().get(self.full)
+            if offer is None:
+                return
+            try:
+                value = values.pack_request(offer, copy)
+                handle = await world.send_goal(self.full, value, on_feedback)
+            except TftoolError as error:
+                refused = error
+                self.put(lambda: future.set_exception(refused))
+                return
+            # Shielded: the decision is the server's, whether or not this client waits for it.
+            accepted = handle.decided is None or await asyncio.shield(handle.decided)
+            held = ClientGoalHandle(self, goal_id, handle if accepted else None)
+            self.put(lambda: future.set_result(held))
+
+        self.ask(send())
+        return future
+
+    def send_goal(self, goal: Any, **kwargs: Any) -> Any:
+        """Send a goal, and block until its result is there."""
+        future = self.send_goal_async(goal, **kwargs)
+        wait_for(self.seat, future, None)
+        handle = future.result()
+        return None if handle is None or not handle.accepted else handle.get_result()
+
+    def watch(self, handle: ClientGoalHandle, goal: WorldGoal | None) -> Future:
+        """A future of a goal's end."""
+        future = Future(executor=self.seat.executor)
+
+        async def wait() -> None:
+            if goal is None:
+                return
+            end = await goal.result()
+            status = STATUS[end.status]
+            result = values.unpack(end.value, self._type.Result)
+
+            def arrive() -> None:
+                handle.status = int(status)
+                future.set_result(_Result(int(status), result))
+
+            self.put(arrive)
+
+        self.ask(wait())
+        return future
+
+    def cancel(self, handle: ClientGoalHandle, goal: WorldGoal | None) -> Future:
+        """A future of the answer to a cancellation."""
+        future = Future(executor=self.seat.executor)
+
+        async def ask() -> None:
+            answer = await _cancelled(goal, handle.goal_id)
+            self.put(lambda: future.set_result(answer))
+
+        self.ask(ask())
+        return future
+
+
+async def _cancelled(goal: WorldGoal | None, goal_id: Any) -> Any:
+    """Ask for a cancellation; the response of CancelGoal, once the server has decided."""
+    response: Any = INTERFACES.part("action_msgs/srv/CancelGoal_Response")
+    if goal is None:
+        return response(return_code=response.ERROR_UNKNOWN_GOAL_ID)
+    if goal.done:
+        return response(return_code=response.ERROR_GOAL_TERMINATED)
+    goal.cancel()
+    if not await goal.cancellation():
+        ended = response.ERROR_GOAL_TERMINATED
+        return response(return_code=ended if goal.done else response.ERROR_REJECTED)
+    info: Any = INTERFACES.message("action_msgs/GoalInfo")
+    return response(goals_canceling=[info(goal_id=goal_id)])

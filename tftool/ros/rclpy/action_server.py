@@ -1,0 +1,251 @@
+"""rclpy.action's server: takes goals and works on them."""
+
+import asyncio
+import inspect
+from collections.abc import Callable
+from enum import IntEnum
+from typing import Any
+
+from tftool.errors import TftoolError
+from tftool.interfaces.classes import duplicate
+from tftool.ros.host import values
+from tftool.ros.host.error_text import error_sentence
+from tftool.ros.rclpy.action_goals import STATUS, GoalStatus, new_id
+from tftool.ros.rclpy.entities import WorkQueue
+from tftool.ros.rclpy.seat import seat_of
+from tftool.runtime.topics import GoalHandle as WorldGoal
+from tftool.runtime.topics import Status
+
+
+class GoalResponse(IntEnum):
+    """What a server says to a goal."""
+
+    REJECT = 1
+    ACCEPT = 2
+
+
+class CancelResponse(IntEnum):
+    """What a server says to a cancellation."""
+
+    REJECT = 1
+    ACCEPT = 2
+
+
+class ServerGoalHandle:
+    """A goal, as its server holds it."""
+
+    def __init__(self, server: "ActionServer", goal: WorldGoal, request: Any) -> None:
+        self._server = server
+        self._goal = goal
+        self._request = request
+        self._status: Status | None = None
+        self._canceling = False
+        self.goal_id = new_id()
+
+    @property
+    def request(self) -> Any:
+        """The goal message."""
+        return self._request
+
+    @property
+    def is_active(self) -> bool:
+        """Whether it has not ended."""
+        return self._status is None and not self._goal.done
+
+    @property
+    def is_cancel_requested(self) -> bool:
+        """Whether a cancellation was asked for and accepted."""
+        return self._canceling
+
+    @property
+    def status(self) -> int:
+        """How far it is, as a number of GoalStatus."""
+        if self._status is not None:
+            return int(STATUS[self._status])
+        return int(GoalStatus.STATUS_CANCELING if self._canceling else GoalStatus.STATUS_EXECUTING)
+
+    def publish_feedback(self, feedback: Any) -> None:
+        """Tell the client how far it is.
+
+        Raises:
+            TypeError: If the feedback is of another type.
+        """
+        kind = self._server.type_.Feedback
+        if not isinstance(feedback, kind):
+            raise TypeError(f"Expected {kind}, got {type(feedback)}")
+        copy = duplicate(feedback)
+        self._server.seat.program.ask(lambda: self._goal.publish_feedback(copy))
+
+    def succeed(self, response: Any = None) -> None:
+        """It was reached."""
+        self._end("succeeded")
+
+    def abort(self, response: Any = None) -> None:
+        """It was given up by the server."""
+        self._end("aborted")
+
+    def canceled(self, response: Any = None) -> None:
+        """It was given up because the client said so."""
+        self._end("canceled")
+
+    def execute(self, execute_callback: Any = None) -> None:
+        """Start working on it."""
+        self._server.execute(self, execute_callback)
+
+    def destroy(self) -> None:
+        """Nothing to do."""
+
+    def _end(self, status: Status) -> None:
+        self._status = status
+
+    def finish(self, result: Any) -> None:
+        """Hand the result over."""
+        status = self._status or "aborted"
+        copy = duplicate(result)
+        self._server.seat.program.ask(lambda: self._goal.finish(status, copy))
+
+    def request_cancel(self) -> None:
+        """Note that the client wants it stopped."""
+        self._canceling = True
+
+
+class ActionServer(WorkQueue):
+    """Works on goals."""
+
+    def __init__(
+        self,
+        node: Any,
+        action_type: Any,
+        action_name: str,
+        execute_callback: Callable[[ServerGoalHandle], Any],
+        *,
+        callback_group: Any = None,
+        goal_callback: Callable[[Any], Any] | None = None,
+        handle_accepted_callback: Callable[[ServerGoalHandle], Any] | None = None,
+        cancel_callback: Callable[[ServerGoalHandle], Any] | None = None,
+        **profiles: Any,
+    ) -> None:
+        seat = seat_of(node)
+        super().__init__(seat, callback_group or node.default_callback_group)
+        if not callable(execute_callback):
+            raise TypeError("an action server needs an execute_callback")
+        self.type_ = action_type
+        self._execute = execute_callback
+        self._on_goal = goal_callback or (lambda request: GoalResponse.ACCEPT)
+        self._on_accepted = handle_accepted_callback or (lambda handle: handle.execute())
+        self._on_cancel = cancel_callback or (lambda handle: CancelResponse.REJECT)
+        self.full = seat.full(action_name)
+        self._stop: Callable[[], None] = lambda: None
+        self._goals: set[WorldGoal] = set()
+
+        def serve() -> "ActionServer":
+            self._stop = seat.world.serve_action(
+                self.full, self.arrived, action_type, node=seat.authority
+            )
+            return self
+
+        seat.keep(serve)
+
+    def register_goal_callback(self, callback: Callable[[Any], Any]) -> None:
+        """Have `callback` decide about goals."""
+        self._on_goal = callback
+
+    def register_cancel_callback(self, callback: Callable[[ServerGoalHandle], Any]) -> None:
+        """Have `callback` decide about cancellations."""
+        self._on_cancel = callback
+
+    def register_handle_accepted_callback(
+        self, callback: Callable[[ServerGoalHandle], Any]
+    ) -> None:
+        """Have `callback` take accepted goals."""
+        self._on_accepted = callback
+
+    def register_execute_callback(self, callback: Callable[[ServerGoalHandle], Any]) -> None:
+        """Have `callback` do the work."""
+        self._execute = callback
+
+    # On the loop's thread
+
+    def arrived(self, goal: WorldGoal) -> None:
+        """Keep a goal until an executor takes it; refuse it where too many wait already."""
+        goal.decided = asyncio.get_running_loop().create_future()
+        if self.is_full:
+            self._decide(goal, False)
+            return
+        self._goals = {one for one in self._goals if not one.done} | {goal}
+        request = values.unpack(goal.request, self.type_.Goal)
+        handle = ServerGoalHandle(self, goal, request)
+        goal.on_cancel = lambda: self.put(lambda: self._consider_cancel(handle, goal))
+        self.put(lambda: self._consider(handle, goal))
+
+    def withdraw(self) -> None:
+        """Take no more goals; what nobody has decided about is refused."""
+        super().withdraw()
+        self._stop()
+        for goal in self._goals:
+            self._decide(goal, False)
+            goal.decide_cancel(False)
+
+    def _decide(self, goal: WorldGoal, accepted: bool) -> bool:
+        """Tell a goal's client whether it is taken; the first decision counts, and is returned."""
+        decided = goal.decided
+        assert decided is not None
+        if not decided.done():
+            decided.set_result(accepted)
+            if not accepted:
+                goal.finish("aborted", self.type_.Result())
+        return decided.result()
+
+    # On the fiber
+
+    async def _consider(self, handle: ServerGoalHandle, goal: WorldGoal) -> None:
+        ask = self.seat.program.ask
+        try:
+            response = await _outcome(self._on_goal(handle.request))
+        except Exception:
+            # As in ROS 2 it ends whoever spins; the client must not wait for ever.
+            ask(lambda: self._decide(goal, False))
+            raise
+        accepted = ask(lambda: self._decide(goal, response == GoalResponse.ACCEPT))
+        if accepted:
+            await _outcome(self._on_accepted(handle))
+
+    async def _consider_cancel(self, handle: ServerGoalHandle, goal: WorldGoal) -> None:
+        accepted = False
+        try:
+            if handle.is_active:
+                accepted = await _outcome(self._on_cancel(handle)) == CancelResponse.ACCEPT
+            if accepted:
+                handle.request_cancel()
+        finally:
+            self.seat.program.ask(lambda: goal.decide_cancel(accepted))
+
+    def execute(self, handle: ServerGoalHandle, callback: Any = None) -> None:
+        """Work on a goal, on the executor of the node."""
+        chosen = callback or self._execute
+
+        async def work() -> None:
+            logger = self.seat.ros_node.get_logger()
+            try:
+                result = await _outcome(chosen(handle))
+            except Exception as error:
+                # As in ROS 2 it ends the goal, and nothing else.
+                logger.error(f"Error raised in execute callback: {error_sentence(error)}")
+                result = self.type_.Result()
+            if handle.is_active:
+                logger.warning("Goal state not set, assuming aborted.")
+            if not isinstance(result, self.type_.Result):
+                text = f"an execute_callback must return {self.type_.__name__}.Result"
+                logger.warning(f"{text}, not {type(result).__name__}")
+                result = self.type_.Result()
+            handle.finish(result)
+
+        executor = self.seat.executor
+        if executor is None:
+            raise TftoolError("an action is executed by the executor that spins its node")
+        executor.create_task(work())
+
+
+async def _outcome(value: Any) -> Any:
+    """What a callback gave; of a coroutine, what that gives."""
+    return await value if inspect.isawaitable(value) else value

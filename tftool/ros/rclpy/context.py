@@ -1,0 +1,94 @@
+"""rclpy's context: whether a program has been initialised and not shut down."""
+
+from collections.abc import Callable, Sequence
+from typing import Any
+
+from tftool.ros.host import names, program
+
+
+class Context:
+    """Between `rclpy.init` and `rclpy.shutdown`."""
+
+    def __init__(self) -> None:
+        self._program = program.current()
+        self._valid = False
+        self._listeners: list[Callable[[], object]] = []
+        self._on_shutdown: list[Callable[[], object]] = []
+        self.options = self._program.options
+
+    def init(
+        self,
+        args: Sequence[str] | None = None,
+        *,
+        initialize_logging: bool = True,
+        domain_id: int | None = None,
+    ) -> None:
+        """Start.
+
+        Raises:
+            RuntimeError: If it has been started.
+            UsageError: If what follows `--ros-args` is malformed.
+        """
+        if self._valid:
+            raise RuntimeError("Context.init() must only be called once")
+        if args is not None and "--ros-args" in args and list(args) != self._program.argv:
+            self.options, _ = names.parse(list(args))
+        self._valid = True
+
+    def ok(self) -> bool:
+        """Whether it is started and nothing has ended it."""
+        return self._valid and not self._program.interrupted
+
+    def shutdown(self) -> None:
+        """End; whoever spins comes back.
+
+        Raises:
+            RuntimeError: If it was not started.
+        """
+        if not self._valid:
+            if self._program.interrupted:
+                return
+            raise RuntimeError("Context must be initialized before it can be shutdown")
+        self.try_shutdown()
+
+    def try_shutdown(self) -> None:
+        """End, if that has not been done."""
+        if not self._valid:
+            return
+        self._valid = False
+        callbacks, self._on_shutdown = self._on_shutdown, []
+        for callback in callbacks:
+            callback()
+        for listener in self._listeners:
+            listener()
+
+    def on_shutdown(self, callback: Callable[[], object]) -> None:
+        """Have `callback` called at the end."""
+        self._on_shutdown.append(callback)
+
+    def on_change(self, callback: Callable[[], object]) -> None:
+        """Have an executor told of the end."""
+        self._listeners.append(callback)
+
+    def get_domain_id(self) -> int:
+        """ROS 2's default domain, 0.
+
+        A program does not know the domain of the session it lives in (`--domain`): that is the
+        affair of the link to other processes.
+        """
+        return 0
+
+    def __enter__(self) -> "Context":
+        if not self._valid:
+            self.init()
+        return self
+
+    def __exit__(self, *args: object) -> None:
+        self.try_shutdown()
+
+
+def context_of(owner: Any) -> Context:
+    """The context a program uses unless it says otherwise."""
+    if owner.context is None:
+        owner.context = Context()
+    return owner.context  # type: ignore[no-any-return]

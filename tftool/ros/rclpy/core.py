@@ -1,0 +1,139 @@
+"""The functions of rclpy itself."""
+
+from collections.abc import Sequence
+from typing import Any
+
+from tftool.ros.host import program
+from tftool.ros.rclpy import logging
+from tftool.ros.rclpy.context import Context, context_of
+from tftool.ros.rclpy.executors import Executor, SingleThreadedExecutor, executor_of
+from tftool.ros.rclpy.futures import Future
+from tftool.ros.rclpy.node import Node
+from tftool.ros.rclpy.node_parameters import unused_parameters
+from tftool.ros.rclpy.time import S_TO_NS, Duration, Time
+
+__all__ = [
+    "S_TO_NS",
+    "Context",
+    "Duration",
+    "Executor",
+    "Future",
+    "Node",
+    "SingleThreadedExecutor",
+    "Time",
+    "logging",
+]
+
+
+class InitContextManager:
+    """What `rclpy.init` returns: usable with `with`."""
+
+    def __init__(self, context: Context) -> None:
+        self.context = context
+
+    def __enter__(self) -> "InitContextManager":
+        return self
+
+    def __exit__(self, *args: object) -> None:
+        self.context.try_shutdown()
+
+
+def init(
+    *,
+    args: Sequence[str] | None = None,
+    context: Context | None = None,
+    domain_id: int | None = None,
+    signal_handler_options: Any = None,
+) -> InitContextManager:
+    """Start rclpy in this program.
+
+    Raises:
+        RuntimeError: If it is started already.
+    """
+    owner = program.current()
+    chosen = context or context_of(owner)
+    if context is None and not chosen.ok() and owner.context is chosen and not owner.interrupted:
+        # As in ROS 2, after a shutdown the default context may be started again.
+        owner.executor = None
+    chosen.init(args, domain_id=domain_id)
+    return InitContextManager(chosen)
+
+
+def shutdown(*, context: Context | None = None, uninstall_handlers: bool | None = None) -> None:
+    """End rclpy in this program."""
+    (context or context_of(program.current())).shutdown()
+
+
+def try_shutdown(*, context: Context | None = None, uninstall_handlers: bool | None = None) -> None:
+    """End rclpy in this program, if that has not been done."""
+    (context or context_of(program.current())).try_shutdown()
+
+
+def ok(*, context: Context | None = None) -> bool:
+    """Whether rclpy is started and nothing has ended it."""
+    return (context or context_of(program.current())).ok()
+
+
+def create_node(node_name: str, **kwargs: Any) -> Node:
+    """A node without a class of its own."""
+    return Node(node_name, **kwargs)
+
+
+def get_global_executor() -> Executor:
+    """The executor that `spin` uses."""
+    return executor_of(program.current())
+
+
+def get_default_context() -> Context:
+    """The context that everything uses unless it says otherwise."""
+    return context_of(program.current())
+
+
+def spin(node: Node, executor: Executor | None = None) -> None:
+    """Serve a node until shutdown."""
+    chosen = executor or get_global_executor()
+    added = chosen.add_node(node)
+    warn_of_unused(node)
+    try:
+        chosen.spin()
+    finally:
+        if added:
+            chosen.remove_node(node)
+
+
+def spin_once(
+    node: Node, *, executor: Executor | None = None, timeout_sec: float | None = None
+) -> None:
+    """Wait for one thing a node has to do, and do it."""
+    chosen = executor or get_global_executor()
+    added = chosen.add_node(node)
+    try:
+        chosen.spin_once(timeout_sec)
+    finally:
+        if added:
+            chosen.remove_node(node)
+
+
+def spin_until_future_complete(
+    node: Node,
+    future: Future,
+    executor: Executor | None = None,
+    timeout_sec: float | None = None,
+) -> None:
+    """Serve a node until a future is done, or the time is up.
+
+    Unlike in ROS 2 this may be called inside a callback.
+    """
+    chosen = executor or node.executor or get_global_executor()
+    added = chosen.add_node(node)
+    try:
+        chosen.spin_until_future_complete(future, timeout_sec)
+    finally:
+        if added:
+            chosen.remove_node(node)
+
+
+def warn_of_unused(node: Node) -> None:
+    """Say which parameters were given and never declared."""
+    for sentence in unused_parameters(node):
+        node.get_logger().warning(sentence, once=False)

@@ -1,0 +1,135 @@
+"""What a node has that can become ready.
+
+Each thing keeps what arrived until an executor takes it. `ready` and `take` run on
+the loop's thread; what `take` returns runs on the fiber that spins.
+"""
+
+import asyncio
+from collections import deque
+from collections.abc import Callable, Coroutine
+from typing import Any, Final, Self
+
+from tftool.ros.rclpy.seat import NodeSeat
+
+Work = Callable[[], Any]
+"""What is left to do on the fiber once an entity was taken from; may return a coroutine."""
+
+
+MOST_WAITING: Final = 1000
+"""Requests or goals that may wait for a node that takes none; more are refused."""
+
+
+class NodeEntity:
+    """Something of a node that can become ready."""
+
+    passes_busy_group = False
+    is_a_callback = False
+    """Whether it is a callback of the user's own that only an executor calls."""
+    only_ends_spin_once = False
+    """Whether it has nothing to do but end a `spin_once`, as what it stands for would in ROS."""
+
+    def __init__(self, seat: NodeSeat, group: Any) -> None:
+        self.seat = seat
+        self.callback_group = group
+
+    def ready(self) -> bool:
+        """Whether there is something to take."""
+        return False
+
+    def take(self) -> Work:
+        """What to do next."""
+        raise NotImplementedError
+
+    def withdraw(self) -> None:
+        """Stop listening (on the loop's thread)."""
+
+    def destroy(self) -> None:
+        """Stop listening, and leave the node."""
+        self.seat.forget(self)
+
+    def __enter__(self) -> Self:
+        return self
+
+    def __exit__(self, *args: object) -> None:
+        self.destroy()
+
+
+class WorkQueue(NodeEntity):
+    """Something whose work arrives piece by piece, and is done in that order."""
+
+    def __init__(self, seat: NodeSeat, group: Any) -> None:
+        super().__init__(seat, group)
+        self._arrived: deque[Work] = deque()
+
+    def put(self, work: Work) -> None:
+        """Take a piece in (on the loop's thread)."""
+        self._arrived.append(work)
+        self.seat.wake()
+
+    @property
+    def is_full(self) -> bool:
+        """Whether so much waits that others' requests and goals are refused."""
+        return len(self._arrived) >= MOST_WAITING
+
+    def ready(self) -> bool:
+        """Whether a piece waits."""
+        return bool(self._arrived)
+
+    def take(self) -> Work:
+        """The piece that arrived first."""
+        return self._arrived.popleft()
+
+
+class Requester(WorkQueue):
+    """Something that asks others in the world, and gets their answers as work."""
+
+    # An answer completes a future and runs nobody's callback by itself, so whoever
+    # waits for it inside a callback gets it.
+    passes_busy_group = True
+
+    def __init__(self, seat: NodeSeat, group: Any) -> None:
+        super().__init__(seat, group)
+        self._asking: set[asyncio.Task[None]] = set()
+
+    def ask(self, question: Coroutine[Any, Any, None]) -> None:
+        """Have a question asked on the loop's thread; it ends with this entity."""
+
+        def start() -> None:
+            task = asyncio.get_running_loop().create_task(question)
+            self._asking.add(task)
+            task.add_done_callback(self._asking.discard)
+
+        self.seat.program.ask(start)
+
+    def withdraw(self) -> None:
+        """Wait for no answer any more."""
+        super().withdraw()
+        for task in list(self._asking):
+            task.cancel()
+
+
+class GuardCondition(NodeEntity):
+    """Calls back when triggered."""
+
+    def __init__(self, seat: NodeSeat, callback: Callable[[], Any], group: Any) -> None:
+        super().__init__(seat, group)
+        self.callback = callback
+        self._triggered = False
+
+    def trigger(self) -> None:
+        """Have the callback called soon."""
+
+        def set_off() -> None:
+            self._triggered = True
+            self.seat.wake()
+
+        self.seat.program.ask(set_off)
+
+    def ready(self) -> bool:
+        """Whether it was triggered."""
+        return self._triggered
+
+    def take(self) -> Work:
+        """The callback."""
+        self._triggered = False
+        return self.callback

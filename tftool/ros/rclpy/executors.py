@@ -1,0 +1,388 @@
+"""rclpy's executors: they take what is ready, in a fixed order, and call the callbacks.
+
+What is ready is decided on the loop's thread; the callbacks run on the fiber that
+spins. Timers wait for their turn within an instant, so a listener's timer sees all
+that the simulator and the broadcasters of that instant have said.
+"""
+
+import asyncio
+import inspect
+from collections import deque
+from collections.abc import Iterator
+from typing import Any
+
+from tftool.ros.host import program
+from tftool.ros.rclpy.context import Context, context_of
+from tftool.ros.rclpy.entities import NodeEntity, Work
+from tftool.ros.rclpy.exceptions import ExternalShutdownException, ShutdownException
+from tftool.ros.rclpy.futures import Future, Task
+from tftool.ros.rclpy.seat import NodeSeat, seat_of
+from tftool.ros.rclpy.timers import Timer
+from tftool.stamps import Stamp, seconds
+
+THREADS = 4
+"""How many callbacks a MultiThreadedExecutor runs at once unless told; the same everywhere."""
+
+
+class Executor:
+    """Calls the callbacks of its nodes.
+
+    Attributes:
+        spins_once: Whether it is in `spin_once`, which any traffic ends.
+    """
+
+    def __init__(self, *, context: Context | None = None) -> None:
+        self._program = program.current()
+        self._context = context or context_of(self._program)
+        self._seats: list[NodeSeat] = []
+        self._batch: deque[NodeEntity] = deque()
+        self._tasks: deque[Task] = deque()
+        self._finished: deque[Any] = deque()
+        self._wakers: list[asyncio.Future[None]] = []
+        self._reached: Stamp = 0
+        self._over = False
+        self.spins_once = False
+        self._failure: BaseException | None = None
+        self._context.on_change(self._wake_from_anywhere)
+
+    @property
+    def context(self) -> Context:
+        """Whose shutdown ends it."""
+        return self._context
+
+    def __enter__(self) -> "Executor":
+        return self
+
+    def __exit__(self, *args: object) -> None:
+        self.shutdown()
+
+    def add_node(self, node: Any) -> bool:
+        """Serve a node too; False if it is served already."""
+        return self.serve(seat_of(node))
+
+    def remove_node(self, node: Any) -> None:
+        """Serve a node no more."""
+        self.leave(seat_of(node))
+
+    def get_nodes(self) -> list[Any]:
+        """The nodes it serves."""
+        return [seat.ros_node for seat in self._seats]
+
+    def serve(self, seat: NodeSeat) -> bool:
+        """Serve a node's things too; False if they are served already."""
+        if seat in self._seats:
+            return False
+
+        def add() -> None:
+            self._seats.append(seat)
+            seat.executor = self
+            seat.was_served = True
+            self.wake()
+
+        self._program.ask(add)
+        return True
+
+    def leave(self, seat: NodeSeat) -> None:
+        """Serve a node's things no more."""
+
+        def remove() -> None:
+            if seat in self._seats:
+                self._seats.remove(seat)
+            if seat.executor is self:
+                seat.executor = None
+            self._batch = deque(one for one in self._batch if one.seat is not seat)
+            self.wake()
+
+        self._program.ask(remove)
+
+    def shutdown(self, timeout_sec: float | None = None) -> bool:
+        """Serve nobody any more."""
+        self._over = True
+        for seat in list(self._seats):
+            self.leave(seat)
+        return True
+
+    def create_task(self, callback: Any, *args: Any, **kwargs: Any) -> Task:
+        """Run a callback or a coroutine soon; a future of its outcome."""
+        task = Task(callback, args, kwargs, executor=self)
+        self._schedule(task)
+        return task
+
+    def wake(self) -> None:
+        """Look again (on the loop's thread)."""
+        for waker in self._wakers:
+            if not waker.done():
+                waker.set_result(None)
+
+    # Spinning
+
+    def spin(self) -> None:
+        """Serve until shutdown."""
+        while self._context.ok() and not self._over:
+            self._step(None)
+
+    def spin_once(self, timeout_sec: float | None = None) -> None:
+        """Wait for one thing to do, and do it.
+
+        Raises:
+            ShutdownException: If the executor was shut down.
+            ExternalShutdownException: If the context is shut down.
+        """
+        if self._over:
+            raise ShutdownException
+        if not self._context.ok():
+            raise ExternalShutdownException
+        self.spins_once = True
+        try:
+            self._step(self._deadline(timeout_sec))
+        finally:
+            self.spins_once = False
+
+    def spin_until_future_complete(self, future: Future, timeout_sec: float | None = None) -> None:
+        """Serve until a future is done, or the time is up."""
+        deadline = self._deadline(timeout_sec)
+        future.add_done_callback(lambda _: self._wake_from_anywhere())
+        while not (future.done() or future.cancelled()):
+            if not self._context.ok() or self._over:
+                return
+            did_something = self._step(deadline, future)
+            # What is due at the deadline itself is still done, however much it is.
+            if self._late(deadline) and (not did_something or self._late(deadline, by=1)):
+                return
+
+    def spin_once_until_future_complete(
+        self, future: Future, timeout_sec: float | None = None
+    ) -> None:
+        """Wait for one thing to do, or for a future."""
+        if not (future.done() or future.cancelled()):
+            future.add_done_callback(lambda _: self._wake_from_anywhere())
+            self._step(self._deadline(timeout_sec), future)
+
+    def _deadline(self, timeout_sec: float | None) -> Stamp | None:
+        if timeout_sec is None or timeout_sec < 0:
+            return None
+        return self._program.clock.now() + seconds(timeout_sec)
+
+    def _late(self, deadline: Stamp | None, by: int = 0) -> bool:
+        return deadline is not None and deadline + by <= self._program.clock.now()
+
+    def _step(self, deadline: Stamp | None, future: Future | None = None) -> bool:
+        """Do one thing; False when the time was up or there was another reason to look up."""
+        if self._tasks:
+            self._advance(self._tasks.popleft(), None)
+            return True
+        found = self._program.ask(lambda: self._next(deadline, future))
+        if self._failure is not None:
+            failure, self._failure = self._failure, None
+            raise failure
+        if found is None:
+            self._program.looked_in_vain()
+            return False
+        entity, work = found
+        group = entity.callback_group
+        try:
+            value = work()
+        except BaseException:
+            self._release(group)
+            raise
+        if inspect.iscoroutine(value):
+            self._advance(Task(value, executor=self), group)
+        else:
+            self._release(group)
+        return True
+
+    def _release(self, group: Any) -> None:
+        if group is not None:
+            group.ending_execution(None)
+            self._finished.append(group)
+
+    def _advance(self, task: Task, group: Any) -> None:
+        waits_for = task()
+        if task.done() or task.cancelled():
+            self._release(group)
+            error = task.exception()
+            if error is not None:
+                raise error
+        elif isinstance(waits_for, Future):
+            waits_for.add_done_callback(lambda _: self._schedule(task, group))
+        else:
+            self._schedule(task, group)
+
+    def _schedule(self, task: Task, group: Any = None) -> None:
+        if group is None:
+            self._tasks.append(task)
+        else:
+            self._tasks.append(_Continued(task, group, self))
+        self._wake_from_anywhere()
+
+    def _wake_from_anywhere(self) -> None:
+        # A thread that spins registers its waker before it looks at what there is to do.
+        if self._wakers:
+            self._program.ask(self.wake)
+
+    # On the loop's thread.
+
+    async def _next(
+        self, deadline: Stamp | None, future: Future | None
+    ) -> tuple[NodeEntity, Work] | None:
+        """The next thing to do; None when there is another reason to look up."""
+        clock = self._program.clock
+        if self._finished:
+            self._finished.clear()
+            self.wake()
+        while True:
+            # Registered before it looks: what another thread sets while it looks wakes it.
+            waker: asyncio.Future[None] = asyncio.get_running_loop().create_future()
+            self._wakers.append(waker)
+            try:
+                found = self._take()
+                if found is not None:
+                    return found
+                if (
+                    self._tasks
+                    or self._over
+                    or self._failure is not None
+                    or not self._context.ok()
+                    or (future is not None and (future.done() or future.cancelled()))
+                    or (deadline is not None and deadline <= clock.now())
+                ):
+                    return None
+                due = self._due()
+                if deadline is not None and (due is None or deadline < due):
+                    due = deadline
+                await self._pause(waker, due)
+            finally:
+                self._wakers.remove(waker)
+
+    def _take(self) -> tuple[NodeEntity, Work] | None:
+        for collected in (False, True):
+            if collected:
+                self._batch = deque(filter(self._is_ready, self._entities()))
+            while self._batch:
+                entity = self._batch.popleft()
+                if self._is_ready(entity):
+                    if entity.callback_group is not None:
+                        entity.callback_group.beginning_execution(entity)
+                    return entity, entity.take()
+        return None
+
+    def _entities(self) -> Iterator[NodeEntity]:
+        """Everything that can become ready, in the order it is served: timers come first."""
+        for seat in list(self._seats):
+            yield from (one for one in seat.entities if isinstance(one, Timer))
+            yield from (one for one in seat.entities if not isinstance(one, Timer))
+
+    def _is_ready(self, entity: NodeEntity) -> bool:
+        if entity.only_ends_spin_once and not self.spins_once:
+            return False
+        if isinstance(entity, Timer) and self._program.strict and not self._has_turn(entity.due):
+            return False
+        return entity.ready() and self._may_run(entity)
+
+    def _has_turn(self, due: Stamp) -> bool:
+        return due <= self._reached or due < self._program.clock.now()
+
+    def _may_run(self, entity: NodeEntity) -> bool:
+        group = entity.callback_group
+        return group is None or entity.passes_busy_group or bool(group.can_execute(entity))
+
+    def _due(self) -> Stamp | None:
+        moments = [
+            entity.due
+            for entity in self._entities()
+            if isinstance(entity, Timer) and not entity.is_canceled() and self._may_run(entity)
+        ]
+        return min(moments, default=None)
+
+    async def _pause(self, waker: "asyncio.Future[None]", due: Stamp | None) -> None:
+        """Wait for something to arrive, or for a moment's turn."""
+        owner = self._program
+        timer = None if due is None else owner.clock.timer(due, owner.turn, owner.rank)
+
+        def reached(future: "asyncio.Future[None]") -> None:
+            if not future.cancelled():
+                self._reached = max(self._reached, owner.clock.now())
+                if not waker.done():
+                    waker.set_result(None)
+
+        if timer is not None:
+            timer.add_done_callback(reached)
+        try:
+            await waker
+        finally:
+            if timer is not None:
+                timer.cancel()
+
+
+class _Continued(Task):
+    """A callback's coroutine that goes on; its group is busy until it has ended."""
+
+    def __init__(self, task: Task, group: Any, executor: Executor) -> None:
+        super().__init__(lambda: None, executor=executor)
+        self._task = task
+        self._group = group
+        self._owner = executor
+
+    def __call__(self) -> Any:
+        self._owner._advance(self._task, self._group)
+        self.set_result(None)
+        return None
+
+
+class SingleThreadedExecutor(Executor):
+    """One callback at a time."""
+
+
+class MultiThreadedExecutor(Executor):
+    """Several callbacks at a time, as far as their groups allow, each on a fiber of its own."""
+
+    def __init__(self, num_threads: int | None = None, *, context: Context | None = None) -> None:
+        super().__init__(context=context)
+        self._threads = max(1, num_threads or THREADS)
+        self._workers = 0
+
+    def spin(self) -> None:
+        """Serve until shutdown."""
+        self._hire()
+        super().spin()
+
+    def spin_until_future_complete(self, future: Future, timeout_sec: float | None = None) -> None:
+        """Serve until a future is done, or the time is up."""
+        self._hire()
+        super().spin_until_future_complete(future, timeout_sec)
+
+    def _hire(self) -> None:
+        def work() -> None:
+            try:
+                Executor.spin(self)
+            except KeyboardInterrupt:
+                pass
+            except BaseException as error:
+                self._failure = error
+                self._program.ask(self.wake)
+
+        def start() -> None:
+            while self._workers < self._threads - 1:
+                self._workers += 1
+                name = f"{self._program.name}#{self._workers}"
+                self._program.start_fiber(self._program.new_fiber(name, work))
+
+        self._program.ask(start)
+
+
+def executor_of(owner: "program.Program") -> Executor:
+    """The executor that `rclpy.spin` uses."""
+    if owner.executor is None:
+        owner.executor = SingleThreadedExecutor()
+    return owner.executor  # type: ignore[no-any-return]
+
+
+def wait_for(seat: NodeSeat, future: Future, timeout_sec: float | None) -> None:
+    """Block until a future is done, serving the node meanwhile if nobody else does."""
+    executor = seat.executor or executor_of(seat.program)
+    added = executor.serve(seat)
+    try:
+        executor.spin_until_future_complete(future, timeout_sec)
+    finally:
+        if added:
+            executor.leave(seat)

@@ -1,0 +1,149 @@
+"""rclpy's futures, and the tasks that coroutines run in."""
+
+import inspect
+import threading
+from collections.abc import Callable, Coroutine, Generator
+from typing import Any
+
+
+class Future:
+    """An answer that is still to come."""
+
+    def __init__(self, *, executor: Any = None) -> None:
+        self._done = False
+        self._cancelled = False
+        self._result: Any = None
+        self._exception: BaseException | None = None
+        self._asked = False
+        self._callbacks: list[Callable[[Any], object]] = []
+        self._executor = executor
+        # Answers come on other threads than questions. Never held while a callback runs.
+        self._mutex = threading.Lock()
+
+    def __await__(self) -> Generator[Any, None, Any]:
+        while not self._done and not self._cancelled:
+            yield self
+        return self.result()
+
+    def done(self) -> bool:
+        """Whether the answer is there."""
+        return self._done
+
+    def cancelled(self) -> bool:
+        """Whether it was given up."""
+        return self._cancelled
+
+    def cancel(self) -> None:
+        """Give it up; does nothing once it is done."""
+        with self._mutex:
+            if self._done:
+                return
+            self._cancelled = True
+        self._tell()
+
+    def result(self) -> Any:
+        """The answer, None while there is none.
+
+        Raises:
+            BaseException: If an exception is the answer.
+        """
+        if self._exception is not None:
+            self._asked = True
+            raise self._exception
+        return self._result
+
+    def exception(self) -> BaseException | None:
+        """The exception, if that is the answer."""
+        self._asked = True
+        return self._exception
+
+    def set_result(self, result: Any) -> None:
+        """Answer."""
+        with self._mutex:
+            self._result = result
+            self._done = True
+            self._cancelled = False
+        self._tell()
+
+    def set_exception(self, exception: BaseException) -> None:
+        """Answer with an exception."""
+        with self._mutex:
+            self._exception = exception
+            self._asked = False
+            self._done = True
+            self._cancelled = False
+        self._tell()
+
+    def add_done_callback(self, callback: Callable[[Any], object]) -> None:
+        """Have `callback` called with this future once it is done (at once if it is)."""
+        with self._mutex:
+            is_over = self._done or self._cancelled
+            if not is_over:
+                self._callbacks.append(callback)
+        if is_over:
+            self._call(callback)
+
+    def remove_done_callback(self, callback: Callable[[Any], object]) -> bool:
+        """No longer call `callback`; whether it was registered."""
+        with self._mutex:
+            found = callback in self._callbacks
+            self._callbacks = [one for one in self._callbacks if one != callback]
+        return found
+
+    def _tell(self) -> None:
+        with self._mutex:
+            callbacks, self._callbacks = self._callbacks, []
+        for callback in callbacks:
+            self._call(callback)
+
+    def _call(self, callback: Callable[[Any], object]) -> None:
+        value = callback(self)
+        if inspect.iscoroutine(value):
+            if self._executor is None:
+                raise TypeError("a coroutine as done-callback needs a future with an executor")
+            self._executor.create_task(value)
+
+
+class Task(Future):
+    """A callback or coroutine that an executor runs, and its outcome."""
+
+    def __init__(
+        self,
+        handler: Callable[..., Any] | Coroutine[Any, Any, Any],
+        args: Any = None,
+        kwargs: Any = None,
+        executor: Any = None,
+    ) -> None:
+        super().__init__(executor=executor)
+        if inspect.iscoroutine(handler):
+            self._coroutine: Coroutine[Any, Any, Any] | None = handler
+            self._handler: Callable[[], Any] | None = None
+        else:
+            function: Any = handler
+            self._coroutine = None
+            self._handler = lambda: function(*(args or ()), **(kwargs or {}))
+
+    def __call__(self) -> Any:
+        """Run on until it waits or ends; what it waits for, if it does."""
+        if self._done or self._cancelled:
+            return None
+        try:
+            if self._coroutine is None and self._handler is not None:
+                value = self._handler()
+                if not inspect.iscoroutine(value):
+                    self.set_result(value)
+                    return None
+                self._coroutine = value
+            if self._coroutine is not None:
+                return self._coroutine.send(None)
+        except StopIteration as ended:
+            self.set_result(ended.value)
+        except Exception as error:
+            self.set_exception(error)
+        return None
+
+    def cancel(self) -> None:
+        """Give it up; a coroutine is closed."""
+        if self._coroutine is not None and not self._done:
+            self._coroutine.close()
+        super().cancel()

@@ -1,0 +1,284 @@
+"""rclpy's lifecycle nodes: they go from state to state, by themselves or by services."""
+
+from collections.abc import Callable
+from functools import wraps
+from typing import Any, TypeVar
+
+from tftool.interfaces.classes import INTERFACES
+from tftool.ros.rclpy.lifecycle_states import (
+    CALLBACKS,
+    GRAPH,
+    STATES,
+    LifecycleState,
+    StateMachine,
+    Transition,
+    TransitionCallbackReturn,
+)
+from tftool.ros.rclpy.node import Node
+from tftool.ros.rclpy.services import serve_own
+from tftool.ros.rclpy.topics import Publisher
+
+__all__ = ["LifecycleState", "TransitionCallbackReturn"]
+
+F = TypeVar("F", bound=Callable[..., Any])
+
+SUCCESS = TransitionCallbackReturn.SUCCESS
+
+
+class ManagedEntity:
+    """Something that is told of every transition of its node."""
+
+    def on_configure(self, state: LifecycleState) -> TransitionCallbackReturn:
+        """Get ready."""
+        return SUCCESS
+
+    def on_cleanup(self, state: LifecycleState) -> TransitionCallbackReturn:
+        """Be as before."""
+        return SUCCESS
+
+    def on_shutdown(self, state: LifecycleState) -> TransitionCallbackReturn:
+        """End."""
+        return SUCCESS
+
+    def on_activate(self, state: LifecycleState) -> TransitionCallbackReturn:
+        """Start."""
+        return SUCCESS
+
+    def on_deactivate(self, state: LifecycleState) -> TransitionCallbackReturn:
+        """Stop."""
+        return SUCCESS
+
+    def on_error(self, state: LifecycleState) -> TransitionCallbackReturn:
+        """Come back from an error."""
+        return SUCCESS
+
+
+class SimpleManagedEntity(ManagedEntity):
+    """Something that is enabled while its node is active."""
+
+    _enabled = False
+
+    def on_activate(self, state: LifecycleState) -> TransitionCallbackReturn:
+        """Be enabled."""
+        self._enabled = True
+        return SUCCESS
+
+    def on_deactivate(self, state: LifecycleState) -> TransitionCallbackReturn:
+        """Be enabled no more."""
+        self._enabled = False
+        return SUCCESS
+
+    @property
+    def is_activated(self) -> bool:
+        """Whether it is enabled."""
+        return self._enabled
+
+    @staticmethod
+    def when_enabled(
+        wrapped: F | None = None, *, when_not_enabled: Callable[[], object] | None = None
+    ) -> Any:
+        """Decorate a method: while not enabled, only `when_not_enabled` is called."""
+
+        def decorate(method: F) -> Any:
+            @wraps(method)
+            def guarded(self: SimpleManagedEntity, *args: Any, **kwargs: Any) -> Any:
+                if self._enabled:
+                    return method(self, *args, **kwargs)
+                return None if when_not_enabled is None else when_not_enabled()
+
+            return guarded
+
+        return decorate if wrapped is None else decorate(wrapped)
+
+
+class LifecyclePublisher(SimpleManagedEntity, Publisher):
+    """A publisher that sends while its node is active."""
+
+    def publish(self, msg: Any) -> None:
+        """Send a message, if the node is active."""
+        if self._enabled:
+            super().publish(msg)
+
+
+def _telling(callback: str) -> Any:
+    """What a node does in a transition unless its class says otherwise."""
+
+    def tell(self: "LifecycleNodeMixin", state: LifecycleState) -> TransitionCallbackReturn:
+        for entity in list(self._managed_entities):
+            result: TransitionCallbackReturn = getattr(entity, callback)(state)
+            if result is not SUCCESS:
+                return result
+        return SUCCESS
+
+    tell.__name__ = callback
+    tell.__doc__ = "Tell its entities; the first that does not succeed is the answer."
+    return tell
+
+
+class LifecycleNodeMixin(ManagedEntity):
+    """What makes a node a lifecycle node."""
+
+    on_configure = _telling("on_configure")
+    on_cleanup = _telling("on_cleanup")
+    on_shutdown = _telling("on_shutdown")
+    on_activate = _telling("on_activate")
+    on_deactivate = _telling("on_deactivate")
+    on_error = _telling("on_error")
+
+    def __init__(
+        self, *, enable_communication_interface: bool = True, callback_group: Any = None
+    ) -> None:
+        if not isinstance(enable_communication_interface, bool):
+            raise TypeError("enable_communication_interface must be True or False")
+        self._state_machine = StateMachine()
+        self._managed_entities: list[ManagedEntity] = []
+        self._transition_events: Publisher | None = None
+        if enable_communication_interface:
+            _serve(self, callback_group)
+
+    def trigger_configure(self) -> TransitionCallbackReturn:
+        """From unconfigured to inactive."""
+        return change(self, "configure")
+
+    def trigger_cleanup(self) -> TransitionCallbackReturn:
+        """From inactive to unconfigured."""
+        return change(self, "cleanup")
+
+    def trigger_activate(self) -> TransitionCallbackReturn:
+        """From inactive to active."""
+        return change(self, "activate")
+
+    def trigger_deactivate(self) -> TransitionCallbackReturn:
+        """From active to inactive."""
+        return change(self, "deactivate")
+
+    def trigger_shutdown(self) -> TransitionCallbackReturn:
+        """From wherever it is to finalized."""
+        return change(self, "shutdown")
+
+    def add_managed_entity(self, entity: ManagedEntity) -> None:
+        """Have something told of every transition."""
+        self._managed_entities.append(entity)
+
+    def create_lifecycle_publisher(self, *args: Any, **kwargs: Any) -> LifecyclePublisher:
+        """A publisher that sends while this node is active."""
+        node: Any = self
+        publisher: LifecyclePublisher = node.create_publisher(
+            *args, publisher_class=LifecyclePublisher, **kwargs
+        )
+        self.add_managed_entity(publisher)
+        return publisher
+
+    def destroy_lifecycle_publisher(self, publisher: LifecyclePublisher) -> bool:
+        """Withdraw a lifecycle publisher."""
+        if publisher in self._managed_entities:
+            self._managed_entities.remove(publisher)
+        node: Any = self
+        return bool(node.destroy_publisher(publisher))
+
+
+class LifecycleNode(LifecycleNodeMixin, Node):
+    """A node that is configured and activated before it works."""
+
+    def __init__(
+        self, node_name: str, *, enable_communication_interface: bool = True, **kwargs: Any
+    ) -> None:
+        Node.__init__(self, node_name, **kwargs)
+        LifecycleNodeMixin.__init__(
+            self, enable_communication_interface=enable_communication_interface
+        )
+
+
+def change(node: LifecycleNodeMixin, wanted: str | int) -> TransitionCallbackReturn:
+    """Take a node through a transition; what its callback said.
+
+    Raises:
+        RuntimeError: If the transition does not begin where the node is.
+    """
+    machine = node._state_machine
+    before = machine.state
+    _announce(node, machine.take(wanted))
+    said = result = _ask(node, before)
+    _announce(node, machine.take(result.to_label()))
+    if said is TransitionCallbackReturn.ERROR:
+        _announce(node, machine.take(_ask(node, before).to_label()))
+    return said
+
+
+def _ask(node: Any, before: LifecycleState) -> TransitionCallbackReturn:
+    callback = CALLBACKS[node._state_machine.state.label]
+    try:
+        return TransitionCallbackReturn(getattr(node, callback)(before))
+    except Exception as error:
+        # As in ROS 2 the node goes on; there, nothing is said.
+        node.get_logger().error(f"{callback} failed: {type(error).__name__}: {error}")
+        return TransitionCallbackReturn.ERROR
+
+
+def _announce(node: Any, taken: Transition) -> None:
+    if node._transition_events is not None:
+        event: Any = node._transition_events.msg_type(timestamp=node.get_clock().now().nanoseconds)
+        _describe(event, taken)
+        node._transition_events.publish(event)
+
+
+def _describe(message: Any, transition: Transition) -> Any:
+    message.transition.id, message.transition.label = transition.number, transition.label
+    for state, label in (
+        (message.start_state, transition.start),
+        (message.goal_state, transition.goal),
+    ):
+        state.id, state.label = STATES[label], label
+    return message
+
+
+def _serve(node: Any, callback_group: Any) -> None:
+    """Let others ask for a node's state, and change it."""
+    machine: StateMachine = node._state_machine
+    described = INTERFACES.message("lifecycle_msgs/TransitionDescription")
+    state_kind = INTERFACES.message("lifecycle_msgs/State")
+
+    def change_state(request: Any, response: Any) -> Any:
+        try:
+            said = change(node, request.transition.label or request.transition.id)
+        except RuntimeError as error:
+            node.get_logger().warning(str(error))
+            return response
+        response.success = said is SUCCESS
+        return response
+
+    def get_state(request: Any, response: Any) -> Any:
+        response.current_state.id, response.current_state.label = machine.current_state
+        return response
+
+    def get_states(request: Any, response: Any) -> Any:
+        response.available_states = [state_kind(id=STATES[one], label=one) for one in STATES]
+        return response
+
+    def get_transitions(request: Any, response: Any) -> Any:
+        response.available_transitions = [
+            _describe(described(), one) for one in machine.available_transitions
+        ]
+        return response
+
+    def get_graph(request: Any, response: Any) -> Any:
+        response.available_transitions = [_describe(described(), one) for one in GRAPH]
+        return response
+
+    services = (
+        ("change_state", "ChangeState", change_state),
+        ("get_state", "GetState", get_state),
+        ("get_available_states", "GetAvailableStates", get_states),
+        ("get_available_transitions", "GetAvailableTransitions", get_transitions),
+        ("get_transition_graph", "GetAvailableTransitions", get_graph),
+    )
+    serve_own(
+        node,
+        (
+            (name, INTERFACES.find("lifecycle_msgs", "srv", kind), answer)
+            for name, kind, answer in services
+        ),
+        callback_group,
+    )
+    event = INTERFACES.message("lifecycle_msgs/TransitionEvent")
+    node._transition_events = node.create_publisher(event, "~/transition_event", 1)

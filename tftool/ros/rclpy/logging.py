@@ -1,0 +1,183 @@
+"""rclpy's loggers, speaking into the world's log."""
+
+import inspect
+from enum import IntEnum
+from typing import Any
+
+from tftool.ros.host import program
+from tftool.runtime.log import Level
+from tftool.stamps import Duration, Stamp, seconds
+
+
+class LoggingSeverity(IntEnum):
+    """How much a line matters."""
+
+    UNSET = 0
+    DEBUG = 10
+    INFO = 20
+    WARN = 30
+    ERROR = 40
+    FATAL = 50
+
+
+_LEVELS: dict[int, Level] = {10: "DEBUG", 20: "INFO", 30: "WARN", 40: "ERROR", 50: "FATAL"}
+
+
+class RcutilsLogger:
+    """Speaks under one name."""
+
+    def __init__(self, name: str = "") -> None:
+        self.name = name
+        self._filters: dict[tuple[str, int, int], _Filter] = {}
+
+    def get_child(self, name: str) -> "RcutilsLogger":
+        """A logger named below this one.
+
+        Raises:
+            ValueError: If the name is empty.
+        """
+        if not name:
+            raise ValueError("Child logger name must not be empty.")
+        return RcutilsLogger(f"{self.name}.{name}" if self.name else name)
+
+    def set_level(self, level: int) -> None:
+        """Say nothing that matters less."""
+        program.current().log_levels[self.name] = int(LoggingSeverity(level))
+
+    def get_effective_level(self) -> LoggingSeverity:
+        """From which level on lines are said."""
+        levels = program.current().log_levels
+        name = self.name
+        while name:
+            if levels.get(name):
+                return LoggingSeverity(levels[name])
+            name = name.rpartition(".")[0]
+        return LoggingSeverity(levels.get("") or LoggingSeverity.INFO)
+
+    def is_enabled_for(self, severity: int) -> bool:
+        """Whether a line of that level would be said."""
+        return severity >= self.get_effective_level()
+
+    def log(
+        self,
+        message: object,
+        severity: int,
+        *,
+        once: bool = False,
+        skip_first: bool = False,
+        throttle_duration_sec: float | None = None,
+        throttle_time_source_type: Any = None,
+        name: str = "",
+    ) -> bool:
+        """Say a line; whether it was said.
+
+        `once`, `skip_first` and `throttle_duration_sec` count per call in the code, and hold
+        together: with two of them a line must pass both.
+        """
+        owner = program.running()
+        if owner is None or not self.is_enabled_for(severity):
+            return False
+        if once or skip_first or throttle_duration_sec:
+            place = _caller()
+            if place not in self._filters:
+                wait = 0 if throttle_duration_sec is None else seconds(throttle_duration_sec)
+                self._filters[place] = _Filter(once, skip_first, wait)
+            if not self._filters[place].passes(owner.clock.now()):
+                return False
+        level = _LEVELS[int(severity)]
+        speaker = name or self.name
+        owner.ask(lambda: owner.say(level, speaker, str(message)))
+        return True
+
+    def debug(self, message: object, **kwargs: Any) -> bool:
+        """Say something for whoever looks for a fault."""
+        return self.log(message, LoggingSeverity.DEBUG, **kwargs)
+
+    def info(self, message: object, **kwargs: Any) -> bool:
+        """Say what happens."""
+        return self.log(message, LoggingSeverity.INFO, **kwargs)
+
+    def warning(self, message: object, **kwargs: Any) -> bool:
+        """Say what is odd."""
+        return self.log(message, LoggingSeverity.WARN, **kwargs)
+
+    warn = warning
+
+    def error(self, message: object, **kwargs: Any) -> bool:
+        """Say what went wrong."""
+        return self.log(message, LoggingSeverity.ERROR, **kwargs)
+
+    def fatal(self, message: object, **kwargs: Any) -> bool:
+        """Say what ends everything."""
+        return self.log(message, LoggingSeverity.FATAL, **kwargs)
+
+
+class _Filter:
+    """What one call in the code has let through so far."""
+
+    def __init__(self, once: bool, skip_first: bool, throttle: Duration) -> None:
+        self._left = 1 if once else None
+        self._skip = skip_first
+        self._throttle = throttle
+        self._last: Stamp | None = None
+
+    def passes(self, now: Stamp) -> bool:
+        """Whether a line may be said now; asked in ROS 2's order, so it counts as there."""
+        if self._throttle:
+            if self._last is not None and now < self._last + self._throttle:
+                return False
+            self._last = now
+        if self._skip:
+            self._skip = False
+            return False
+        if self._left is not None:
+            self._left -= 1
+            return self._left >= 0
+        return True
+
+
+def _caller() -> tuple[str, int, int]:
+    frame = inspect.currentframe()
+    while frame is not None and frame.f_code.co_filename == __file__:
+        frame = frame.f_back
+    if frame is None:
+        return "", 0, 0
+    # The last tells two calls on one line apart.
+    return frame.f_code.co_filename, frame.f_lineno, frame.f_lasti
+
+
+_root = RcutilsLogger()
+
+
+def get_logger(name: str) -> RcutilsLogger:
+    """The logger of a name.
+
+    Raises:
+        ValueError: If the name is empty.
+    """
+    if not name:
+        raise ValueError("Logger name must not be empty.")
+    return RcutilsLogger(name)
+
+
+def set_logger_level(name: str, level: int, detailed_error: bool = False) -> None:
+    """Have the logger of a name say nothing that matters less."""
+    program.current().log_levels[name] = int(LoggingSeverity(level))
+
+
+def get_logger_effective_level(name: str) -> LoggingSeverity:
+    """From which level on the logger of a name says lines."""
+    return RcutilsLogger(name).get_effective_level()
+
+
+def get_logging_severity_from_string(level: str) -> LoggingSeverity:
+    """The level of a name."""
+    return LoggingSeverity[level.upper()]
+
+
+def initialize() -> None:
+    """Nothing to do."""
+
+
+def shutdown() -> None:
+    """Nothing to do."""

@@ -1,0 +1,190 @@
+"""message_filters: one topic, or several whose messages belong together by their stamps."""
+
+from collections.abc import Callable, Sequence
+from itertools import product
+from typing import Any
+
+from tftool.ros.rclpy.logging import get_logger
+from tftool.ros.rclpy.time import Duration, ROSClock, Time
+
+
+class SimpleFilter:
+    """Hands messages on to those who registered."""
+
+    def __init__(self) -> None:
+        self.callbacks: dict[int, tuple[Callable[..., Any], tuple[Any, ...]]] = {}
+
+    def registerCallback(self, cb: Callable[..., Any], *args: Any) -> int:  # noqa: N802
+        """Have `cb` called with every message, and with `args` after it."""
+        connection = len(self.callbacks)
+        self.callbacks[connection] = (cb, args)
+        return connection
+
+    def signalMessage(self, *msg: Any) -> None:  # noqa: N802
+        """Hand messages on."""
+        for callback, args in list(self.callbacks.values()):
+            callback(*msg, *args)
+
+
+class Subscriber(SimpleFilter):
+    """A subscription as a filter: `Subscriber(node, type, topic)`, and what subscriptions take."""
+
+    def __init__(self, node: Any, msg_type: Any, topic: str, *args: Any, **kwargs: Any) -> None:
+        super().__init__()
+        if not args:
+            kwargs.setdefault("qos_profile", 10)
+        self.node = node
+        self.topic = topic
+        self.sub = node.create_subscription(msg_type, topic, self.callback, *args, **kwargs)
+
+    def callback(self, msg: Any) -> None:
+        """Hand a message on."""
+        self.signalMessage(msg)
+
+    def getTopic(self) -> str:  # noqa: N802
+        """The topic's name."""
+        return self.topic
+
+    def __getattr__(self, key: str) -> Any:
+        # It can be used like the subscription itself.
+        if key == "sub":
+            raise AttributeError(key)
+        return getattr(self.sub, key)
+
+
+def _stamp(msg: Any, allow_headerless: bool, who: str) -> Time | None:
+    """A message's time, now for one without; None, and a warning, where that is not allowed."""
+    if hasattr(msg, "header") and hasattr(msg.header, "stamp"):
+        return Time.from_msg(msg.header.stamp)
+    if allow_headerless:
+        return ROSClock().now()
+    get_logger(who).warning(
+        f"{type(msg).__name__} has no header with a stamp and is left out; "
+        "allow_headerless=True gives it the time it comes in"
+    )
+    return None
+
+
+class Cache(SimpleFilter):
+    """Keeps the last messages."""
+
+    def __init__(
+        self, f: SimpleFilter, cache_size: int = 1, allow_headerless: bool = False
+    ) -> None:
+        super().__init__()
+        self.cache_size = cache_size
+        self.allow_headerless = allow_headerless
+        self.cache_msgs: list[Any] = []
+        self.cache_times: list[Time] = []
+        self.connectInput(f)
+
+    def connectInput(self, f: SimpleFilter) -> None:  # noqa: N802
+        """Keep a filter's messages."""
+        self.incoming_connection = f.registerCallback(self.add)
+
+    def add(self, msg: Any) -> None:
+        """Keep a message."""
+        stamp = _stamp(msg, self.allow_headerless, "message_filters_cache")
+        if stamp is None:
+            return
+        self.cache_msgs = [*self.cache_msgs, msg][-self.cache_size :]
+        self.cache_times = [*self.cache_times, stamp][-self.cache_size :]
+        self.signalMessage(msg)
+
+    def getInterval(self, from_stamp: Time, to_stamp: Time) -> list[Any]:  # noqa: N802
+        """The messages between two moments."""
+        return self._where(lambda stamp: from_stamp <= stamp <= to_stamp)
+
+    def getElemAfterTime(self, stamp: Time) -> Any:  # noqa: N802
+        """The oldest message at a moment or after it, None without one."""
+        return next(iter(self._where(lambda kept: kept >= stamp)), None)
+
+    def getElemBeforeTime(self, stamp: Time) -> Any:  # noqa: N802
+        """The newest message at a moment or before it, None without one."""
+        return next(reversed(self._where(lambda kept: kept <= stamp)), None)
+
+    def _where(self, fits: Callable[[Time], bool]) -> list[Any]:
+        kept = zip(self.cache_times, self.cache_msgs, strict=True)
+        return [msg for stamp, msg in kept if fits(stamp)]
+
+    def getLastestTime(self) -> Time | None:  # noqa: N802
+        """When the newest message was made; ROS 2 spells it so."""
+        return self.cache_times[-1] if self.cache_times else None
+
+    def getOldestTime(self) -> Time | None:  # noqa: N802
+        """When the oldest message was made."""
+        return self.cache_times[0] if self.cache_times else None
+
+    def getLast(self) -> Any:  # noqa: N802
+        """The newest message, None without one."""
+        return self.cache_msgs[-1] if self.cache_msgs else None
+
+
+class TimeSynchronizer(SimpleFilter):
+    """Hands on sets of messages with equal stamps, one of each filter."""
+
+    def __init__(self, fs: Sequence[SimpleFilter], queue_size: int) -> None:
+        super().__init__()
+        self.queue_size = queue_size
+        self.connectInput(fs)
+
+    def connectInput(self, fs: Sequence[SimpleFilter]) -> None:  # noqa: N802
+        """Wait for the messages of some filters."""
+        self.queues: list[dict[int, Any]] = [{} for _ in fs]
+        self.input_connections = [
+            one.registerCallback(self.add, queue, index)
+            for index, (one, queue) in enumerate(zip(fs, self.queues, strict=True))
+        ]
+
+    def add(self, msg: Any, my_queue: dict[int, Any], my_queue_index: int) -> None:
+        """Take a filter's message in."""
+        self._keep(Time.from_msg(msg.header.stamp).nanoseconds, msg, my_queue)
+        for stamp in sorted(set.intersection(*(set(queue) for queue in self.queues))):
+            self._hand_on([stamp] * len(self.queues))
+
+    def _keep(self, stamp: int, msg: Any, queue: dict[int, Any]) -> None:
+        queue[stamp] = msg
+        while len(queue) > self.queue_size:
+            del queue[min(queue)]
+
+    def _hand_on(self, stamps: Sequence[int]) -> None:
+        chosen = zip(self.queues, stamps, strict=True)
+        self.signalMessage(*[queue.pop(stamp) for queue, stamp in chosen])
+
+
+class ApproximateTimeSynchronizer(TimeSynchronizer):
+    """Hands on sets of messages whose stamps lie less than `slop` seconds apart."""
+
+    def __init__(
+        self,
+        fs: Sequence[SimpleFilter],
+        queue_size: int,
+        slop: float,
+        allow_headerless: bool = False,
+    ) -> None:
+        super().__init__(fs, queue_size)
+        self.slop = Duration(seconds=slop)
+        self.allow_headerless = allow_headerless
+
+    def add(self, msg: Any, my_queue: dict[int, Any], my_queue_index: int) -> None:
+        """Take a filter's message in; what lies nearest to it goes with it."""
+        time = _stamp(msg, self.allow_headerless, "message_filters_approx")
+        if time is None:
+            return
+        stamp, slop = time.nanoseconds, self.slop.nanoseconds
+        self._keep(stamp, msg, my_queue)
+        if stamp not in my_queue:
+            return  # older than all of a full queue
+        near = [
+            [stamp]
+            if queue is my_queue
+            else sorted(
+                (other for other in queue if abs(other - stamp) <= slop),
+                key=lambda other: abs(other - stamp),
+            )
+            for queue in self.queues
+        ]
+        for stamps in product(*near):
+            if max(stamps) - min(stamps) < slop:
+                self._hand_on(stamps)
+                return

@@ -1,0 +1,318 @@
+"""rclpy's Node."""
+
+from collections.abc import Callable, Iterator, Sequence
+from typing import TYPE_CHECKING, Any, TypeVar
+
+from tftool.interfaces.classes import Message
+from tftool.nodes.parameter_services import parameter_services
+from tftool.ros.host import names, program
+from tftool.ros.rclpy import parameter_events
+from tftool.ros.rclpy.context import Context, context_of
+from tftool.ros.rclpy.entities import GuardCondition, NodeEntity
+from tftool.ros.rclpy.exceptions import NotInitializedException
+from tftool.ros.rclpy.groups import CallbackGroup, MutuallyExclusiveCallbackGroup
+from tftool.ros.rclpy.logging import LoggingSeverity, RcutilsLogger
+from tftool.ros.rclpy.node_graph import NodeGraph
+from tftool.ros.rclpy.node_parameters import NodeParameters
+from tftool.ros.rclpy.parameter_service import ServedParameters
+from tftool.ros.rclpy.qos import QoSProfile, profile_of
+from tftool.ros.rclpy.seat import NodeSeat
+from tftool.ros.rclpy.services import Client, Service, serve_own
+from tftool.ros.rclpy.time import Clock, Rate, ROSClock
+from tftool.ros.rclpy.timers import Timer, period_of
+from tftool.ros.rclpy.topics import Publisher, Subscription
+from tftool.ros.rclpy.validation import validate_namespace, validate_node_name
+
+E = TypeVar("E", bound=NodeEntity)
+
+
+class Node(NodeGraph, NodeParameters):
+    """A node as rclpy knows it; see rclpy's own documentation for each method."""
+
+    def __init__(
+        self,
+        node_name: str,
+        *,
+        context: Context | None = None,
+        cli_args: Sequence[str] | None = None,
+        namespace: str | None = None,
+        use_global_arguments: bool = True,
+        enable_rosout: bool = True,
+        rosout_qos_profile: Any = None,
+        start_parameter_services: bool = True,
+        parameter_overrides: Sequence[Any] | None = None,
+        allow_undeclared_parameters: bool = False,
+        automatically_declare_parameters_from_overrides: bool = False,
+        enable_logger_service: bool = False,
+    ) -> None:
+        owner = program.current()
+        self._context = context or context_of(owner)
+        if not self._context.ok():
+            raise NotInitializedException
+        options = self._context.options if use_global_arguments else names.RosOptions()
+        if cli_args:
+            options = _with_arguments(options, cli_args)
+        name = options.name or node_name
+        validate_node_name(name)
+        given = namespace if options.namespace is None else options.namespace
+        place = (given or "").strip("/")
+        validate_namespace(f"/{place}")
+        self._default_callback_group = MutuallyExclusiveCallbackGroup()
+        self._clock = ROSClock()
+        self._logger = RcutilsLogger(names.join(place, name).replace("/", "."))
+        for logger, level in options.levels.items():
+            owner.log_levels[logger] = int(LoggingSeverity[level])
+        self._tftool = NodeSeat(owner, name, place, options, self._context, self)
+        self._start_parameters(
+            options.parameters_for(name, place),
+            parameter_overrides or (),
+            allow_undeclared_parameters,
+            automatically_declare_parameters_from_overrides,
+            parameter_events.teller(self._tftool),
+        )
+        if start_parameter_services:
+            serve_own(self, parameter_services(ServedParameters(self)))
+
+    if not TYPE_CHECKING:  # to a type checker, every name would be one
+
+        def __getattr__(self, name: str) -> Any:
+            sentence = f"'{type(self).__name__}' object has no attribute '{name}'"
+            if "_tftool" not in self.__dict__:
+                sentence += ": super().__init__('its_name') comes before everything else of a node"
+            raise AttributeError(sentence)
+
+    # Who it is
+
+    def get_name(self) -> str:
+        """Its name."""
+        return self._tftool.name
+
+    def get_namespace(self) -> str:
+        """Its namespace, with a leading slash."""
+        return f"/{self._tftool.namespace}"
+
+    def get_fully_qualified_name(self) -> str:
+        """Namespace and name."""
+        return f"/{names.join(self._tftool.namespace, self._tftool.name)}"
+
+    def get_logger(self) -> RcutilsLogger:
+        """Its logger."""
+        return self._logger
+
+    def get_clock(self) -> Clock:
+        """Its clock."""
+        return self._clock
+
+    @property
+    def context(self) -> Context:
+        """The context it lives by."""
+        return self._context
+
+    @property
+    def executor(self) -> Any:
+        """Who serves it, None while nobody does."""
+        return self._tftool.executor
+
+    @executor.setter
+    def executor(self, executor: Any) -> None:
+        before = self._tftool.executor
+        if before is executor:
+            return
+        if before is not None:
+            before.remove_node(self)
+        if executor is not None:
+            executor.add_node(self)
+
+    @property
+    def default_callback_group(self) -> CallbackGroup:
+        """The group of callbacks that name none."""
+        return self._default_callback_group
+
+    @property
+    def handle(self) -> "Node":
+        """Itself."""
+        return self
+
+    def __enter__(self) -> "Node":
+        return self
+
+    def __exit__(self, *args: object) -> None:
+        self.destroy_node()
+
+    def resolve_topic_name(self, topic: str, *, only_expand: bool = False) -> str:
+        """A topic's full name, after remapping."""
+        return f"/{self._tftool.full(topic, remap=not only_expand)}"
+
+    def resolve_service_name(self, service: str, *, only_expand: bool = False) -> str:
+        """A service's full name, after remapping."""
+        return f"/{self._tftool.full(service, remap=not only_expand, is_service=True)}"
+
+    # What it has
+
+    def create_publisher(
+        self,
+        msg_type: Any,
+        topic: str,
+        qos_profile: QoSProfile | int,
+        *,
+        callback_group: CallbackGroup | None = None,
+        event_callbacks: Any = None,
+        qos_overriding_options: Any = None,
+        publisher_class: Any = None,
+    ) -> Publisher:
+        """Something to send messages with."""
+        _require_message(msg_type)
+        profile, full = profile_of(qos_profile), self._tftool.full(topic)
+        make = publisher_class or Publisher
+        return self.__keep(lambda: make(self._tftool, msg_type, topic, full, profile))
+
+    def create_subscription(
+        self,
+        msg_type: Any,
+        topic: str,
+        callback: Callable[[Any], Any],
+        qos_profile: QoSProfile | int,
+        *,
+        callback_group: CallbackGroup | None = None,
+        event_callbacks: Any = None,
+        qos_overriding_options: Any = None,
+        raw: bool = False,
+        content_filter_options: Any = None,
+    ) -> Subscription:
+        """Have `callback` called with every message of a topic."""
+        _require_message(msg_type)
+        _require_callable(callback)
+        profile, full = profile_of(qos_profile), self._tftool.full(topic)
+        group = callback_group or self._default_callback_group
+        return self.__keep(
+            lambda: Subscription(self._tftool, msg_type, topic, full, callback, profile, group, raw)
+        )
+
+    def create_timer(
+        self,
+        timer_period_sec: Any,
+        callback: Callable[..., Any] | None,
+        callback_group: CallbackGroup | None = None,
+        clock: Clock | None = None,
+        autostart: bool = True,
+    ) -> Timer:
+        """Have `callback` called on a grid, first one period from now; None makes a mere timer."""
+        if callback is not None:
+            _require_callable(callback)
+        period = period_of(timer_period_sec)
+        if period < 0:
+            raise ValueError("timer period must not be negative")
+        group = callback_group or self._default_callback_group
+        goes_by = clock or self._clock
+        return self.__keep(lambda: Timer(self._tftool, callback, period, group, goes_by, autostart))
+
+    def create_client(
+        self,
+        srv_type: Any,
+        srv_name: str,
+        *,
+        qos_profile: Any = None,
+        callback_group: CallbackGroup | None = None,
+    ) -> Client:
+        """Something to ask a service with."""
+        _require_service(srv_type)
+        full = self._tftool.full(srv_name, is_service=True)
+        group = callback_group or self._default_callback_group
+        return self.__keep(lambda: Client(self._tftool, srv_type, srv_name, full, group))
+
+    def create_service(
+        self,
+        srv_type: Any,
+        srv_name: str,
+        callback: Callable[[Any, Any], Any],
+        *,
+        qos_profile: Any = None,
+        callback_group: CallbackGroup | None = None,
+    ) -> Service:
+        """Answer a service by `callback(request, response)`."""
+        _require_service(srv_type)
+        _require_callable(callback)
+        full = self._tftool.full(srv_name, is_service=True)
+        group = callback_group or self._default_callback_group
+        return self.__keep(lambda: Service(self._tftool, srv_type, srv_name, full, callback, group))
+
+    def create_guard_condition(
+        self, callback: Callable[[], Any], callback_group: CallbackGroup | None = None
+    ) -> GuardCondition:
+        """Something that calls back when triggered."""
+        group = callback_group or self._default_callback_group
+        return self.__keep(lambda: GuardCondition(self._tftool, callback, group))
+
+    def create_rate(self, frequency: float, clock: Clock | None = None) -> Rate:
+        """Something to pace a loop with."""
+        return Rate(frequency, self._tftool.program, lambda rate: None)
+
+    def __keep(self, make: Callable[[], E]) -> E:
+        kept: E = self._tftool.keep(make)
+        return kept
+
+    def __destroy(self, entity: Any) -> bool:
+        return self._tftool.forget(entity)
+
+    destroy_publisher = destroy_subscription = destroy_timer = __destroy
+    destroy_client = destroy_service = destroy_guard_condition = destroy_rate = __destroy
+
+    def destroy_node(self) -> None:
+        """Withdraw everything."""
+        self._tftool.leave()
+
+    @property
+    def publishers(self) -> Iterator[Publisher]:
+        """Its publishers."""
+        yield from self.__all(Publisher)
+
+    @property
+    def subscriptions(self) -> Iterator[Subscription]:
+        """Its subscriptions."""
+        yield from self.__all(Subscription)
+
+    @property
+    def clients(self) -> Iterator[Client]:
+        """Its clients."""
+        yield from self.__all(Client)
+
+    @property
+    def services(self) -> Iterator[Service]:
+        """Its services."""
+        yield from self.__all(Service)
+
+    @property
+    def timers(self) -> Iterator[Timer]:
+        """Its timers."""
+        yield from self.__all(Timer)
+
+    @property
+    def guards(self) -> Iterator[GuardCondition]:
+        """Its guard conditions."""
+        yield from self.__all(GuardCondition)
+
+    def __all(self, kind: type[E]) -> list[E]:
+        return [one for one in self._tftool.entities if isinstance(one, kind)]
+
+
+def _with_arguments(options: names.RosOptions, cli_args: Sequence[str]) -> names.RosOptions:
+    words = cli_args if "--ros-args" in cli_args else ["--ros-args", *cli_args]
+    own, _ = names.parse(words)
+    own.remaps += options.remaps
+    own.parameters = options.parameters + own.parameters
+    return own
+
+
+def _require_callable(callback: object) -> None:
+    if not callable(callback):
+        raise TypeError(f"a callback must be callable, not {type(callback).__name__}")
+
+
+def _require_message(kind: object) -> None:
+    if not (isinstance(kind, type) and issubclass(kind, Message)):
+        raise TypeError(f"expected a message class such as std_msgs.msg.String, got {kind!r}")
+
+
+def _require_service(kind: Any) -> None:
+    if not (hasattr(kind, "Request") and hasattr(kind, "Response")):
+        raise TypeError(f"expected a service class such as std_srvs.srv.Empty, got {kind!r}")

@@ -1,0 +1,201 @@
+"""What a node can ask about the others."""
+
+from collections.abc import Callable, Iterable, Iterator
+from typing import TypeVar
+
+from tftool.link import types
+from tftool.ros.host import values
+from tftool.ros.host.program import Program
+from tftool.ros.rclpy.endpoints import TopicEndpointInfo, endpoint_info
+from tftool.ros.rclpy.seat import NodeSeat
+from tftool.ros.rclpy.services import Client
+from tftool.runtime.endpoints import PUBLISHER, SUBSCRIPTION, Role
+
+T = TypeVar("T")
+
+NamesAndTypes = list[tuple[str, list[str]]]
+"""Full names with their leading slash, and the interfaces in use under each."""
+
+
+class NodeNameNonExistentError(Exception):
+    """Something is asked about a node that is not there."""
+
+
+class NodeGraph:
+    """What a node has to do with the graph."""
+
+    _tftool: NodeSeat
+
+    def __look(self, ask: Callable[[], T]) -> T:
+        found: T = self._tftool.program.ask(ask)
+        return found
+
+    # Nodes
+
+    def wait_for_node(self, fully_qualified_node_name: str, timeout: float) -> bool:
+        """Block until a node is there."""
+        wanted = fully_qualified_node_name.strip("/")
+        return self._tftool.wait_until(lambda: wanted in self.__nodes(), timeout)
+
+    def get_node_names(self) -> list[str]:
+        """The names of all nodes."""
+        return [name for name, _ in self.get_node_names_and_namespaces()]
+
+    def get_node_names_and_namespaces(self) -> list[tuple[str, str]]:
+        """The names of all nodes, each with its namespace."""
+        parted = (full.rpartition("/") for full in self.__look(self.__nodes))
+        return [(name, f"/{namespace}") for namespace, _, name in parted]
+
+    def get_node_names_and_namespaces_with_enclaves(self) -> list[tuple[str, str, str]]:
+        """The same, with the enclave: there is only one."""
+        return [(*one, "/") for one in self.get_node_names_and_namespaces()]
+
+    def __nodes(self) -> list[str]:
+        world = self._tftool.world
+        return [*(one.name for one in world.nodes if one.is_shown), *world.far_nodes]
+
+    # Topics
+
+    def get_topic_names_and_types(self, no_demangle: bool = False) -> NamesAndTypes:
+        """Every topic, and what is exchanged on it."""
+        return self.__look(self.__topics)
+
+    def __topics(self) -> NamesAndTypes:
+        world = self._tftool.world
+        found = {
+            name: {kind}
+            for name, topic in world.topics().items()
+            # What has no type stays among nodes of tftool's own: the keys that are pressed, say.
+            if (kind := types.topic_name(topic.kind))
+        }
+        for name in world.endpoints.topics():
+            ends = [
+                *world.endpoints.of(name, PUBLISHER),
+                *world.endpoints.of(name, SUBSCRIPTION),
+            ]
+            found[name] = {end.interface for end in ends}
+        return _listed((name, kind) for name, kinds in found.items() for kind in kinds)
+
+    def count_publishers(self, topic_name: str) -> int:
+        """How many publish a topic."""
+        full = self._tftool.full(topic_name)
+        endpoints = self._tftool.world.endpoints
+        return self.__look(lambda: len(endpoints.of(full, PUBLISHER)))
+
+    def count_subscribers(self, topic_name: str) -> int:
+        """How many listen to a topic."""
+        full = self._tftool.full(topic_name)
+
+        def count() -> int:
+            topic = self._tftool.world.topics().get(full)
+            return 0 if topic is None else topic.subscribers
+
+        return self.__look(count)
+
+    def get_publishers_info_by_topic(
+        self, topic_name: str, no_mangle: bool = False
+    ) -> list[TopicEndpointInfo]:
+        """Which ROS nodes publish a topic, and how."""
+        return self.__ends(topic_name, PUBLISHER)
+
+    def get_subscriptions_info_by_topic(
+        self, topic_name: str, no_mangle: bool = False
+    ) -> list[TopicEndpointInfo]:
+        """Which ROS nodes listen to a topic, and how."""
+        return self.__ends(topic_name, SUBSCRIPTION)
+
+    def __ends(self, topic_name: str, role: Role) -> list[TopicEndpointInfo]:
+        full = self._tftool.full(topic_name)
+        endpoints = self._tftool.world.endpoints
+        return self.__look(lambda: [endpoint_info(end) for end in endpoints.of(full, role)])
+
+    # Services
+
+    def get_service_names_and_types(self) -> NamesAndTypes:
+        """Every service, and its type where that is known."""
+        return self.__look(lambda: _listed(self.__served(lambda node: True)))
+
+    def __served(self, by: Callable[[str], bool]) -> Iterator[tuple[str, str]]:
+        for name, offer in self._tftool.world.services().items():
+            if by(offer.node):
+                yield name, values.type_of(offer.kind)
+
+    def count_services(self, service_name: str) -> int:
+        """How many serve a service: one or none."""
+        full = self._tftool.full(service_name, is_service=True)
+        return int(self.__look(lambda: self._tftool.world.has_service(full)))
+
+    def count_clients(self, service_name: str) -> int:
+        """How many ROS nodes of this process have a client of a service."""
+        full = self._tftool.full(service_name, is_service=True)
+        return self.__look(
+            lambda: sum(client.full == full for client in self.__clients(lambda node: True))
+        )
+
+    def __clients(self, of: Callable[[str], bool]) -> Iterator[Client]:
+        for program in self._tftool.world.nodes:
+            for seat in program.nodes if isinstance(program, Program) else ():
+                if of(seat.authority):
+                    yield from (one for one in seat.entities if isinstance(one, Client))
+
+    # One node's
+
+    def get_publisher_names_and_types_by_node(
+        self, node_name: str, node_namespace: str, no_demangle: bool = False
+    ) -> NamesAndTypes:
+        """What a ROS node publishes."""
+        return self.__of(node_name, node_namespace, lambda full: self.__held(full, PUBLISHER))
+
+    def get_subscriber_names_and_types_by_node(
+        self, node_name: str, node_namespace: str, no_demangle: bool = False
+    ) -> NamesAndTypes:
+        """What a ROS node listens to."""
+        return self.__of(node_name, node_namespace, lambda full: self.__held(full, SUBSCRIPTION))
+
+    def get_service_names_and_types_by_node(
+        self, node_name: str, node_namespace: str
+    ) -> NamesAndTypes:
+        """What a node serves."""
+        return self.__of(
+            node_name, node_namespace, lambda full: self.__served(lambda node: node == full)
+        )
+
+    def get_client_names_and_types_by_node(
+        self, node_name: str, node_namespace: str
+    ) -> NamesAndTypes:
+        """What a ROS node of this process asks others."""
+
+        def asked(full: str) -> Iterator[tuple[str, str]]:
+            return (
+                (one.full, one.srv_type.interface__)
+                for one in self.__clients(lambda node: node == full)
+            )
+
+        return self.__of(node_name, node_namespace, asked)
+
+    def __held(self, node: str, role: Role) -> Iterator[tuple[str, str]]:
+        endpoints = self._tftool.world.endpoints
+        for topic in endpoints.topics():
+            for end in endpoints.of(topic, role):
+                if end.node == node:
+                    yield topic, end.interface
+
+    def __of(
+        self, name: str, namespace: str, find: Callable[[str], Iterable[tuple[str, str]]]
+    ) -> NamesAndTypes:
+        full = f"{namespace.strip('/')}/{name}".strip("/")
+
+        def found() -> NamesAndTypes:
+            if full not in self.__nodes():
+                raise NodeNameNonExistentError(f"there is no node '/{full}'")
+            return _listed(find(full))
+
+        return self.__look(found)
+
+
+def _listed(pairs: Iterable[tuple[str, str]]) -> NamesAndTypes:
+    """Names and their types, in order; a type nobody knows is left out."""
+    found: dict[str, set[str]] = {}
+    for name, kind in pairs:
+        found.setdefault(f"/{name}", set()).update([kind] if kind else [])
+    return [(name, sorted(found[name])) for name in sorted(found)]

@@ -1,0 +1,367 @@
+"""The parameters of a node: declaring, reading and setting."""
+
+import math
+from collections.abc import Callable, Iterable, Mapping, Sequence
+from difflib import get_close_matches
+from typing import Any
+
+from tftool.interfaces.classes import INTERFACES
+from tftool.interfaces.parameters import list_result
+from tftool.ros.rclpy.exceptions import (
+    InvalidParameterTypeException,
+    InvalidParameterValueException,
+    ParameterAlreadyDeclaredException,
+    ParameterImmutableException,
+    ParameterNotDeclaredException,
+    ParameterUninitializedException,
+)
+from tftool.ros.rclpy.parameters import Parameter
+from tftool.ros.rclpy.parameters import ParameterType as Type
+
+Setter = Callable[[list[Parameter]], Any]
+
+
+class NodeParameters:
+    """What a node has to do with parameters."""
+
+    def _start_parameters(
+        self,
+        given: Mapping[str, Any],
+        overrides: Iterable[Parameter],
+        undeclared: bool,
+        automatic: bool,
+        tell: Callable[..., None],
+    ) -> None:
+        self._tell_of_parameters = tell
+        self._parameters: dict[str, Parameter] = {}
+        self._descriptors: dict[str, Any] = {}
+        self._parameter_overrides: dict[str, Any] = {one.name: one.value for one in overrides}
+        self._parameter_overrides.update(given)
+        self._unused_parameters = dict(given)
+        self._allow_undeclared_parameters = undeclared
+        self._pre_set_parameters_callbacks: list[Callable[..., Any]] = []
+        self._on_set_parameters_callbacks: list[Setter] = []
+        self._post_set_parameters_callbacks: list[Callable[..., Any]] = []
+        self.__declare_one("use_sim_time", False, None, False)
+        if automatic:
+            for name, value in self._parameter_overrides.items():
+                if name not in self._parameters:
+                    self.__declare_one(name, value, None, False)
+
+    # Declaring
+
+    def declare_parameter(
+        self,
+        name: str,
+        value: Any = None,
+        descriptor: Any = None,
+        ignore_override: bool = False,
+    ) -> Parameter:
+        """Make a parameter known; what the command line or the launch file says wins.
+
+        `value` is a default, or a `Parameter.Type` when there is none.
+
+        Raises:
+            ParameterAlreadyDeclaredException: If it is known.
+            InvalidParameterTypeException: If what was given is of another type.
+        """
+        return self.__declare_one(name, value, descriptor, ignore_override)
+
+    def declare_parameters(
+        self,
+        namespace: str,
+        parameters: Sequence[tuple[Any, ...]],
+        ignore_override: bool = False,
+    ) -> list[Parameter]:
+        """Make several known: tuples of name, value and descriptor."""
+        prefix = f"{namespace}." if namespace else ""
+        return [
+            self.__declare_one(
+                prefix + one[0],
+                one[1] if len(one) > 1 else None,
+                one[2] if len(one) > 2 else None,
+                ignore_override,
+            )
+            for one in parameters
+        ]
+
+    def __declare_one(
+        self, name: str, value: Any, descriptor: Any, ignore_override: bool
+    ) -> Parameter:
+        if not isinstance(name, str) or not name:
+            raise TypeError("a parameter's name must be a non-empty string")
+        if name in self._parameters:
+            raise ParameterAlreadyDeclaredException(name)
+        if descriptor is None:
+            descriptor = INTERFACES.message("rcl_interfaces/ParameterDescriptor")()
+        if isinstance(value, Type):
+            kind, value = value, None
+        elif isinstance(value, Parameter):
+            kind, value = value.type_, value.value
+        else:
+            kind = Type.from_parameter_value(value)
+        self._unused_parameters.pop(name, None)
+        if not ignore_override and name in self._parameter_overrides:
+            value = self._parameter_overrides[name]
+            dynamic = descriptor.dynamic_typing or kind is Type.NOT_SET
+            if not dynamic and not kind.check(value):
+                raise InvalidParameterTypeException(
+                    f"Trying to set parameter '{name}' to '{value}' of type "
+                    f"'{_word(value)}', expecting type '{kind.name}'{_hint(kind, value)}",
+                    name,
+                )
+        descriptor.name = name
+        descriptor.type = int(kind)
+        parameter = Parameter(name, None if value is not None else Type.NOT_SET, value)
+        if value is not None and kind.check(value):
+            parameter = Parameter(name, kind, value)
+        self._descriptors[name] = descriptor
+        reason = self.__range_fault(parameter)
+        if not reason:
+            result = self.__ask_callbacks([parameter])
+            reason = "" if result.successful else result.reason or "refused by a callback"
+        if reason:
+            del self._descriptors[name]
+            raise InvalidParameterValueException(name, value, reason)
+        self._parameters[name] = parameter
+        self._tell_of_parameters(new=[parameter])
+        return parameter
+
+    def undeclare_parameter(self, name: str) -> None:
+        """Forget a parameter."""
+        self.__known(name)
+        if self._descriptors[name].read_only:
+            raise ParameterImmutableException(name)
+        self._tell_of_parameters(deleted=[self._parameters[name]])
+        del self._parameters[name], self._descriptors[name]
+
+    # Reading
+
+    def has_parameter(self, name: str) -> bool:
+        """Whether it is declared."""
+        return name in self._parameters
+
+    def get_parameter(self, name: str) -> Parameter:
+        """A declared parameter.
+
+        Raises:
+            ParameterNotDeclaredException: If it is not declared; the nearest name is told.
+        """
+        if name not in self._parameters and self._allow_undeclared_parameters:
+            return Parameter(name, Type.NOT_SET, None)
+        self.__known(name)
+        parameter = self._parameters[name]
+        if parameter.type_ is Type.NOT_SET and self._descriptors[name].type:
+            raise ParameterUninitializedException(name)
+        return parameter
+
+    def get_parameters(self, names: Iterable[str]) -> list[Parameter]:
+        """Several declared parameters."""
+        return [self.get_parameter(name) for name in names]
+
+    def get_parameter_or(self, name: str, alternative_value: Parameter | None = None) -> Parameter:
+        """A parameter, or something else if it is not declared."""
+        if name in self._parameters:
+            return self._parameters[name]
+        return alternative_value or Parameter(name, Type.NOT_SET, None)
+
+    def get_parameters_by_prefix(self, prefix: str) -> dict[str, Parameter]:
+        """Declared parameters below a prefix, by the rest of their names."""
+        start = f"{prefix}." if prefix else ""
+        return {
+            name.removeprefix(start): parameter
+            for name, parameter in self._parameters.items()
+            if name.startswith(start)
+        }
+
+    def get_parameter_types(self, names: Iterable[str]) -> list[Type]:
+        """The types of declared parameters."""
+        return [self.get_parameter(name).type_ for name in names]
+
+    def describe_parameter(self, name: str) -> Any:
+        """A declared parameter's descriptor; an empty one where undeclared ones are allowed."""
+        if name not in self._parameters and self._allow_undeclared_parameters:
+            return INTERFACES.message("rcl_interfaces/ParameterDescriptor")()
+        self.__known(name)
+        return self._descriptors[name]
+
+    def describe_parameters(self, names: Iterable[str]) -> list[Any]:
+        """Several descriptors."""
+        return [self.describe_parameter(name) for name in names]
+
+    def list_parameters(self, prefixes: Sequence[str], depth: int = 0) -> Any:
+        """The names below some prefixes, all without one.
+
+        `depth` is how many levels below the prefix to list, 0 for all.
+        """
+        return list_result(self._parameters, prefixes, depth)
+
+    def __known(self, name: str) -> None:
+        if name not in self._parameters:
+            raise ParameterNotDeclaredException(name, self._parameters)
+
+    # Setting
+
+    def set_parameters(self, parameter_list: Sequence[Parameter]) -> list[Any]:
+        """Change parameters one by one; for each, whether it was accepted.
+
+        Raises:
+            ParameterNotDeclaredException: If one is not declared.
+        """
+        for one in parameter_list:
+            if not self._allow_undeclared_parameters:
+                self.__known(one.name)
+        return [self.set_parameters_atomically([one]) for one in parameter_list]
+
+    def set_parameters_atomically(self, parameter_list: Sequence[Parameter]) -> Any:
+        """Change parameters together; all or none."""
+        for one in parameter_list:
+            if not self._allow_undeclared_parameters:
+                self.__known(one.name)
+        changes = list(parameter_list)
+        for before in self._pre_set_parameters_callbacks:
+            changes = before(changes)
+        for one in changes:
+            reason = self.__fault(one)
+            if reason:
+                return set_result(False, reason)
+        result = self.__ask_callbacks(changes)
+        if result.successful:
+            new = [one for one in changes if one.name not in self._parameters]
+            deleted = [one for one in changes if one.type_ is Type.NOT_SET]
+            for one in changes:
+                if one.type_ is Type.NOT_SET:
+                    # As in ROS, setting a parameter to nothing undeclares it.
+                    self._parameters.pop(one.name, None)
+                    self._descriptors.pop(one.name, None)
+                    continue
+                self._parameters[one.name] = one
+                if one.name not in self._descriptors:
+                    self._descriptors[one.name] = INTERFACES.message(
+                        "rcl_interfaces/ParameterDescriptor"
+                    )(name=one.name, type=int(one.type_), dynamic_typing=True)
+            new = [one for one in new if one not in deleted]
+            changed = [one for one in changes if one not in new and one not in deleted]
+            self._tell_of_parameters(new=new, changed=changed, deleted=deleted)
+            for after in self._post_set_parameters_callbacks:
+                after(changes)
+        return result
+
+    def set_descriptor(self, name: str, descriptor: Any, alternative_value: Any = None) -> Any:
+        """Describe a declared parameter anew."""
+        self.__known(name)
+        descriptor.name = name
+        self._descriptors[name] = descriptor
+        return self._parameters[name].get_parameter_value()
+
+    def __fault(self, parameter: Parameter) -> str:
+        name = parameter.name
+        descriptor = self._descriptors.get(name)
+        if descriptor is None:
+            return ""
+        if descriptor.read_only:
+            return f"Trying to set a read-only parameter: {name}."
+        wanted = Type(descriptor.type)
+        if not descriptor.dynamic_typing and wanted is not Type.NOT_SET:
+            if parameter.type_ is Type.NOT_SET:
+                return f"Parameter '{name}' cannot be undeclared by setting it to nothing"
+            if parameter.type_ is not wanted:
+                return (
+                    f"Wrong parameter type, parameter {{{name}}} is of type {{{wanted.name}}}, "
+                    f"setting it to {{{parameter.type_.name}}} is not allowed"
+                    f"{_hint(wanted, parameter.value)}"
+                )
+        return self.__range_fault(parameter)
+
+    def __range_fault(self, parameter: Parameter) -> str:
+        descriptor, value = self._descriptors[parameter.name], parameter.value
+        if parameter.type_ is Type.INTEGER:
+            ranges = descriptor.integer_range
+        elif parameter.type_ is Type.DOUBLE:
+            ranges = descriptor.floating_point_range
+        else:
+            return ""
+        for one in ranges:
+            if not one.from_value <= value <= one.to_value:
+                return (
+                    f"Parameter {parameter.name} out of range. Min: {one.from_value}, "
+                    f"Max: {one.to_value}, value: {value}"
+                )
+            if not _is_on_step(value, one):
+                return (
+                    f"The parameter value for {parameter.name} is not a valid step. "
+                    f"Min: {one.from_value}, max: {one.to_value}, value: {value}, step: {one.step}"
+                )
+        return ""
+
+    def __ask_callbacks(self, changes: list[Parameter]) -> Any:
+        for callback in reversed(self._on_set_parameters_callbacks):
+            result = callback(changes)
+            if not result.successful:
+                return result
+        return set_result(True, "")
+
+    def add_on_set_parameters_callback(self, callback: Setter) -> None:
+        """Have `callback` judge every change; the one added last is asked first."""
+        self._on_set_parameters_callbacks.append(callback)
+
+    def remove_on_set_parameters_callback(self, callback: Setter) -> None:
+        """Ask `callback` no more."""
+        self._on_set_parameters_callbacks.remove(callback)
+
+    def remove_pre_set_parameters_callback(self, callback: Callable[..., Any]) -> None:
+        """Have `callback` rewrite changes no more."""
+        self._pre_set_parameters_callbacks.remove(callback)
+
+    def remove_post_set_parameters_callback(self, callback: Callable[..., Any]) -> None:
+        """Tell `callback` of changes no more."""
+        self._post_set_parameters_callbacks.remove(callback)
+
+    def add_pre_set_parameters_callback(self, callback: Callable[..., Any]) -> None:
+        """Have `callback` rewrite every list of changes."""
+        self._pre_set_parameters_callbacks.append(callback)
+
+    def add_post_set_parameters_callback(self, callback: Callable[..., Any]) -> None:
+        """Have `callback` told of every change."""
+        self._post_set_parameters_callbacks.append(callback)
+
+
+def _is_on_step(value: float, limits: Any) -> bool:
+    """Whether a value is an end of a range, or a whole number of steps above its beginning."""
+    if not limits.step or value == limits.to_value:
+        return True
+    if isinstance(value, int):
+        return bool((value - limits.from_value) % limits.step == 0)
+    steps = (value - limits.from_value) / limits.step
+    return math.isclose(steps, round(steps), rel_tol=1e-9, abs_tol=1e-9)
+
+
+def unused_parameters(node: NodeParameters) -> list[str]:
+    """A sentence for each parameter that was given and never declared."""
+    return [
+        f"parameter '{name}' was given, but the node declares none of that name"
+        + (f"; did you mean '{near[0]}'?" if near else "")
+        for name in node._unused_parameters
+        for near in [get_close_matches(name, node._parameters, n=1)]
+    ]
+
+
+def set_result(successful: bool, reason: str) -> Any:
+    """What setting parameters answers."""
+    kind = INTERFACES.message("rcl_interfaces/SetParametersResult")
+    return kind(successful=successful, reason=reason)
+
+
+def _word(value: Any) -> str:
+    try:
+        return Type.from_parameter_value(value).name
+    except TypeError:
+        return type(value).__name__
+
+
+def _hint(wanted: Type, value: Any) -> str:
+    if wanted is Type.DOUBLE and type(value) is int:
+        return f": write {value}.0"
+    if wanted is Type.STRING and isinstance(value, bool | int | float):
+        return f": write '\"{value}\"' to pass a text"
+    return ""

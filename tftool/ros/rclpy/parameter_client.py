@@ -1,0 +1,129 @@
+"""rclpy's client for another node's parameters."""
+
+from collections.abc import Callable, Sequence
+from typing import Any
+
+from tftool.interfaces.classes import INTERFACES
+from tftool.ros.rclpy.futures import Future
+from tftool.ros.rclpy.parameters import Parameter, parameter_dict_from_yaml_file
+from tftool.ros.rclpy.qos import (
+    QoSProfile,
+    qos_profile_parameter_events,
+    qos_profile_services_default,
+)
+from tftool.ros.rclpy.seat import seat_of
+
+Callback = Callable[[Future], object]
+
+
+class AsyncParameterClient:
+    """Gets, sets, lists and describes the parameters of another node by its services."""
+
+    def __init__(
+        self,
+        node: Any,
+        remote_node_name: str,
+        qos_profile: QoSProfile = qos_profile_services_default,
+        callback_group: Any = None,
+    ) -> None:
+        self.node = node
+        self.remote_node_name = remote_node_name
+        self._clients = {
+            kind: node.create_client(
+                INTERFACES.find("rcl_interfaces", "srv", kind),
+                f"{remote_node_name}/{name}",
+                qos_profile=qos_profile,
+                callback_group=callback_group,
+            )
+            for name, kind in (
+                ("get_parameters", "GetParameters"),
+                ("list_parameters", "ListParameters"),
+                ("set_parameters", "SetParameters"),
+                ("get_parameter_types", "GetParameterTypes"),
+                ("describe_parameters", "DescribeParameters"),
+                ("set_parameters_atomically", "SetParametersAtomically"),
+            )
+        }
+
+    def services_are_ready(self) -> bool:
+        """Whether the node is there and answers."""
+        return all(client.service_is_ready() for client in self._clients.values())
+
+    def wait_for_services(self, timeout_sec: float | None = None) -> bool:
+        """Block until the node is there and answers; whether it does."""
+        seat = seat_of(self.node)
+        # Waited for together: one after the other, each would have the whole time for itself.
+        names = [client.full for client in self._clients.values()]
+        return seat.wait_until(lambda: all(map(seat.world.has_service, names)), timeout_sec)
+
+    def _ask(self, kind: str, callback: Callback | None, **fields: Any) -> Future:
+        client = self._clients[kind]
+        future: Future = client.call_async(client.srv_type.Request(**fields))
+        if callback is not None:
+            future.add_done_callback(callback)
+        return future
+
+    def list_parameters(
+        self,
+        prefixes: list[str] | None = None,
+        depth: int | None = None,
+        callback: Callback | None = None,
+    ) -> Future:
+        """The names below some prefixes, all without one."""
+        return self._ask("ListParameters", callback, prefixes=prefixes or [], depth=depth or 0)
+
+    def get_parameters(self, names: list[str], callback: Callback | None = None) -> Future:
+        """The values of some parameters."""
+        return self._ask("GetParameters", callback, names=names)
+
+    def get_parameter_types(self, names: list[str], callback: Callback | None = None) -> Future:
+        """The types of some parameters."""
+        return self._ask("GetParameterTypes", callback, names=names)
+
+    def describe_parameters(self, names: list[str], callback: Callback | None = None) -> Future:
+        """The descriptors of some parameters."""
+        return self._ask("DescribeParameters", callback, names=names)
+
+    def set_parameters(self, parameters: Sequence[Any], callback: Callback | None = None) -> Future:
+        """Change parameters, given as Parameters or as their messages, one by one."""
+        return self._ask("SetParameters", callback, parameters=_messages(parameters))
+
+    def set_parameters_atomically(
+        self, parameters: Sequence[Any], callback: Callback | None = None
+    ) -> Future:
+        """Change parameters together; all or none."""
+        return self._ask("SetParametersAtomically", callback, parameters=_messages(parameters))
+
+    def delete_parameters(self, names: list[str], callback: Callback | None = None) -> Future:
+        """Unset parameters that are dynamically typed."""
+        return self.set_parameters([Parameter(name) for name in names], callback)
+
+    def load_parameter_file(
+        self, parameter_file: str, use_wildcard: bool = False, callback: Callback | None = None
+    ) -> Future:
+        """Change parameters to what a file says."""
+        given = parameter_dict_from_yaml_file(parameter_file, use_wildcard)
+        return self.set_parameters(list(given.values()), callback)
+
+    def load_parameter_file_atomically(
+        self, parameter_file: str, use_wildcard: bool = False, callback: Callback | None = None
+    ) -> Future:
+        """Change parameters together to what a file says; all or none."""
+        given = parameter_dict_from_yaml_file(parameter_file, use_wildcard)
+        return self.set_parameters_atomically(list(given.values()), callback)
+
+    def on_parameter_event(
+        self,
+        callback: Callable[..., Any],
+        qos_profile: QoSProfile = qos_profile_parameter_events,
+        **options: Any,
+    ) -> Any:
+        """Have `callback` called with every change of any node's parameters."""
+        kind = INTERFACES.message("rcl_interfaces/ParameterEvent")
+        return self.node.create_subscription(
+            kind, "/parameter_events", callback, qos_profile, **options
+        )
+
+
+def _messages(parameters: Sequence[Any]) -> list[Any]:
+    return [one.to_parameter_msg() if isinstance(one, Parameter) else one for one in parameters]

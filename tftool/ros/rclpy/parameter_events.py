@@ -1,0 +1,157 @@
+"""Telling of changed parameters on `/parameter_events`, and rclpy's handler for it."""
+
+from collections.abc import Callable, Iterable, Iterator, Sequence
+from dataclasses import dataclass
+from typing import Any
+
+from tftool.interfaces.classes import INTERFACES
+from tftool.ros.host import names, values
+from tftool.ros.rclpy.parameters import Parameter
+from tftool.ros.rclpy.qos import QoSProfile, qos_profile_parameter_events
+from tftool.ros.rclpy.seat import NodeSeat
+from tftool.ros.rclpy.topics import Publisher
+
+TOPIC = "parameter_events"
+
+
+def teller(seat: NodeSeat) -> Callable[..., None]:
+    """What tells everybody of a node's parameters; it is one of the topic's publishers at once."""
+    kind: Any = INTERFACES.message("rcl_interfaces/ParameterEvent")
+    publisher: Publisher = seat.keep(
+        lambda: Publisher(seat, kind, f"/{TOPIC}", TOPIC, qos_profile_parameter_events)
+    )
+
+    def tell(
+        *,
+        new: Sequence[Parameter] = (),
+        changed: Sequence[Parameter] = (),
+        deleted: Sequence[Parameter] = (),
+    ) -> None:
+        # Parameters change far more often than somebody listens.
+        if not publisher.get_subscription_count():
+            return
+        event = kind(
+            stamp=values.time_message(seat.now()),
+            node=f"/{names.join(seat.namespace, seat.name)}",
+            new_parameters=[one.to_parameter_msg() for one in new],
+            changed_parameters=[one.to_parameter_msg() for one in changed],
+            deleted_parameters=[one.to_parameter_msg() for one in deleted],
+        )
+        publisher.publish(event)
+
+    return tell
+
+
+@dataclass(eq=False, slots=True)
+class ParameterCallbackHandle:
+    """Who wants to hear of one parameter of one node."""
+
+    parameter_name: str
+    node_name: str
+    callback: Callable[[Any], object]
+
+
+@dataclass(eq=False, slots=True)
+class ParameterEventCallbackHandle:
+    """Who wants to hear of every event."""
+
+    callback: Callable[[Any], object]
+
+
+class ParameterEventHandler:
+    """Calls back when parameters change, of this node or of another."""
+
+    def __init__(
+        self,
+        node: Any,
+        qos_profile: QoSProfile = qos_profile_parameter_events,
+        callback_group: Any = None,
+        **options: Any,
+    ) -> None:
+        self.node = node
+        self._of_one: list[ParameterCallbackHandle] = []
+        self._of_all: list[ParameterEventCallbackHandle] = []
+        self.parameter_event_subscription = node.create_subscription(
+            INTERFACES.message("rcl_interfaces/ParameterEvent"),
+            f"/{TOPIC}",
+            self._arrived,
+            qos_profile,
+            callback_group=callback_group,
+            **options,
+        )
+
+    def destroy(self) -> None:
+        """Listen no more."""
+        self.node.destroy_subscription(self.parameter_event_subscription)
+
+    def _arrived(self, event: Any) -> None:
+        for one in list(self._of_one):
+            found = self.get_parameter_from_event(event, one.parameter_name, one.node_name)
+            if found is not None:
+                one.callback(found)
+        for every in list(self._of_all):
+            every.callback(event)
+
+    @staticmethod
+    def get_parameter_from_event(event: Any, parameter_name: str, node_name: str) -> Any:
+        """One node's parameter as an event has it, None if it is not about it."""
+        if event.node != node_name:
+            return None
+        told = ParameterEventHandler.get_parameters_from_event(event)
+        return next((one for one in told if one.name == parameter_name), None)
+
+    @staticmethod
+    def get_parameters_from_event(event: Any) -> Iterator[Any]:
+        """The new and the changed parameters of an event."""
+        yield from event.new_parameters
+        yield from event.changed_parameters
+
+    def add_parameter_callback(
+        self, parameter_name: str, node_name: str, callback: Callable[[Any], object]
+    ) -> ParameterCallbackHandle:
+        """Have `callback` called with a parameter's message whenever it is set."""
+        handle = ParameterCallbackHandle(parameter_name, self._full(node_name), callback)
+        # As in ROS 2, who came last is told first.
+        self._of_one.insert(0, handle)
+        return handle
+
+    def add_parameter_event_callback(
+        self, callback: Callable[[Any], object]
+    ) -> ParameterEventCallbackHandle:
+        """Have `callback` called with every event."""
+        handle = ParameterEventCallbackHandle(callback)
+        self._of_all.insert(0, handle)
+        return handle
+
+    def remove_parameter_callback(self, handle: ParameterCallbackHandle) -> None:
+        """Call back no more.
+
+        Raises:
+            RuntimeError: If it was not registered.
+        """
+        _remove(self._of_one, handle)
+
+    def remove_parameter_event_callback(self, handle: ParameterEventCallbackHandle) -> None:
+        """Call back no more.
+
+        Raises:
+            RuntimeError: If it was not registered.
+        """
+        _remove(self._of_all, handle)
+
+    def configure_nodes_filter(self, node_names: Iterable[str] | None = None) -> bool:
+        """Whether events can be sorted out before they arrive: only asking for none can."""
+        return not node_names
+
+    def _full(self, node_name: str) -> str:
+        if not node_name:
+            return str(self.node.get_fully_qualified_name())
+        if node_name.startswith("/"):
+            return node_name
+        return f"/{names.join(self.node.get_namespace(), node_name)}"
+
+
+def _remove(handles: list[Any], handle: Any) -> None:
+    if handle not in handles:
+        raise RuntimeError("Callback doesn't exist")
+    handles.remove(handle)

@@ -1,0 +1,40 @@
+"""What rclpy's nodes answer when others get, set, list and describe their parameters."""
+
+from collections.abc import Sequence
+from typing import Any
+
+from tftool.ros.rclpy.exceptions import ParameterNotDeclaredException
+from tftool.ros.rclpy.node_parameters import NodeParameters, set_result
+from tftool.ros.rclpy.parameters import Parameter
+
+# A request may name a type that is none, or a value that is not of its type.
+_REFUSALS = (ParameterNotDeclaredException, ValueError, TypeError)
+
+
+class ServedParameters:
+    """A node's parameters, as `nodes.parameter_services` serves them."""
+
+    def __init__(self, node: NodeParameters) -> None:
+        self._node = node
+
+    def values(self, names: Sequence[str]) -> list[Any]:
+        """A ParameterValue for each name."""
+        return [self._node.get_parameter_or(name).get_parameter_value() for name in names]
+
+    def descriptors(self, names: Sequence[str]) -> list[Any]:
+        """A ParameterDescriptor for each name that is known."""
+        node = self._node
+        return [node.describe_parameter(name) for name in names if node.has_parameter(name)]
+
+    def listed(self, prefixes: Sequence[str], depth: int) -> Any:
+        """The names below some prefixes."""
+        return self._node.list_parameters(prefixes, depth)
+
+    def change(self, parameters: Sequence[Any]) -> Any:
+        """Make all changes or none; how that went."""
+        try:
+            return self._node.set_parameters_atomically(
+                [Parameter.from_parameter_msg(one) for one in parameters]
+            )
+        except _REFUSALS as error:
+            return set_result(False, str(error))

@@ -1,0 +1,162 @@
+"""rclpy's parameters: typed values by name, checked and told to callbacks."""
+
+import array
+from enum import IntEnum
+from pathlib import Path
+from typing import Any
+
+from tftool.interfaces.classes import INTERFACES
+from tftool.interfaces.parameters import value_message, value_of
+from tftool.ros.host import names
+
+
+class ParameterType(IntEnum):
+    """What a parameter may hold."""
+
+    NOT_SET = 0
+    BOOL = 1
+    INTEGER = 2
+    DOUBLE = 3
+    STRING = 4
+    BYTE_ARRAY = 5
+    BOOL_ARRAY = 6
+    INTEGER_ARRAY = 7
+    DOUBLE_ARRAY = 8
+    STRING_ARRAY = 9
+
+    @classmethod
+    def from_parameter_value(cls, value: Any) -> "ParameterType":
+        """The type a Python value means.
+
+        Raises:
+            TypeError: If it can be no parameter.
+        """
+        if value is None:
+            return cls.NOT_SET
+        for kind, found in (
+            (bool, cls.BOOL),
+            (int, cls.INTEGER),
+            (float, cls.DOUBLE),
+            (str, cls.STRING),
+        ):
+            if isinstance(value, kind):
+                return found
+        if isinstance(value, list | tuple | array.array):
+            kinds = {cls.from_parameter_value(one) if not isinstance(one, bytes) else
+                     cls.BYTE_ARRAY for one in value}  # fmt: skip
+            if kinds <= {cls.BYTE_ARRAY}:
+                return cls.BYTE_ARRAY
+            if len(kinds) == 1 and (only := kinds.pop()) in (
+                cls.BOOL,
+                cls.INTEGER,
+                cls.DOUBLE,
+                cls.STRING,
+            ):
+                return cls(only + 5)
+        raise TypeError(f"The given value is not one of the allowed types: {value!r}")
+
+    def check(self, value: Any) -> bool:
+        """Whether a value is of this type."""
+        if self >= ParameterType.BYTE_ARRAY and isinstance(value, list | tuple) and not len(value):
+            return True
+        try:
+            return ParameterType.from_parameter_value(value) is self
+        except TypeError:
+            return False
+
+
+class Parameter:
+    """One parameter's name, type and value."""
+
+    Type = ParameterType
+
+    def __init__(self, name: str, type_: ParameterType | None = None, value: Any = None) -> None:
+        if type_ is None:
+            type_ = ParameterType.from_parameter_value(value)
+        if not isinstance(type_, ParameterType):
+            raise TypeError("type must be an instance of 'Parameter.Type'")
+        if type_ is not ParameterType.NOT_SET and value is not None and not type_.check(value):
+            raise ValueError(f"Type '{type_}' and value '{value}' do not agree")
+        self._name = name
+        self._type = type_
+        self._value = value
+
+    @property
+    def name(self) -> str:
+        """What it is called."""
+        return self._name
+
+    @property
+    def type_(self) -> ParameterType:
+        """What it holds."""
+        return self._type
+
+    @property
+    def value(self) -> Any:
+        """What it is set to."""
+        return self._value
+
+    def __repr__(self) -> str:
+        return f"Parameter(name={self._name!r}, type_={self._type!r}, value={self._value!r})"
+
+    def __eq__(self, other: object) -> bool:
+        return isinstance(other, Parameter) and (self._name, self._type, self._value) == (
+            other._name,
+            other._type,
+            other._value,
+        )
+
+    __hash__ = None  # type: ignore[assignment]
+
+    def get_parameter_value(self) -> Any:
+        """The rcl_interfaces ParameterValue."""
+        return value_message(self._value, int(self._type))
+
+    def to_parameter_msg(self) -> Any:
+        """The rcl_interfaces Parameter."""
+        return INTERFACES.message("rcl_interfaces/Parameter")(
+            name=self._name, value=self.get_parameter_value()
+        )
+
+    @classmethod
+    def from_parameter_msg(cls, param_msg: Any) -> "Parameter":
+        """The Parameter of an rcl_interfaces Parameter."""
+        return cls(param_msg.name, ParameterType(param_msg.value.type), value_of(param_msg.value))
+
+
+parameter_value_to_python = value_of
+
+
+def get_parameter_value(string_value: str) -> Any:
+    """The ParameterValue that a text means, read as YAML."""
+    return Parameter("", value=names.yaml_value(string_value)).get_parameter_value()
+
+
+PARAMETER_SEPARATOR_STRING = "."
+
+
+def parameter_dict_from_yaml_file(
+    parameter_file: str,
+    use_wildcard: bool = False,
+    target_nodes: list[str] | None = None,
+    namespace: str = "",
+) -> dict[str, Any]:
+    """The messages of the parameters in a file, by name.
+
+    Args:
+        parameter_file: Its path.
+        use_wildcard: Whether what stands under `/**` counts, too.
+        target_nodes: The nodes whose parameters are wanted, all without any.
+        namespace: What the parameters' names begin with.
+
+    Raises:
+        InputError: If it cannot be read, is no YAML, or is laid out otherwise.
+    """
+    wanted = {one.strip("/") for one in target_nodes or ()}
+    found = {}
+    for node, name, value in names.read_parameters(Path(parameter_file)):
+        chosen = use_wildcard if node == "**" else not wanted or node in wanted
+        if chosen:
+            full = f"{namespace}{PARAMETER_SEPARATOR_STRING}{name}" if namespace else name
+            found[full] = Parameter(full, value=value).to_parameter_msg()
+    return found

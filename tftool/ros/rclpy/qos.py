@@ -1,0 +1,258 @@
+"""rclpy's quality-of-service profiles. In one process nothing gets lost; depth and latching act."""
+
+from enum import Enum, IntEnum
+from typing import Any
+
+from tftool.ros.rclpy.time import Duration
+from tftool.runtime.endpoints import Quality, conflict
+
+
+class _Policy(IntEnum):
+    @classmethod
+    def short_keys(cls) -> list[str]:
+        """The names, lower case."""
+        return [policy.name.lower() for policy in cls]
+
+    @property
+    def short_key(self) -> str:
+        """This name, lower case."""
+        return self.name.lower()
+
+    @classmethod
+    def get_from_short_key(cls, name: str) -> int:
+        """The policy of a lower-case name."""
+        return cls[name.upper()].value
+
+
+class HistoryPolicy(_Policy):
+    """How many messages wait."""
+
+    SYSTEM_DEFAULT = 0
+    RMW_QOS_POLICY_HISTORY_SYSTEM_DEFAULT = 0
+    KEEP_LAST = 1
+    RMW_QOS_POLICY_HISTORY_KEEP_LAST = 1
+    KEEP_ALL = 2
+    RMW_QOS_POLICY_HISTORY_KEEP_ALL = 2
+    UNKNOWN = 3
+
+
+class ReliabilityPolicy(_Policy):
+    """Whether a message may be lost."""
+
+    SYSTEM_DEFAULT = 0
+    RMW_QOS_POLICY_RELIABILITY_SYSTEM_DEFAULT = 0
+    RELIABLE = 1
+    RMW_QOS_POLICY_RELIABILITY_RELIABLE = 1
+    BEST_EFFORT = 2
+    RMW_QOS_POLICY_RELIABILITY_BEST_EFFORT = 2
+    UNKNOWN = 3
+    BEST_AVAILABLE = 4
+
+
+class DurabilityPolicy(_Policy):
+    """Whether late subscribers get what was sent before."""
+
+    SYSTEM_DEFAULT = 0
+    RMW_QOS_POLICY_DURABILITY_SYSTEM_DEFAULT = 0
+    TRANSIENT_LOCAL = 1
+    RMW_QOS_POLICY_DURABILITY_TRANSIENT_LOCAL = 1
+    VOLATILE = 2
+    RMW_QOS_POLICY_DURABILITY_VOLATILE = 2
+    UNKNOWN = 3
+    BEST_AVAILABLE = 4
+
+
+class LivelinessPolicy(_Policy):
+    """How a publisher says it is alive."""
+
+    SYSTEM_DEFAULT = 0
+    AUTOMATIC = 1
+    MANUAL_BY_TOPIC = 3
+    UNKNOWN = 4
+    BEST_AVAILABLE = 5
+
+
+QoSHistoryPolicy = HistoryPolicy
+QoSReliabilityPolicy = ReliabilityPolicy
+QoSDurabilityPolicy = DurabilityPolicy
+QoSLivelinessPolicy = LivelinessPolicy
+
+
+class QoSPolicyKind(IntEnum):
+    """Which setting of a profile something is about."""
+
+    INVALID = 1
+    DURABILITY = 2
+    DEADLINE = 4
+    LIVELINESS = 8
+    RELIABILITY = 16
+    HISTORY = 32
+    LIFESPAN = 64
+    DEPTH = 128
+    LIVELINESS_LEASE_DURATION = 256
+    AVOID_ROS_NAMESPACE_CONVENTIONS = 512
+
+
+class InvalidQoSProfileException(Exception):
+    """A profile that says too little, or contradicts itself."""
+
+    def __init__(self, *args: object) -> None:
+        super().__init__("Invalid QoSProfile", *args)
+
+
+class QoSProfile:
+    """The settings of a publisher or a subscription."""
+
+    def __init__(self, **kwargs: Any) -> None:
+        known = ("history", "depth", "reliability", "durability", "lifespan", "deadline",
+                 "liveliness", "liveliness_lease_duration",
+                 "avoid_ros_namespace_conventions")  # fmt: skip
+        wrong = [key for key in kwargs if key not in known]
+        if wrong:
+            raise TypeError(f"QoSProfile has no setting {wrong[0]!r}; it has {', '.join(known)}")
+        if "history" not in kwargs and "depth" not in kwargs:
+            raise InvalidQoSProfileException("History and/or depth settings are required.")
+        self.history = HistoryPolicy(kwargs.get("history", HistoryPolicy.KEEP_LAST))
+        if self.history is HistoryPolicy.KEEP_LAST and "depth" not in kwargs:
+            raise InvalidQoSProfileException("History set to KEEP_LAST without a depth setting.")
+        self.depth = int(kwargs.get("depth", 0))
+        if self.depth < 0:
+            raise ValueError("depth must be greater than or equal to zero")
+        self.reliability = ReliabilityPolicy(kwargs.get("reliability", ReliabilityPolicy.RELIABLE))
+        self.durability = DurabilityPolicy(kwargs.get("durability", DurabilityPolicy.VOLATILE))
+        self.liveliness = LivelinessPolicy(
+            kwargs.get("liveliness", LivelinessPolicy.SYSTEM_DEFAULT)
+        )
+        self.lifespan = kwargs.get("lifespan", Duration())
+        self.deadline = kwargs.get("deadline", Duration())
+        self.liveliness_lease_duration = kwargs.get("liveliness_lease_duration", Duration())
+        self.avoid_ros_namespace_conventions = bool(
+            kwargs.get("avoid_ros_namespace_conventions", False)
+        )
+
+    def __eq__(self, other: object) -> bool:
+        return isinstance(other, QoSProfile) and vars(self) == vars(other)
+
+    __hash__ = None  # type: ignore[assignment]
+
+    def __repr__(self) -> str:
+        return f"QoSProfile({', '.join(f'{key}={value}' for key, value in vars(self).items())})"
+
+
+def quality_of(profile: QoSProfile, *, offered: bool) -> Quality:
+    """What of a profile decides who hears whom, and what is kept.
+
+    Args:
+        profile: The profile.
+        offered: Whether it is a publisher's. The best that is available is then the best
+            there is; of a subscription it is whatever it can get.
+    """
+    reliability, durability = profile.reliability, profile.durability
+    asks_little = reliability is ReliabilityPolicy.BEST_AVAILABLE and not offered
+    keeps = durability is DurabilityPolicy.BEST_AVAILABLE and offered
+    return Quality(
+        profile.depth,
+        is_reliable=reliability is not ReliabilityPolicy.BEST_EFFORT and not asks_little,
+        is_latched=durability is DurabilityPolicy.TRANSIENT_LOCAL or keeps,
+        keeps_all=profile.history is HistoryPolicy.KEEP_ALL,
+    )
+
+
+class QoSCompatibility(IntEnum):
+    """Whether a publisher and a subscription hear each other."""
+
+    OK = 0
+    WARNING = 1
+    ERROR = 2
+
+
+def qos_check_compatible(
+    publisher_qos: QoSProfile, subscription_qos: QoSProfile
+) -> tuple[QoSCompatibility, str]:
+    """Whether messages pass between two profiles, and why not."""
+    policy = conflict(
+        quality_of(publisher_qos, offered=True), quality_of(subscription_qos, offered=False)
+    )
+    if not policy:
+        return QoSCompatibility.OK, ""
+    word = {"RELIABILITY": "reliable", "DURABILITY": "transient local"}[policy]
+    less = {"RELIABILITY": "best effort", "DURABILITY": "volatile"}[policy]
+    return (
+        QoSCompatibility.ERROR,
+        f"ERROR: {less.capitalize()} publisher and {word} subscription;",
+    )
+
+
+def profile_from(quality: Quality) -> QoSProfile:
+    """The profile of an endpoint somewhere, as far as it is known."""
+    return QoSProfile(
+        depth=quality.depth,
+        history=HistoryPolicy.KEEP_ALL if quality.keeps_all else HistoryPolicy.KEEP_LAST,
+        reliability=ReliabilityPolicy.RELIABLE
+        if quality.is_reliable
+        else ReliabilityPolicy.BEST_EFFORT,
+        durability=DurabilityPolicy.TRANSIENT_LOCAL
+        if quality.is_latched
+        else DurabilityPolicy.VOLATILE,
+    )
+
+
+def profile_of(given: "QoSProfile | int") -> QoSProfile:
+    """The profile that a profile or a bare depth means.
+
+    Raises:
+        TypeError: If it is neither.
+        ValueError: If the depth is negative.
+    """
+    if isinstance(given, QoSProfile):
+        return given
+    if not isinstance(given, int):
+        raise TypeError(f"Expected QoSProfile or int, but received {type(given)!r}")
+    return QoSProfile(depth=given)
+
+
+qos_profile_default = QoSProfile(depth=10)
+qos_profile_system_default = QoSProfile(depth=10)
+qos_profile_sensor_data = QoSProfile(depth=5, reliability=ReliabilityPolicy.BEST_EFFORT)
+qos_profile_services_default = QoSProfile(depth=10)
+qos_profile_parameters = QoSProfile(depth=1000)
+qos_profile_parameter_events = QoSProfile(depth=1000)
+qos_profile_action_status_default = QoSProfile(depth=1, durability=DurabilityPolicy.TRANSIENT_LOCAL)
+
+
+qos_profile_unknown = QoSProfile(
+    history=HistoryPolicy.UNKNOWN,
+    reliability=ReliabilityPolicy.UNKNOWN,
+    durability=DurabilityPolicy.UNKNOWN,
+    liveliness=LivelinessPolicy.UNKNOWN,
+)
+qos_profile_best_available = QoSProfile(
+    depth=10,
+    reliability=ReliabilityPolicy.BEST_AVAILABLE,
+    durability=DurabilityPolicy.BEST_AVAILABLE,
+    liveliness=LivelinessPolicy.BEST_AVAILABLE,
+)
+
+
+class QoSPresetProfiles(Enum):
+    """Ready profiles; `.value` is the profile."""
+
+    UNKNOWN = qos_profile_unknown
+    DEFAULT = qos_profile_default
+    SYSTEM_DEFAULT = qos_profile_system_default
+    SENSOR_DATA = qos_profile_sensor_data
+    SERVICES_DEFAULT = qos_profile_services_default
+    PARAMETERS = qos_profile_parameters
+    PARAMETER_EVENTS = qos_profile_parameter_events
+    ACTION_STATUS_DEFAULT = qos_profile_action_status_default
+    BEST_AVAILABLE = qos_profile_best_available
+
+    @classmethod
+    def short_keys(cls) -> list[str]:
+        """The names, lower case."""
+        return [seat.lower() for seat in cls.__members__]
+
+    @classmethod
+    def get_from_short_key(cls, name: str) -> QoSProfile:
+        """The profile of a lower-case name."""
+        return cls[name.upper()].value

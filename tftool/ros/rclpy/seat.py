@@ -1,0 +1,206 @@
+"""A node's seat in the world: what its publishers, timers, services and the rest need of it.
+
+A node's class belongs to the user, who may call an attribute `world`, `graph` or
+`entities` as well: so all of this stands behind one attribute, `_tftool`. What a node
+keeps of itself beside it, its clock and its parameters, is private as in rclpy.
+"""
+
+import asyncio
+from collections.abc import Callable
+from typing import Any
+
+from tftool.ros.host import names
+from tftool.ros.host.program import Program, ProgramNode
+from tftool.ros.rclpy.exceptions import InvalidHandle
+from tftool.ros.rclpy.validation import validate_topic_name
+from tftool.runtime.clock import Phase
+from tftool.runtime.endpoints import PUBLISHER, Endpoint
+from tftool.runtime.world import TransformMessage, World
+from tftool.stamps import Stamp
+
+
+class NodeSeat:
+    """A node of a program, as its things and its executor know it.
+
+    Attributes:
+        program: Whose node it is.
+        world: Where it lives.
+        name: What it is called after renaming.
+        namespace: Where, without slashes at its ends.
+        options: What `--ros-args` says about it.
+        context: The rclpy context it lives by.
+        ros_node: The node as the user holds it.
+        executor: Who serves it, None while nobody does.
+        was_served: Whether an executor has ever served it.
+        entities: What can become ready, in the order it was made.
+        authority: Who its transforms come from.
+    """
+
+    def __init__(
+        self,
+        program: Program,
+        name: str,
+        namespace: str,
+        options: names.RosOptions,
+        context: Any,
+        ros_node: Any,
+    ) -> None:
+        self.program = program
+        self.world: World = program.world
+        self.name = name
+        self.namespace = namespace
+        self.options = options
+        self.context = context
+        self.ros_node = ros_node
+        self.executor: Any = None
+        self.was_served = False
+        self.entities: list[Any] = []
+        self._destroyed = False
+        self._node: ProgramNode = program.ask(self._join)
+        self.authority: str = self._node.name
+        program.nodes.append(self)
+
+    def _join(self) -> ProgramNode:
+        name = names.join(self.namespace, self.name)
+        wanted, number = name, 1
+        while any(other.name == name for other in self.world.nodes if other is not self.program):
+            number += 1
+            name = f"{wanted}_{number}"
+        if name != wanted:
+            self.program.say(
+                "WARN",
+                name,
+                f"a node named '{wanted}' is here already; this one is shown as '{name}'. "
+                f"Give it a name of its own: --ros-args -r __node:=…",
+            )
+        if self.program.name == name:
+            # The executable and its node share a name, as they often do.
+            self.program.name = f"{name} (program)"
+        return ProgramNode(self.program, name)
+
+    def full(self, name: str, *, remap: bool = True, is_service: bool = False) -> str:
+        """A topic's or service's full name, without its leading slash.
+
+        Raises:
+            NameValidationException: If it can be none.
+        """
+        validate_topic_name(name, is_service=is_service)
+        full = names.expand(name, self.name, self.namespace)
+        return self.options.remapped(full, self.name, self.namespace) if remap else full
+
+    # What it has
+
+    def keep(self, make: Callable[[], Any]) -> Any:
+        """Make a thing on the loop's thread, and have executors serve it.
+
+        Raises:
+            InvalidHandle: If the node is destroyed.
+        """
+        if self._destroyed:
+            raise InvalidHandle(f"node '{self.name}' is destroyed: it can have nothing new")
+
+        def made() -> Any:
+            entity = make()
+            self.entities.append(entity)
+            self.wake()
+            return entity
+
+        return self.program.ask(made)
+
+    def forget(self, entity: Any) -> bool:
+        """Withdraw one of its things; whether it was one."""
+
+        def drop() -> bool:
+            if entity not in self.entities:
+                return False
+            self.entities.remove(entity)
+            entity.withdraw()
+            return True
+
+        return bool(self.program.ask(drop))
+
+    def leave(self) -> None:
+        """Withdraw everything, from the program's thread."""
+        if not self._destroyed:
+            self.program.ask(self.withdraw)
+            if self in self.program.nodes:
+                self.program.nodes.remove(self)
+
+    # On the loop's thread
+
+    def wake(self) -> None:
+        """Tell whoever spins the node to look."""
+        if self.executor is not None:
+            self.executor.wake()
+
+    def withdraw(self) -> None:
+        """Leave the world."""
+        if self._destroyed:
+            return
+        self._destroyed = True
+        for entity in self.entities:
+            entity.withdraw()
+        self.entities.clear()
+        self.world.remove(self._node)
+
+    def now(self) -> Stamp:
+        """The moment it is."""
+        return self.program.clock.now()
+
+    def late(self, full: str) -> list[tuple[Any, Endpoint | None]]:
+        """What a latched subscription gets at once from this process, and from whom."""
+        if full == "tf_static":
+            transforms = self.world.static_transforms()
+            return [(TransformMessage(transforms, ""), None)] if transforms else []
+        return [
+            (value, publisher)
+            for publisher in self.world.endpoints.of(full, PUBLISHER)
+            for value in publisher.kept or ()
+        ]
+
+    # Waiting
+
+    def wait_until(self, there: Callable[[], bool], timeout_sec: float | None) -> bool:
+        """Block until something that comes and goes in the world is there; whether it is."""
+        if timeout_sec is not None and timeout_sec <= 0:
+            timeout_sec = 0.0
+        return bool(self.program.ask(lambda: self._appears(there, timeout_sec)))
+
+    async def _appears(self, there: Callable[[], bool], timeout_sec: float | None) -> bool:
+        clock = self.program.clock
+        timer = None
+        if timeout_sec is not None:
+            timer = clock.timer(clock.now() + int(timeout_sec * 1e9), Phase.WATCH)
+        changed = asyncio.Event()
+        stop = self.world.watch(changed.set)
+        try:
+            while not there() and self.context.ok() and (timer is None or not timer.done()):
+                changed.clear()
+                waiting: set[asyncio.Future[Any]] = {asyncio.ensure_future(changed.wait())}
+                if timer is not None:
+                    waiting.add(timer)
+                try:
+                    await asyncio.wait(waiting, return_when=asyncio.FIRST_COMPLETED)
+                finally:
+                    for one in waiting - {timer}:
+                        one.cancel()
+            return there()
+        finally:
+            stop()
+            if timer is not None:
+                timer.cancel()
+
+
+def seat_of(node: Any) -> NodeSeat:
+    """The seat of a node that a user holds.
+
+    Raises:
+        TypeError: If it is no node, or one whose `__init__` did not call `super().__init__`.
+    """
+    seat = getattr(node, "_tftool", None)
+    if not isinstance(seat, NodeSeat):
+        raise TypeError(
+            f"expected a node, got {type(node).__name__}: a class derived from Node calls "
+            "super().__init__('its_name') first"
+        )
+    return seat

@@ -1,0 +1,26 @@
+"""rclpy.serialization: messages as the bytes ROS 2 sends."""
+
+from typing import Any
+
+from tftool.interfaces.classes import Message
+from tftool.wire.codec import codec
+
+
+def serialize_message(message: Any) -> bytes:
+    """The bytes of a message.
+
+    Raises:
+        TypeError: If it is no message.
+    """
+    if not isinstance(message, Message):
+        raise TypeError(f"expected a message, got {type(message).__name__}")
+    return codec(type(message)).encode(message)
+
+
+def deserialize_message(serialized_message: bytes, message_type: Any) -> Any:
+    """The message of some bytes.
+
+    Raises:
+        MalformedMessage: If they are not one of that type.
+    """
+    return codec(message_type).decode(bytes(serialized_message))

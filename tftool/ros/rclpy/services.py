@@ -1,0 +1,191 @@
+"""Clients that ask services, and the services that answer.
+
+What arrived waits until an executor takes it, as with all entities.
+"""
+
+import asyncio
+import inspect
+from collections.abc import Callable, Iterable
+from typing import Any
+
+from tftool.errors import TftoolError
+from tftool.interfaces.classes import duplicate
+from tftool.ros.host import values
+from tftool.ros.rclpy.entities import MOST_WAITING, Requester, WorkQueue
+from tftool.ros.rclpy.executors import wait_for
+from tftool.ros.rclpy.futures import Future
+from tftool.ros.rclpy.seat import NodeSeat, seat_of
+
+
+class Client(Requester):
+    """Asks a service."""
+
+    def __init__(self, seat: NodeSeat, kind: Any, name: str, full: str, group: Any) -> None:
+        super().__init__(seat, group)
+        self.srv_type = kind
+        self.srv_name = name
+        self.full = full
+
+    @property
+    def service_name(self) -> str:
+        """The service's full name."""
+        return f"/{self.full}"
+
+    def service_is_ready(self) -> bool:
+        """Whether somebody serves it."""
+        ready = bool(self.seat.program.ask(lambda: self.seat.world.has_service(self.full)))
+        if not ready:
+            self.seat.program.looked_in_vain()
+        return ready
+
+    def wait_for_service(self, timeout_sec: float | None = None) -> bool:
+        """Block until somebody serves it; whether somebody does."""
+        return self.seat.wait_until(lambda: self.seat.world.has_service(self.full), timeout_sec)
+
+    def call_async(self, request: Any) -> Future:
+        """Ask; the answer comes while somebody spins.
+
+        Raises:
+            TypeError: If the request is of another type.
+        """
+        if not isinstance(request, self.srv_type.Request):
+            raise TypeError(f"Expected {self.srv_type.Request}, got {type(request)}")
+        future = Future(executor=self.seat.executor)
+        self.ask(self._call(duplicate(request), future))
+        return future
+
+    def call(self, request: Any, timeout_sec: float | None = None) -> Any:
+        """Ask, and block until the answer is there.
+
+        Unlike in ROS 2 this may be called inside a callback.
+
+        Raises:
+            TimeoutError: If it takes longer than allowed.
+        """
+        future = self.call_async(request)
+        wait_for(self.seat, future, timeout_sec)
+        if timeout_sec is not None and not future.done() and not self.seat.program.interrupted:
+            self.remove_pending_request(future)
+            raise TimeoutError(
+                f"service '{self.service_name}' has not answered in {timeout_sec:g} s"
+            )
+        return future.result()
+
+    def remove_pending_request(self, future: Future) -> None:
+        """Wait no longer for an answer."""
+        future.cancel()
+
+    async def _call(self, request: Any, future: Future) -> None:
+        world = self.seat.world
+        # As in ROS 2, a request nobody serves yet waits for nobody: it stays unanswered.
+        offer = world.services().get(self.full)
+        if offer is None:
+            return
+        try:
+            answer = await world.call(self.full, values.pack_request(offer, request))
+            response = values.unpack(answer, self.srv_type.Response)
+        except TftoolError as error:
+            failure = error
+            self.put(lambda: None if future.cancelled() else future.set_exception(failure))
+            return
+        self.put(lambda: None if future.cancelled() else future.set_result(response))
+
+
+class Service(WorkQueue):
+    """Answers a service."""
+
+    def __init__(
+        self,
+        seat: NodeSeat,
+        kind: Any,
+        name: str,
+        full: str,
+        callback: Callable[[Any, Any], Any],
+        group: Any,
+    ) -> None:
+        super().__init__(seat, group)
+        self.srv_type = kind
+        self.srv_name = name
+        self.full = full
+        self.callback = callback
+        self._open: set[asyncio.Future[Any]] = set()
+        self._stop = seat.world.serve(full, self.asked, kind, node=seat.authority)
+
+    @property
+    def service_name(self) -> str:
+        """The service's full name."""
+        return f"/{self.full}"
+
+    async def asked(self, request: Any) -> Any:
+        """Keep a request until an executor takes it; its answer.
+
+        Raises:
+            TftoolError: If too many wait already.
+        """
+        if self.is_full:
+            raise TftoolError(
+                f"service '{self.full}' has {MOST_WAITING} requests waiting, which its node "
+                f"'{self.seat.authority}' does not take (does it spin?)"
+            )
+        answer: asyncio.Future[Any] = asyncio.get_running_loop().create_future()
+        message = values.unpack(request, self.srv_type.Request)
+        self._open.add(answer)
+
+        def settle(response: Any) -> None:
+            self._send(values.answer(request, response), answer)
+
+        self.put(lambda: self._answer(message, settle))
+        try:
+            return await answer
+        finally:
+            self._open.discard(answer)
+
+    def _answer(self, request: Any, settle: Callable[[Any], None]) -> Any:
+        response = self.callback(request, self.srv_type.Response())
+        if inspect.iscoroutine(response):
+            return self._later(response, settle)
+        settle(self._checked(response))
+        return None
+
+    async def _later(self, response: Any, settle: Callable[[Any], None]) -> None:
+        settle(self._checked(await response))
+
+    def _checked(self, response: Any) -> Any:
+        if not isinstance(response, self.srv_type.Response):
+            raise TypeError(
+                f"the callback of service '{self.srv_name}' must return a "
+                f"{self.srv_type.__name__}.Response, not {type(response).__name__}"
+            )
+        return response
+
+    def _send(self, response: Any, answer: "asyncio.Future[Any]") -> None:
+        def send() -> None:
+            if not answer.done():
+                answer.set_result(response)
+
+        self.seat.program.ask(send)
+
+    def withdraw(self) -> None:
+        """Serve no more; who still waits is told that no answer will come."""
+        super().withdraw()
+        self._stop()
+        for answer in self._open:
+            if not answer.done():
+                answer.set_exception(TftoolError(f"the node that served '{self.full}' has left"))
+
+
+def serve_own(
+    node: Any,
+    services: Iterable[tuple[str, Any, Callable[[Any, Any], Any]]],
+    callback_group: Any = None,
+) -> None:
+    """Answer services that nodes have below their names; of two of one name the first answers."""
+    seat, wanted = seat_of(node), list(services)
+
+    def offer() -> None:
+        for below, kind, answer in wanted:
+            if not seat.world.has_service(seat.full(f"~/{below}", is_service=True)):
+                node.create_service(kind, f"~/{below}", answer, callback_group=callback_group)
+
+    # In one go: another program's thread may come between two requests.
+    seat.program.ask(offer)

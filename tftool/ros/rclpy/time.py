@@ -1,0 +1,320 @@
+"""rclpy's times, durations, clocks and rates, on the world's clock."""
+
+from collections.abc import Callable
+from enum import IntEnum
+from typing import Any
+
+from tftool.ros.host import program, values
+from tftool.ros.rclpy.exceptions import ROSInterruptException
+from tftool.stamps import NANOSECONDS
+
+S_TO_NS = NANOSECONDS
+
+_RANGE = 2**63
+
+
+class ClockType(IntEnum):
+    """Which clock a time belongs to."""
+
+    UNINITIALIZED = 0
+    ROS_TIME = 1
+    SYSTEM_TIME = 2
+    STEADY_TIME = 3
+
+
+class Duration:
+    """A length of time in whole nanoseconds."""
+
+    __slots__ = ("_nanoseconds",)
+
+    def __init__(self, *, seconds: float = 0, nanoseconds: float = 0) -> None:
+        self._nanoseconds = int(seconds * S_TO_NS) + int(nanoseconds)
+        if not -_RANGE <= self._nanoseconds < _RANGE:
+            raise OverflowError("Total nanoseconds value is too large to store in C duration.")
+
+    @property
+    def nanoseconds(self) -> int:
+        """The length in nanoseconds."""
+        return self._nanoseconds
+
+    def __repr__(self) -> str:
+        return f"Duration(nanoseconds={self._nanoseconds})"
+
+    def __str__(self) -> str:
+        return "Infinite" if self._nanoseconds == _RANGE - 1 else f"{self._nanoseconds} nanoseconds"
+
+    def __eq__(self, other: object) -> bool:
+        return isinstance(other, Duration) and self._nanoseconds == other._nanoseconds
+
+    def __hash__(self) -> int:
+        return hash(self._nanoseconds)
+
+    def __lt__(self, other: "Duration") -> bool:
+        return self._nanoseconds < _length(other)
+
+    def __le__(self, other: "Duration") -> bool:
+        return self._nanoseconds <= _length(other)
+
+    def __gt__(self, other: "Duration") -> bool:
+        return self._nanoseconds > _length(other)
+
+    def __ge__(self, other: "Duration") -> bool:
+        return self._nanoseconds >= _length(other)
+
+    def __add__(self, other: Any) -> "Duration":
+        if isinstance(other, Time):
+            return NotImplemented
+        return Duration(nanoseconds=self._nanoseconds + _length(other))
+
+    def __sub__(self, other: "Duration") -> "Duration":
+        return Duration(nanoseconds=self._nanoseconds - _length(other))
+
+    def __mul__(self, factor: float) -> "Duration":
+        return Duration(nanoseconds=self._nanoseconds * factor)
+
+    def to_msg(self) -> Any:
+        """The builtin_interfaces Duration."""
+        return values.time_message(self._nanoseconds, "Duration")
+
+    @classmethod
+    def from_msg(cls, msg: Any) -> "Duration":
+        """The Duration of a builtin_interfaces Duration."""
+        return cls(nanoseconds=values.stamp_of(msg))
+
+
+def _length(other: object) -> int:
+    if not isinstance(other, Duration):
+        raise TypeError("Can't compare duration with object of type: ", type(other))
+    return other._nanoseconds
+
+
+Infinite = Duration(nanoseconds=_RANGE - 1)
+
+
+class Time:
+    """A moment in whole nanoseconds; 0 in a lookup means the latest."""
+
+    __slots__ = ("_clock_type", "_nanoseconds")
+
+    def __init__(
+        self,
+        *,
+        seconds: float = 0,
+        nanoseconds: float = 0,
+        clock_type: ClockType = ClockType.SYSTEM_TIME,
+    ) -> None:
+        if not isinstance(clock_type, ClockType):
+            raise TypeError("Clock type must be a ClockType enum")
+        if seconds < 0:
+            raise ValueError("Seconds value must not be negative")
+        if nanoseconds < 0:
+            raise ValueError("Nanoseconds value must not be negative")
+        self._nanoseconds = int(seconds * S_TO_NS) + int(nanoseconds)
+        self._clock_type = clock_type
+        if self._nanoseconds >= _RANGE:
+            raise OverflowError("Total nanoseconds value is too large to store in C time point.")
+
+    @property
+    def nanoseconds(self) -> int:
+        """The moment in nanoseconds."""
+        return self._nanoseconds
+
+    @property
+    def clock_type(self) -> ClockType:
+        """Whose time it is."""
+        return self._clock_type
+
+    def seconds_nanoseconds(self) -> tuple[int, int]:
+        """Whole seconds, and the nanoseconds beyond them."""
+        return self._nanoseconds // S_TO_NS, self._nanoseconds % S_TO_NS
+
+    def __repr__(self) -> str:
+        return f"Time(nanoseconds={self._nanoseconds}, clock_type={self._clock_type.name})"
+
+    def __add__(self, other: object) -> "Time":
+        if not isinstance(other, Duration):
+            return NotImplemented
+        return Time(nanoseconds=self._nanoseconds + other.nanoseconds, clock_type=self._clock_type)
+
+    __radd__ = __add__
+
+    def __sub__(self, other: object) -> Any:
+        if isinstance(other, Time):
+            self._alike(other, "subtract")
+            return Duration(nanoseconds=self._nanoseconds - other._nanoseconds)
+        if isinstance(other, Duration):
+            return Time(
+                nanoseconds=self._nanoseconds - other.nanoseconds, clock_type=self._clock_type
+            )
+        return NotImplemented
+
+    def _alike(self, other: object, verb: str = "compare") -> int:
+        if not isinstance(other, Time):
+            raise TypeError(f"Can't {verb} time with object of type: ", type(other))
+        if self._clock_type != other._clock_type:
+            raise TypeError(f"Can't {verb} times with different clock types")
+        return other._nanoseconds
+
+    def __eq__(self, other: object) -> bool:
+        return isinstance(other, Time) and self._nanoseconds == self._alike(other)
+
+    def __hash__(self) -> int:
+        return hash(self._nanoseconds)
+
+    def __lt__(self, other: object) -> bool:
+        return self._nanoseconds < self._alike(other)
+
+    def __le__(self, other: object) -> bool:
+        return self._nanoseconds <= self._alike(other)
+
+    def __gt__(self, other: object) -> bool:
+        return self._nanoseconds > self._alike(other)
+
+    def __ge__(self, other: object) -> bool:
+        return self._nanoseconds >= self._alike(other)
+
+    def to_msg(self) -> Any:
+        """The builtin_interfaces Time."""
+        return values.time_message(self._nanoseconds)
+
+    @classmethod
+    def from_msg(cls, msg: Any, clock_type: ClockType = ClockType.ROS_TIME) -> "Time":
+        """The Time of a builtin_interfaces Time."""
+        return cls(nanoseconds=values.stamp_of(msg), clock_type=clock_type)
+
+
+class Clock:
+    """The world's clock, whatever its type: a simulated world has only one time."""
+
+    def __init__(self, *, clock_type: ClockType = ClockType.SYSTEM_TIME) -> None:
+        if not isinstance(clock_type, ClockType):
+            raise TypeError("Clock type must be a ClockType enum")
+        self._clock_type = clock_type
+        self._program = program.current()
+
+    @property
+    def clock_type(self) -> ClockType:
+        """Which clock it stands for."""
+        return self._clock_type
+
+    @property
+    def ros_time_is_active(self) -> bool:
+        """Whether time is simulated."""
+        return self._program.strict
+
+    def now(self) -> Time:
+        """The moment it is."""
+        return Time(nanoseconds=self._program.now(), clock_type=self._clock_type)
+
+    def sleep_until(self, until: Time, context: Any = None) -> bool:
+        """Block until a moment; False if the program was ended meanwhile."""
+        if until.clock_type != self._clock_type:
+            raise ValueError("until's clock type does not match this clock's type")
+        self._program.sleep(until.nanoseconds - self._program.clock.now())
+        return not self._program.interrupted
+
+    def sleep_for(self, rel_time: Duration, context: Any = None) -> bool:
+        """Block for a while; False if the program was ended meanwhile."""
+        self._program.sleep(rel_time.nanoseconds)
+        return not self._program.interrupted
+
+    def create_jump_callback(
+        self, threshold: "JumpThreshold", *, pre_callback: Any = None, post_callback: Any = None
+    ) -> "JumpHandle":
+        """Register for jumps in time; this clock never jumps.
+
+        Raises:
+            ValueError: If there is neither of the callbacks.
+        """
+        if pre_callback is None and post_callback is None:
+            raise ValueError("One of pre_callback or post_callback must be callable")
+        return JumpHandle()
+
+    def __repr__(self) -> str:
+        return f"Clock(clock_type={self._clock_type.name})"
+
+
+class ROSClock(Clock):
+    """The clock nodes have."""
+
+    def __init__(self) -> None:
+        super().__init__(clock_type=ClockType.ROS_TIME)
+
+
+class ClockChange(IntEnum):
+    """How a clock's source of time changed."""
+
+    ROS_TIME_NO_CHANGE = 1
+    ROS_TIME_ACTIVATED = 2
+    ROS_TIME_DEACTIVATED = 3
+    SYSTEM_TIME_NO_CHANGE = 4
+
+
+class JumpThreshold:
+    """From which jump on one wants to hear of it."""
+
+    def __init__(
+        self,
+        *,
+        min_forward: Duration | None,
+        min_backward: Duration | None,
+        on_clock_change: bool = True,
+    ) -> None:
+        if min_forward is not None and min_forward.nanoseconds <= 0:
+            raise ValueError("min_forward must be a positive non-zero duration")
+        if min_backward is not None and min_backward.nanoseconds >= 0:
+            raise ValueError("min_backward must be a negative non-zero duration")
+        if min_forward is None and min_backward is None and not on_clock_change:
+            raise ValueError("At least one threshold must be set")
+        self.min_forward = min_forward
+        self.min_backward = min_backward
+        self.on_clock_change = on_clock_change
+
+
+class TimeJump:
+    """One jump of a clock."""
+
+    def __init__(self, clock_change: ClockChange, delta: Duration) -> None:
+        self.clock_change = clock_change
+        self.delta = delta
+
+
+class JumpHandle:
+    """A registration for jumps."""
+
+    def unregister(self) -> None:
+        """Nothing to withdraw: no clock here jumps."""
+
+    def __enter__(self) -> "JumpHandle":
+        return self
+
+    def __exit__(self, *args: object) -> None:
+        self.unregister()
+
+
+class Rate:
+    """Sleeps so that a loop runs so many times a second."""
+
+    def __init__(self, frequency: float, owner: Any, destroy: Callable[["Rate"], object]) -> None:
+        if frequency <= 0:
+            raise ValueError("frequency must be greater than 0")
+        self._period = int(S_TO_NS / frequency)
+        self._program = owner
+        self._due = owner.clock.now() + self._period
+        self._destroy = destroy
+        self._over = False
+
+    def sleep(self) -> None:
+        """Block until the next moment of the grid."""
+        if self._over or self._program.interrupted:
+            raise ROSInterruptException
+        now = self._program.clock.now()
+        if self._due < now:
+            self._due += -(-(now - self._due) // self._period) * self._period
+        self._program.sleep(self._due - now)
+        self._due += self._period
+
+    def destroy(self) -> None:
+        """Give it up."""
+        self._over = True
+        self._destroy(self)

@@ -1,0 +1,127 @@
+"""Timers."""
+
+import inspect
+from collections.abc import Callable
+from typing import Any
+
+from tftool.ros.host.program import TICK
+from tftool.ros.rclpy.entities import NodeEntity, Work
+from tftool.ros.rclpy.seat import NodeSeat
+from tftool.ros.rclpy.time import Clock, Duration, Time
+
+
+class TimerInfo:
+    """When a timer was due, and when it was called."""
+
+    def __init__(self, expected: Time, actual: Time) -> None:
+        self.expected_call_time = expected
+        self.actual_call_time = actual
+
+
+class Timer(NodeEntity):
+    """Calls back on an integer grid; the first time one period after it is made."""
+
+    is_a_callback = True
+
+    def __init__(
+        self,
+        seat: NodeSeat,
+        callback: Callable[..., Any] | None,
+        period_ns: int,
+        group: Any,
+        clock: Clock,
+        autostart: bool = True,
+    ) -> None:
+        super().__init__(seat, group)
+        self.callback: Callable[..., Any] | None = callback
+        self.clock = clock
+        self._period = period_ns
+        self._last = seat.now()
+        self.due = self._last + period_ns
+        self._canceled = not autostart
+        self._takes_info = callback is not None and not _takes_none(callback)
+
+    @property
+    def timer_period_ns(self) -> int:
+        """The time between two calls, nanoseconds."""
+        return self._period
+
+    @timer_period_ns.setter
+    def timer_period_ns(self, value: int) -> None:
+        def change() -> None:
+            self._period = int(value)
+
+        self.seat.program.ask(change)
+
+    def ready(self) -> bool:
+        """Whether it is due."""
+        return not self._canceled and self.due <= self.seat.now()
+
+    def is_ready(self) -> bool:
+        """Whether it is due."""
+        return self.ready()
+
+    def take(self) -> Work:
+        """The callback; the next moment is the first of the grid to come."""
+        now, due = self.seat.now(), self.due
+        self._last = now
+        # As fast as possible must not hold simulated time still.
+        fastest = TICK if self.seat.program.strict else 0
+        if not self._period:
+            self.due = now + fastest
+        else:
+            self.due += self._period
+            if self.due < now:
+                self.due += -(-(now - self.due) // self._period) * self._period
+
+        def work() -> Any:
+            if self.callback is None:
+                return None
+            if self._takes_info:
+                return self.callback(TimerInfo(Time(nanoseconds=due), Time(nanoseconds=now)))
+            return self.callback()
+
+        return work
+
+    def cancel(self) -> None:
+        """Call no more, until `reset`."""
+        self._canceled = True
+
+    def is_canceled(self) -> bool:
+        """Whether it was cancelled."""
+        return self._canceled
+
+    def reset(self) -> None:
+        """Start again: the next call is one period from now."""
+
+        def restart() -> None:
+            self._canceled = False
+            self.due = self.seat.now() + self._period
+            self.seat.wake()
+
+        self.seat.program.ask(restart)
+
+    def time_since_last_call(self) -> int:
+        """Nanoseconds since the last call."""
+        return self.seat.now() - self._last
+
+    def time_until_next_call(self) -> int | None:
+        """Nanoseconds until the next call, None when cancelled."""
+        return None if self._canceled else self.due - self.seat.now()
+
+
+def _takes_none(callback: Callable[..., Any]) -> bool:
+    try:
+        inspect.signature(callback).bind()
+    except TypeError:
+        return False
+    except ValueError:
+        return True
+    return True
+
+
+def period_of(seconds_or_duration: Any) -> int:
+    """A timer's period in nanoseconds, from seconds or a Duration."""
+    if isinstance(seconds_or_duration, Duration):
+        return seconds_or_duration.nanoseconds
+    return int(float(seconds_or_duration) * 1_000_000_000)

@@ -1,0 +1,212 @@
+"""Publishers and subscriptions."""
+
+import inspect
+from collections import deque
+from collections.abc import Callable
+from typing import Any, TypedDict
+
+from tftool.interfaces.classes import Message
+from tftool.ros.host import values
+from tftool.ros.rclpy.entities import NodeEntity, Work
+from tftool.ros.rclpy.exceptions import InvalidHandle
+from tftool.ros.rclpy.qos import HistoryPolicy, QoSProfile, quality_of
+from tftool.ros.rclpy.seat import NodeSeat
+from tftool.ros.rclpy.serialization import deserialize_message, serialize_message
+from tftool.runtime.endpoints import PUBLISHER, SUBSCRIPTION, Endpoint, conflict
+from tftool.runtime.world import TransformMessage
+
+
+class Publisher(NodeEntity):
+    """Sends messages on a topic."""
+
+    def __init__(
+        self, seat: NodeSeat, kind: type[Message], topic: str, full: str, profile: QoSProfile
+    ) -> None:
+        super().__init__(seat, None)
+        self.msg_type = kind
+        self.qos_profile = profile
+        self.topic = topic
+        self.full = full
+        self._converter = values.converter(kind, full)
+        self._topic = seat.world.topic(full, self._converter.kind)
+        quality = quality_of(profile, offered=True)
+        self._withdrawn = False
+        latched = quality.is_latched and full not in values.TF_TOPICS
+        self._endpoint = Endpoint(
+            PUBLISHER,
+            seat.authority,
+            full,
+            kind.interface__,
+            quality,
+            kept=deque(maxlen=_room(profile)) if latched else None,
+        )
+        self._leave = seat.world.endpoints.add(self._endpoint)
+
+    @property
+    def topic_name(self) -> str:
+        """The topic's full name."""
+        return f"/{self.full}"
+
+    def publish(self, msg: Any) -> None:
+        """Send a message, or the bytes of one.
+
+        Raises:
+            TypeError: If it is of another type.
+            InvalidHandle: If this publisher is destroyed.
+        """
+        if self._withdrawn:
+            raise InvalidHandle(f"the publisher of '{self.topic_name}' is destroyed")
+        if isinstance(msg, bytes):
+            msg = deserialize_message(msg, self.msg_type)
+        if not isinstance(msg, self.msg_type):
+            raise TypeError(f"Expected {self.msg_type}, got {type(msg)}")
+        seat = self.seat
+        value = self._converter.pack(msg)
+        if self.full in values.TF_TOPICS and isinstance(value, TransformMessage):
+            static = self.full == "tf_static"
+            seat.program.ask(
+                lambda: seat.world.broadcast(value.transforms, seat.authority, static=static)
+            )
+            return
+        seat.program.ask(lambda: self._send(value))
+
+    def _send(self, value: Any) -> None:
+        if self._endpoint.kept is not None:
+            self._endpoint.kept.append(value)
+        self._topic.publish(value, self._endpoint)
+
+    def get_subscription_count(self) -> int:
+        """How many listen."""
+        return int(self.seat.program.ask(lambda: self._topic.subscribers))
+
+    def assert_liveliness(self) -> None:
+        """Nothing to do."""
+
+    def withdraw(self) -> None:
+        """Leave the graph; what was kept for those who come late goes along."""
+        super().withdraw()
+        self._withdrawn = True
+        self._leave()
+
+
+class MessageInfo(TypedDict):
+    """What a callback with two arguments is told about its message; stamps in nanoseconds."""
+
+    source_timestamp: int
+    received_timestamp: int
+    publication_sequence_number: int | None
+    reception_sequence_number: int | None
+
+
+class Subscription(NodeEntity):
+    """Receives a topic's messages."""
+
+    is_a_callback = True
+
+    def __init__(
+        self,
+        seat: NodeSeat,
+        kind: type[Message],
+        topic: str,
+        full: str,
+        callback: Callable[[Any], Any],
+        profile: QoSProfile,
+        group: Any,
+        raw: bool = False,
+    ) -> None:
+        super().__init__(seat, group)
+        self.msg_type = kind
+        self.raw = raw
+        self.callback: Callable[..., Any] = callback
+        self.qos_profile = profile
+        self.topic = topic
+        self.full = full
+        self._converter = values.converter(kind, full)
+        self._queue: deque[Any] = deque(maxlen=_room(profile))
+        self._takes_info = _takes_two(callback)
+        self._quality = quality_of(profile, offered=False)
+        # What other processes send, and sent before, comes to a latched one by itself.
+        self._is_fed = self._quality.is_latched and full not in values.TF_TOPICS
+        self._topic = seat.world.topic(full, self._converter.kind)
+        self._leave = seat.world.endpoints.add(
+            Endpoint(
+                SUBSCRIPTION,
+                seat.authority,
+                full,
+                kind.interface__,
+                self._quality,
+                deliver=self._accept if self._is_fed else None,
+            )
+        )
+        self._stop = self._topic.subscribe(self._arrived, seat.authority)
+        if self._quality.is_latched:
+            for value, sender in seat.late(full):
+                self._accept(value, sender)
+
+    @property
+    def topic_name(self) -> str:
+        """The topic's full name."""
+        return f"/{self.full}"
+
+    def _arrived(self, value: Any) -> None:
+        sender = self._topic.sender
+        if not (self._is_fed and sender is not None and sender.is_remote):
+            self._accept(value, sender)
+
+    def _accept(self, value: Any, sender: Endpoint | None) -> None:
+        # Who offers less than is asked for is not heard at all.
+        if sender is None or not conflict(sender.quality, self._quality):
+            self._queue.append((self.seat.now(), value))
+            self.seat.wake()
+
+    def ready(self) -> bool:
+        """Whether a message waits."""
+        return bool(self._queue)
+
+    def take(self) -> Work:
+        """The callback with the oldest waiting message."""
+        stamp, value = self._queue.popleft()
+
+        def work() -> Any:
+            message = self._converter.unpack(value)
+            if self.raw:
+                message = serialize_message(message)
+            if self._takes_info:
+                return self.callback(
+                    message,
+                    MessageInfo(
+                        source_timestamp=stamp,
+                        received_timestamp=stamp,
+                        publication_sequence_number=None,
+                        reception_sequence_number=None,
+                    ),
+                )
+            return self.callback(message)
+
+        return work
+
+    def withdraw(self) -> None:
+        """Stop listening."""
+        super().withdraw()
+        self._stop()
+        self._leave()
+        self._queue.clear()
+
+
+def _room(profile: QoSProfile) -> int | None:
+    """How many messages a profile keeps; None for all of them."""
+    return None if profile.history is HistoryPolicy.KEEP_ALL else max(1, profile.depth)
+
+
+def _takes_two(callback: Callable[..., Any]) -> bool:
+    try:
+        inspect.signature(callback).bind(object())
+    except TypeError:
+        try:
+            inspect.signature(callback).bind(object(), object())
+        except TypeError:
+            return False
+        return True
+    except ValueError:
+        return False
+    return False

@@ -1,0 +1,93 @@
+"""rclpy's validate_… functions, and names expanded with their exceptions."""
+
+from collections.abc import Callable
+
+from tftool.ros.host import names
+from tftool.ros.host.names import Fault
+from tftool.ros.rclpy.exceptions import (
+    InvalidNamespaceException,
+    InvalidNodeNameException,
+    InvalidParameterException,
+    InvalidServiceNameException,
+    InvalidTopicNameException,
+    NameValidationException,
+)
+
+HIDDEN_TOPIC_PREFIX = "_"
+
+
+def topic_or_service_is_hidden(name: str) -> bool:
+    """Whether a part of a name begins with an underscore: lists leave it out."""
+    return any(part.startswith(HIDDEN_TOPIC_PREFIX) for part in name.split("/"))
+
+
+def validate_node_name(node_name: str) -> bool:
+    """True, if it can be a node's name.
+
+    Raises:
+        InvalidNodeNameException: If it cannot.
+    """
+    return _valid(node_name, names.node_name_fault(node_name), InvalidNodeNameException)
+
+
+def validate_namespace(namespace: str) -> bool:
+    """True, if it can be an absolute namespace.
+
+    Raises:
+        InvalidNamespaceException: If it cannot.
+    """
+    return _valid(namespace, names.namespace_fault(namespace), InvalidNamespaceException)
+
+
+def validate_topic_name(name: str, *, is_service: bool = False) -> bool:
+    """True, if it can be a topic's (or service's) name, before it is expanded.
+
+    Raises:
+        InvalidTopicNameException: If it cannot be a topic's.
+        InvalidServiceNameException: If it cannot be a service's.
+    """
+    kind = InvalidServiceNameException if is_service else InvalidTopicNameException
+    return _valid(name, names.topic_name_fault(name), kind)
+
+
+def validate_full_topic_name(name: str, *, is_service: bool = False) -> bool:
+    """True, if it can be a topic's (or service's) full name.
+
+    Raises:
+        InvalidTopicNameException: If it cannot be a topic's.
+        InvalidServiceNameException: If it cannot be a service's.
+    """
+    kind = InvalidServiceNameException if is_service else InvalidTopicNameException
+    fault = names.namespace_fault(name)
+    return _valid(name, Fault("it must not end with '/'", 0) if name == "/" else fault, kind)
+
+
+def validate_parameter_name(name: str) -> bool:
+    """True, if it can be a parameter's name.
+
+    Raises:
+        InvalidParameterException: If it cannot.
+    """
+    if not isinstance(name, str) or not name:
+        raise InvalidParameterException(f"Invalid parameter name: {name!r}", str(name))
+    return True
+
+
+def expand_topic_name(topic_name: str, node_name: str, node_namespace: str) -> str:
+    """A topic's full name, with its leading slash.
+
+    Raises:
+        NameValidationException: If one of the three is not valid.
+    """
+    validate_topic_name(topic_name)
+    validate_node_name(node_name)
+    validate_namespace(node_namespace)
+    return "/" + names.expand(topic_name, node_name, node_namespace)
+
+
+def _valid(
+    name: str, fault: Fault | None, refusal: Callable[[str, str, int], NameValidationException]
+) -> bool:
+    if fault is not None:
+        raise refusal(name, fault.reason, fault.at)
+    return True

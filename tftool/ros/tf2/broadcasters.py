@@ -1,0 +1,150 @@
+"""tf2_ros's listener and broadcasters.
+
+A listener's transforms go straight into its buffer, whoever spins.
+"""
+
+from collections.abc import Callable, Iterable
+from typing import Any
+
+from tftool.frames.jumps import Watch
+from tftool.interfaces.classes import INTERFACES
+from tftool.ros.host import values
+from tftool.ros.rclpy.entities import NodeEntity, Work
+from tftool.ros.rclpy.node import Node
+from tftool.ros.rclpy.seat import NodeSeat, seat_of
+from tftool.ros.tf2.buffer import Buffer
+from tftool.runtime.world import TransformMessage
+
+AUTHORITY = "default_authority"
+"""Who sent what was sent before one listened; of later transforms the sender is known."""
+
+
+class TransformListener:
+    """Fills a buffer from `/tf` and `/tf_static`; statics sent before are there at once."""
+
+    def __init__(
+        self,
+        buffer: Buffer,
+        node: Node,
+        *,
+        spin_thread: bool = False,
+        qos: Any = None,
+        static_qos: Any = None,
+        tf_topic: str = "/tf",
+        tf_static_topic: str = "/tf_static",
+        static_only: bool = False,
+    ) -> None:
+        self.buffer = buffer
+        self.node = node
+        self._stops: list[Callable[[], None]] = []
+        self._member = seat_of(node)
+        self._member.program.listens = True
+        self._member.keep(lambda: self._listen(static_only))
+
+    def _listen(self, static_only: bool) -> NodeEntity:
+        world, frames = self._member.world, self.buffer.frames
+
+        arrivals = _Arrivals(self._member, self._stop)
+        program = self._member.program
+        # A recording that is played again, or a simulation that starts over.
+        watch = Watch(frames.clear, lambda _, text: program.say("WARN", program.name, text))
+
+        def moving(message: TransformMessage) -> None:
+            watch.read(world.clock.now())
+            arrivals.note()
+            for sample in message.transforms:
+                frames.set_transform(sample, message.authority)
+
+        def fixed(message: TransformMessage) -> None:
+            watch.read(world.clock.now())
+            arrivals.note()
+            for sample in message.transforms:
+                frames.set_transform_static(sample, message.authority)
+
+        for sample in world.static_transforms():
+            frames.set_transform_static(sample, AUTHORITY)
+            arrivals.note()
+        self._stops = [world.tf_static.subscribe(fixed, self._member.authority)]
+        if not static_only:
+            self._stops.append(world.tf.subscribe(moving, self._member.authority))
+        return arrivals
+
+    def _stop(self) -> None:
+        for stop in self._stops:
+            stop()
+        self._stops.clear()
+
+    def unregister(self) -> None:
+        """Listen no more."""
+        self._member.program.ask(self._stop)
+
+
+class StaticTransformListener(TransformListener):
+    """Fills a buffer from `/tf_static` alone."""
+
+    def __init__(self, buffer: Buffer, node: Node, **kwargs: Any) -> None:
+        super().__init__(buffer, node, static_only=True, **kwargs)
+
+
+class _Arrivals(NodeEntity):
+    """A listener's place among its node's things.
+
+    The buffer is filled without an executor; a `spin_once` ends when transforms have arrived,
+    as the listener's subscription would end it in ROS.
+    """
+
+    only_ends_spin_once = True
+
+    def __init__(self, seat: NodeSeat, stop: Callable[[], None]) -> None:
+        super().__init__(seat, None)
+        self._stop = stop
+        self._any = False
+
+    def note(self) -> None:
+        """Take in that transforms arrived (on the loop's thread)."""
+        self._any = True
+        executor = self.seat.executor
+        if executor is not None and executor.spins_once:
+            executor.wake()
+
+    def ready(self) -> bool:
+        """Whether transforms arrived since it was last taken."""
+        return self._any
+
+    def take(self) -> Work:
+        """Nothing to do: they are in the buffer already."""
+        self._any = False
+        return lambda: None
+
+    def withdraw(self) -> None:
+        """Listen no more."""
+        self._stop()
+
+
+class TransformBroadcaster:
+    """Sends moving transforms."""
+
+    _static = False
+
+    def __init__(self, node: Node, qos: Any = None) -> None:
+        self.node = node
+        self._member = seat_of(node)
+        self._member.program.broadcasts = True
+
+    def sendTransform(self, transform: Any) -> None:  # noqa: N802
+        """Send one transform, or several."""
+        several = transform if isinstance(transform, Iterable) else [transform]
+        kind = INTERFACES.message("geometry_msgs/TransformStamped")
+        sent = []
+        for one in several:
+            if not isinstance(one, kind):
+                raise TypeError(f"expected a TransformStamped, got {type(one).__name__}")
+            sent.append(values.pack_transform(one))
+        seat, static = self._member, self._static
+        seat.program.ask(lambda: seat.world.broadcast(sent, seat.authority, static=static))
+
+
+class StaticTransformBroadcaster(TransformBroadcaster):
+    """Sends transforms that hold for all time; late listeners get them too."""
+
+    _static = True

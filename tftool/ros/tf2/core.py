@@ -1,0 +1,134 @@
+"""tf2_py: the buffer's core. It answers at once, or refuses."""
+
+from collections.abc import Callable
+from typing import Any
+
+from tftool.errors import LookupException
+from tftool.frames.buffer import Buffer as Frames
+from tftool.ros.host import program, values
+from tftool.ros.rclpy.time import Duration, Time
+from tftool.ros.tf2.lookup_requests import (
+    FullLookupRequest,
+    LookupRequest,
+    full_question,
+    length,
+    question,
+)
+
+
+class BufferCore:
+    """What is known of frames.
+
+    The methods that end in `_core` take what the waiting ones of `Buffer` take, but for
+    the timeout, and refuse at once.
+    """
+
+    def __init__(self, cache_time: Duration | None = None) -> None:
+        self._program = program.current()
+        self._has_hinted = False
+        kept = 10_000_000_000 if cache_time is None else length(cache_time)
+        self._frames = Frames(kept, log=self._log)
+
+    @property
+    def frames(self) -> Frames:
+        """The buffer itself."""
+        return self._frames
+
+    def _log(self, level: str, text: str) -> None:
+        owner = self._program
+        owner.say("ERROR" if level == "ERROR" else "WARN", owner.name, text)
+
+    def _ask(self, request: Callable[[], Any]) -> Any:
+        return self._program.ask(request)
+
+    # Setting
+
+    def set_transform(self, transform: Any, authority: str) -> bool:
+        """Take a moving link's sample in."""
+        sample = values.pack_transform(transform)
+        return bool(self._ask(lambda: self._frames.set_transform(sample, authority)))
+
+    def set_transform_static(self, transform: Any, authority: str) -> bool:
+        """Take a link in that holds for all time."""
+        sample = values.pack_transform(transform)
+        return bool(self._ask(lambda: self._frames.set_transform_static(sample, authority)))
+
+    def clear(self) -> None:
+        """Forget all that moves."""
+        self._ask(self._frames.clear)
+
+    # Asking
+
+    def _answer(self, asked: LookupRequest | FullLookupRequest) -> Any:
+        try:
+            found = self._ask(lambda: asked.answer(self._frames))
+        except LookupException:
+            self._hint_that_nothing_arrived()
+            raise
+        return values.unpack_transform(found)
+
+    def _hint_that_nothing_arrived(self) -> None:
+        """Say once, where a node looks up before it is spun, why nothing can be there."""
+        owner = self._program
+        if self._has_hinted or not owner.listens or any(one.was_served for one in owner.nodes):
+            return
+        if not self._ask(self._frames.frames):
+            self._has_hinted = True
+            owner.warn(
+                "a lookup was refused because nothing has arrived yet: the node is not spun so "
+                "far. Look up in a timer's callback, or give the lookup a timeout"
+            )
+
+    def _whether(self, asked: LookupRequest | FullLookupRequest) -> tuple[int, str]:
+        reason = self._ask(lambda: asked.why_not(self._frames))
+        if reason:
+            self._program.looked_in_vain()
+        return int(not reason), reason
+
+    def lookup_transform_core(self, *asked: Any, **named: Any) -> Any:
+        """The pose of source in target, as a geometry_msgs TransformStamped.
+
+        Raises:
+            TransformException: If it cannot be given.
+        """
+        return self._answer(question(*asked, **named))
+
+    def lookup_transform_full_core(self, *asked: Any, **named: Any) -> Any:
+        """The pose of source at one time in target at another, through a fixed frame.
+
+        Raises:
+            TransformException: If it cannot be given.
+        """
+        return self._answer(full_question(*asked, **named))
+
+    def can_transform_core(self, *asked: Any, **named: Any) -> tuple[int, str]:
+        """(whether a lookup would succeed, why not)."""
+        return self._whether(question(*asked, **named))
+
+    def can_transform_full_core(self, *asked: Any, **named: Any) -> tuple[int, str]:
+        """(whether a lookup between two moments would succeed, why not)."""
+        return self._whether(full_question(*asked, **named))
+
+    def get_latest_common_time(self, target_frame: str, source_frame: str) -> Time:
+        """The newest moment at which both are known."""
+        stamp = self._ask(lambda: self._frames.get_latest_common_time(target_frame, source_frame))
+        return Time(nanoseconds=stamp)
+
+    # Looking round
+
+    def all_frames_as_yaml(self) -> str:
+        """Every frame, as tf2 writes YAML."""
+        return str(self._ask(self._frames.all_frames_as_yaml))
+
+    def all_frames_as_string(self) -> str:
+        """Every frame and its parent."""
+        return str(self._ask(self._frames.all_frames_as_string))
+
+    def _allFramesAsDot(self, time: float = 0.0) -> str:  # noqa: N802
+        return str(self._ask(self._frames.all_frames_as_dot))
+
+    def _getFrameStrings(self) -> list[str]:  # noqa: N802
+        return list(self._ask(self._frames.frames))
+
+    def _frameExists(self, frame: str) -> bool:  # noqa: N802
+        return bool(self._ask(lambda: self._frames.frame_exists(frame)))

@@ -1,0 +1,188 @@
+"""tf2_geometry_msgs and tf2_sensor_msgs: messages moved into another frame.
+
+The message that is passed is never changed, nor is the transform. What a transform does to
+each kind of thing is in `tftool.geometry.carry`.
+"""
+
+import array
+from collections.abc import Iterable
+from typing import Any
+
+from tftool.geometry import carry
+from tftool.geometry.rigid import Transform, Vector3, transform
+from tftool.interfaces.classes import INTERFACES, duplicate
+from tftool.ros.tf2.registry import ConvertRegistration, TransformRegistration
+
+_FLOATS = {7: "f4", 8: "f8"}
+"""How numpy writes a PointField's FLOAT32 and FLOAT64."""
+
+
+def _transform_of(stamped: Any) -> Transform:
+    body = stamped.transform if hasattr(stamped, "transform") else stamped
+    return _placed(body.translation, body.rotation)
+
+
+def _placed(place: Any, turn: Any) -> Transform:
+    # Unchecked: here a rotation of all zeros stands for none.
+    return transform((place.x, place.y, place.z), (turn.x, turn.y, turn.z, turn.w))
+
+
+def _xyz(vector: Any) -> Vector3:
+    return Vector3(vector.x, vector.y, vector.z)
+
+
+def _put(target: Any, value: Iterable[float]) -> None:
+    target.x, target.y, target.z = value
+
+
+def _pose(a_from_b: Transform, pose: Any) -> Any:
+    result = duplicate(pose)
+    moved = carry.pose(a_from_b, _placed(pose.position, pose.orientation))
+    _put(result.position, moved.translation)
+    turn = result.orientation
+    turn.x, turn.y, turn.z, turn.w = moved.rotation
+    return result
+
+
+def _headed(data: Any, transform: Any) -> Any:
+    result = duplicate(data)
+    if hasattr(transform, "header"):
+        result.header = duplicate(transform.header)
+    return result
+
+
+def do_transform_point(point: Any, transform: Any) -> Any:
+    """A PointStamped in the transform's frame."""
+    result = _headed(point, transform)
+    _put(result.point, carry.point(_transform_of(transform), _xyz(point.point)))
+    return result
+
+
+def do_transform_vector3(vector3: Any, transform: Any) -> Any:
+    """A Vector3Stamped, turned and not moved."""
+    result = _headed(vector3, transform)
+    _put(result.vector, carry.vector(_transform_of(transform), _xyz(vector3.vector)))
+    return result
+
+
+def do_transform_pose(pose: Any, transform: Any) -> Any:
+    """A Pose in the transform's frame."""
+    return _pose(_transform_of(transform), pose)
+
+
+def do_transform_pose_stamped(pose: Any, transform: Any) -> Any:
+    """A PoseStamped in the transform's frame."""
+    result = _headed(pose, transform)
+    result.pose = _pose(_transform_of(transform), pose.pose)
+    return result
+
+
+def do_transform_pose_with_covariance_stamped(pose: Any, transform: Any) -> Any:
+    """A PoseWithCovarianceStamped in the transform's frame."""
+    result = _headed(pose, transform)
+    result.pose.pose = _pose(_transform_of(transform), pose.pose.pose)
+    result.pose.covariance = transform_covariance(pose.pose.covariance, transform)
+    return result
+
+
+def transform_covariance(cov_in: Any, transform: Any) -> Any:
+    """A 6×6 covariance, turned: D·C·Dᵀ with the rotation twice on D's diagonal."""
+    import numpy as np
+
+    return np.array(carry.covariance(_transform_of(transform), cov_in))
+
+
+def do_transform_polygon_stamped(polygon: Any, transform: Any) -> Any:
+    """A PolygonStamped in the transform's frame."""
+    result = _headed(polygon, transform)
+    a_from_b = _transform_of(transform)
+    for point in result.polygon.points:
+        _put(point, carry.point(a_from_b, _xyz(point)))
+    return result
+
+
+def do_transform_wrench(wrench: Any, transform: Any) -> Any:
+    """A Wrench in the transform's frame: the torque gains the force's arm."""
+    result = duplicate(wrench)
+    force, torque = carry.wrench(_transform_of(transform), _xyz(wrench.force), _xyz(wrench.torque))
+    _put(result.force, force)
+    _put(result.torque, torque)
+    return result
+
+
+def do_transform_wrench_stamped(wrench: Any, transform: Any) -> Any:
+    """A WrenchStamped in the transform's frame."""
+    result = _headed(wrench, transform)
+    result.wrench = do_transform_wrench(wrench.wrench, transform)
+    return result
+
+
+def do_transform_cloud(cloud: Any, transform: Any) -> Any:
+    """A PointCloud2 in the transform's frame; other fields, layout and stamp stay.
+
+    Raises:
+        AssertionError: If it has no fields x, y and z.
+    """
+    import numpy as np
+
+    fields = {field.name: field for field in cloud.fields}
+    if not {"x", "y", "z"} <= set(fields):
+        raise AssertionError("Point cloud needs the fields x, y, and z for the transformation")
+    result = duplicate(cloud)
+    if hasattr(transform, "header"):
+        result.header.frame_id = transform.header.frame_id
+    data = bytearray(cloud.data.tobytes())
+    order = ">" if cloud.is_bigendian else "<"
+    # Where the coordinates lie in the data, row by row: written there, they are in the cloud.
+    x, y, z = (
+        np.ndarray(
+            (cloud.height, cloud.width),
+            order + _FLOATS[fields[axis].datatype],
+            data,
+            fields[axis].offset,
+            (cloud.row_step, cloud.point_step),
+        )
+        for axis in "xyz"
+    )
+    points = np.stack((x.ravel(), y.ravel(), z.ravel()), axis=1)
+    moved = carry.points(_transform_of(transform), points)
+    for axis, values in zip((x, y, z), moved.T, strict=True):
+        axis[:] = values.reshape(axis.shape)
+    result.data = array.array("B", data)
+    return result
+
+
+def to_msg_msg(msg: Any) -> Any:
+    """The message itself."""
+    return msg
+
+
+def from_msg_msg(msg: Any) -> Any:
+    """The message itself."""
+    return msg
+
+
+def register() -> None:
+    """Have buffers transform these types."""
+    transforms, conversions = TransformRegistration(), ConvertRegistration()
+    for name, function in (
+        ("geometry_msgs/PointStamped", do_transform_point),
+        ("geometry_msgs/Vector3Stamped", do_transform_vector3),
+        ("geometry_msgs/Pose", do_transform_pose),
+        ("geometry_msgs/PoseStamped", do_transform_pose_stamped),
+        (
+            "geometry_msgs/PoseWithCovarianceStamped",
+            do_transform_pose_with_covariance_stamped,
+        ),
+        ("geometry_msgs/PolygonStamped", do_transform_polygon_stamped),
+        ("geometry_msgs/Wrench", do_transform_wrench),
+        ("geometry_msgs/WrenchStamped", do_transform_wrench_stamped),
+        ("sensor_msgs/PointCloud2", do_transform_cloud),
+    ):
+        kind = INTERFACES.message(name)
+        transforms.add(kind, function)
+        conversions.add_from_msg(kind, from_msg_msg)
+        conversions.add_to_msg(kind, to_msg_msg)
+
+
+register()

@@ -1,0 +1,147 @@
+"""tf_transformations: Euler angles, quaternions (x, y, z, w) and 4×4 matrices.
+
+`axes` is "s" (about fixed axes) or "r" (about axes that turn along) and three letters;
+"sxyz" is roll, pitch, yaw. The computing is done in `tftool.geometry`.
+"""
+
+from collections.abc import Sequence
+from typing import Any
+
+import numpy as np
+
+from tftool.geometry import conversions, quaternions
+from tftool.geometry.quaternions import Quad
+
+TRANSLATION_IDENTITY = [0.0, 0.0, 0.0]
+ROTATION_IDENTITY = [0.0, 0.0, 0.0, 1.0]
+
+# Below this, the square of a quaternion's length stands for no turn.
+_EPSILON = 4 * float(np.finfo(float).eps)
+
+
+def _quad(quaternion: Sequence[float]) -> Quad:
+    x, y, z, w = (float(part) for part in quaternion)
+    return (x, y, z, w)
+
+
+def quaternion_from_euler(ai: float, aj: float, ak: float, axes: str = "sxyz") -> Quad:
+    """The quaternion of three turns, one after the other."""
+    return _quad(conversions.quaternion_from_euler((ai, aj, ak), axes))
+
+
+def euler_from_quaternion(
+    quaternion: Sequence[float], axes: str = "sxyz"
+) -> tuple[float, float, float]:
+    """The three turns that a quaternion is made of."""
+    return conversions.euler_from_quaternion(quaternion, axes)
+
+
+def euler_from_matrix(matrix: Any, axes: str = "sxyz") -> tuple[float, float, float]:
+    """The three turns of a rotation matrix; where they are not unique, the last is 0."""
+    return conversions.euler_from_matrix(matrix, axes)
+
+
+def euler_matrix(ai: float, aj: float, ak: float, axes: str = "sxyz") -> Any:
+    """The 4×4 matrix of three turns."""
+    return quaternion_matrix(quaternion_from_euler(ai, aj, ak, axes))
+
+
+def quaternion_matrix(quaternion: Sequence[float]) -> Any:
+    """The 4×4 matrix of a quaternion; zero stands for no turn."""
+    matrix = np.eye(4)
+    turn = _quad(quaternion)
+    if sum(part * part for part in turn) > _EPSILON:
+        matrix[:3, :3] = quaternions.matrix(turn)
+    return matrix
+
+
+def quaternion_from_matrix(matrix: Any) -> Quad:
+    """The quaternion of a 4×4 matrix, w not negative."""
+    x, y, z, w = conversions.quaternion_from_matrix(np.asarray(matrix, dtype=float).tolist())
+    return (-x, -y, -z, -w) if w < 0.0 else (x, y, z, w)
+
+
+def quaternion_about_axis(angle: float, axis: Sequence[float]) -> Quad:
+    """The quaternion of a turn about an axis."""
+    return _quad(conversions.quaternion_from_axis_angle(axis, angle))
+
+
+def quaternion_multiply(quaternion1: Sequence[float], quaternion0: Sequence[float]) -> Quad:
+    """First `quaternion0`, then `quaternion1`."""
+    return quaternions.multiply(_quad(quaternion1), _quad(quaternion0))
+
+
+def quaternion_conjugate(quaternion: Sequence[float]) -> Quad:
+    """The quaternion with its vector part reversed."""
+    return quaternions.conjugate(_quad(quaternion))
+
+
+def quaternion_inverse(quaternion: Sequence[float]) -> Quad:
+    """The quaternion that undoes one."""
+    q = _quad(quaternion)
+    norm = sum(part * part for part in q)
+    x, y, z, w = quaternions.conjugate(q)
+    return (x / norm, y / norm, z / norm, w / norm)
+
+
+def quaternion_slerp(quat0: Sequence[float], quat1: Sequence[float], fraction: float) -> Quad:
+    """A share of the way from one rotation to another, along the shorter arc."""
+    start, end = quaternions.unit(_quad(quat0)), quaternions.unit(_quad(quat1))
+    return quaternions.slerp(start, end, fraction)
+
+
+def identity_matrix() -> Any:
+    """The 4×4 matrix that changes nothing."""
+    return np.identity(4)
+
+
+def translation_matrix(direction: Sequence[float]) -> Any:
+    """The 4×4 matrix of a translation."""
+    matrix = np.identity(4)
+    matrix[:3, 3] = direction[:3]
+    return matrix
+
+
+def translation_from_matrix(matrix: Any) -> Any:
+    """The translation of a 4×4 matrix."""
+    return np.array(matrix, dtype=float)[:3, 3].copy()
+
+
+def inverse_matrix(matrix: Any) -> Any:
+    """The 4×4 matrix that undoes one."""
+    return np.linalg.inv(matrix)
+
+
+def concatenate_matrices(*matrices: Any) -> Any:
+    """The product of 4×4 matrices."""
+    product = np.identity(4)
+    for matrix in matrices:
+        product = product @ np.asarray(matrix)
+    return product
+
+
+def compose_matrix(
+    scale: Any = None,
+    shear: Any = None,
+    angles: Any = None,
+    translate: Any = None,
+    perspective: Any = None,
+) -> Any:
+    """The 4×4 matrix of a translation after a turn by roll, pitch, yaw."""
+    if scale is not None or shear is not None or perspective is not None:
+        raise NotImplementedError("compose_matrix takes angles and translate here")
+    matrix = np.identity(4) if angles is None else euler_matrix(*angles)
+    if translate is not None:
+        matrix[:3, 3] = translate
+    return matrix
+
+
+def vector_norm(data: Any) -> float:
+    """The length of a vector."""
+    return float(np.linalg.norm(data))
+
+
+def unit_vector(data: Any) -> Any:
+    """A vector scaled to length one."""
+    array = np.array(data, dtype=float)
+    return array / np.linalg.norm(array)

@@ -1,0 +1,92 @@
+"""tf2_ros: what every buffer can do once it can look transforms up."""
+
+from typing import Any
+
+from tftool.ros.rclpy.time import Duration
+from tftool.ros.tf2.registry import NotImplementedException, Registration, convert
+
+NOW = Duration()
+"""No waiting."""
+
+
+class BufferInterface:
+    """Transforms data with a header; a class below it says where transforms come from."""
+
+    def __init__(self) -> None:
+        self.registration = Registration()
+
+    def lookup_transform(
+        self, target_frame: str, source_frame: str, time: Any, timeout: Any = NOW
+    ) -> Any:
+        """The pose of source in target.
+
+        Raises:
+            NotImplementedException: If the class does not say how.
+        """
+        raise NotImplementedException
+
+    def lookup_transform_full(
+        self,
+        target_frame: str,
+        target_time: Any,
+        source_frame: str,
+        source_time: Any,
+        fixed_frame: str,
+        timeout: Any = NOW,
+    ) -> Any:
+        """The pose of source at one time in target at another, through a fixed frame.
+
+        Raises:
+            NotImplementedException: If the class does not say how.
+        """
+        raise NotImplementedException
+
+    def can_transform(self, *asked: Any, **named: Any) -> Any:
+        """Whether a lookup would succeed.
+
+        Raises:
+            NotImplementedException: If the class does not say how.
+        """
+        raise NotImplementedException
+
+    def can_transform_full(self, *asked: Any, **named: Any) -> Any:
+        """Whether a lookup between two moments would succeed.
+
+        Raises:
+            NotImplementedException: If the class does not say how.
+        """
+        raise NotImplementedException
+
+    def transform(
+        self, object_stamped: Any, target_frame: str, timeout: Any = NOW, new_type: Any = None
+    ) -> Any:
+        """Data with a header, seen in another frame.
+
+        Raises:
+            TypeException: If nobody registered how to transform such data.
+        """
+        do_transform = self.registration.get(type(object_stamped))
+        header = object_stamped.header
+        found = self.lookup_transform(target_frame, header.frame_id, header.stamp, timeout)
+        return _converted(do_transform(object_stamped, found), new_type)
+
+    def transform_full(
+        self,
+        object_stamped: Any,
+        target_frame: str,
+        target_time: Any,
+        fixed_frame: str,
+        timeout: Any = NOW,
+        new_type: Any = None,
+    ) -> Any:
+        """Data with a header, seen in another frame at another time."""
+        do_transform = self.registration.get(type(object_stamped))
+        header = object_stamped.header
+        found = self.lookup_transform_full(
+            target_frame, target_time, header.frame_id, header.stamp, fixed_frame, timeout
+        )
+        return _converted(do_transform(object_stamped, found), new_type)
+
+
+def _converted(result: Any, new_type: Any) -> Any:
+    return result if new_type is None else convert(result, new_type)

@@ -1,0 +1,172 @@
+"""What came of a scenario that was played through: who ended where, and what held."""
+
+import json
+import math
+from collections.abc import Mapping, Sequence
+from contextlib import suppress
+from dataclasses import dataclass
+
+from tftool.errors import NodeFailed
+from tftool.frames.sample import Snapshot
+from tftool.geometry.planar import heading
+from tftool.geometry.rigid import distance
+from tftool.runtime.clock import SimClock, run
+from tftool.scenario.play import build
+from tftool.scenario.schema import Scenario
+from tftool.scenario.verdict import Verdict
+from tftool.stamps import Duration, as_seconds
+from tftool.views.escaping import visible
+
+MOST_FRAMES = 20
+"""Of how many frames the ends, and the distances to each other, are told."""
+
+
+@dataclass(frozen=True, slots=True)
+class Played:
+    """A scenario after its end.
+
+    Attributes:
+        scenario: What was played.
+        snapshot: All frames at its end.
+        verdict: What held.
+        defaults: The arguments its expectations were written for.
+    """
+
+    scenario: Scenario
+    snapshot: Snapshot
+    verdict: Verdict
+    defaults: Mapping[str, str]
+
+    def changed(self) -> list[str]:
+        """The names of the arguments that are not as its expectations have them."""
+        given = self.scenario.arguments
+        return [name for name, value in given.items() if value != self.defaults.get(name)]
+
+
+def play_through(
+    scenario: Scenario, defaults: Mapping[str, str], duration: Duration | None = None
+) -> Played:
+    """Play a scenario with its own script on simulated time.
+
+    Args:
+        scenario: What to play.
+        defaults: What its arguments are unless they are set.
+        duration: For how long; for the scenario's own duration when None.
+    """
+    clock = SimClock()
+    play = build(scenario, clock)
+    until = None if duration is None else clock.now() + duration
+    # The verdict says so.
+    with suppress(NodeFailed):
+        run(clock, play.live(until))
+    snapshot = play.world.buffer.snapshot(clock.now())
+    return Played(scenario, snapshot, play.verdict(), defaults)
+
+
+def written(played: Played) -> str:
+    """Say it to a person, in lines."""
+    scenario, verdict, snapshot = played.scenario, played.verdict, played.snapshot
+    changed = played.changed()
+    given = _settings(scenario.arguments, changed)
+    lines = [
+        f"{visible(scenario.name)}: {visible(scenario.about)}".rstrip(": "),
+        f"Played {as_seconds(verdict.lasted):g} s of simulated time"
+        + (f" with {given}." if given else "."),
+        "",
+    ]
+    moved = [info for info in snapshot.frames if info.parent is not None]
+    shown = moved[:MOST_FRAMES]
+    width = max((len(visible(info.frame)) for info in shown), default=0)
+    for info in shown:
+        pose, name = info.root_from_frame, visible(info.frame)
+        if pose is None or info.root is None:
+            lines.append(f"  {name:{width}}  place not known")
+            continue
+        x, y, _ = pose.translation
+        lines.append(
+            f"  {name:{width}}  x {x:7.3f}  y {y:7.3f}  heading {math.degrees(heading(pose)):6.1f}°"
+            f"  in {visible(info.root)}"
+        )
+    if len(moved) > len(shown):
+        lines.append(f"  and {len(moved) - len(shown)} more")
+    for first, second, apart in _distances(played):
+        lines.append(f"  {visible(first)} is {apart:.3f} m from {visible(second)}.")
+    reached = [outcome for outcome in verdict.outcomes if outcome.reached]
+    lines.append("")
+    if verdict.failure:
+        lines.append(f"It ended early: {visible(verdict.failure)}")
+    if not reached:
+        lines.append("It expects nothing up to here.")
+        return "\n".join(lines)
+    held = sum(outcome.ok for outcome in reached)
+    written_for = _settings(played.defaults, changed)
+    lines.append(
+        f"{held} of {len(reached)} expectations hold"
+        + (f"; they are written for {written_for}." if written_for else ".")
+    )
+    lines += [
+        f"  line {outcome.line}: {outcome.when}: {visible(outcome.expectation)} "
+        f"{visible(outcome.expected)}, but it was {visible(outcome.found)}"
+        for outcome in reached
+        if not outcome.ok
+    ]
+    later = len(verdict.outcomes) - len(reached)
+    if later:
+        lines.append(f"{later} more would have been judged later.")
+    return "\n".join(lines)
+
+
+def as_json(played: Played) -> str:
+    """Say it to a program."""
+    verdict = played.verdict
+    frames = {}
+    for info in played.snapshot.frames:
+        pose = info.root_from_frame
+        if info.parent is not None and pose is not None:
+            x, y, z = pose.translation
+            frames[info.frame] = {"in": info.root, "x": x, "y": y, "z": z, "heading": heading(pose)}
+    return json.dumps(
+        {
+            "scenario": played.scenario.name,
+            "arguments": dict(played.scenario.arguments),
+            "seconds": as_seconds(verdict.lasted),
+            "frames": frames,
+            "distances": [
+                {"from": first, "to": second, "metres": apart}
+                for first, second, apart in _distances(played)
+            ],
+            "expectations": [
+                {
+                    "when": outcome.when,
+                    "expectation": outcome.expectation,
+                    "expected": outcome.expected,
+                    "found": outcome.found,
+                    "reached": outcome.reached,
+                    "ok": outcome.ok,
+                }
+                for outcome in verdict.outcomes
+            ],
+            "failure": verdict.failure,
+            "ok": verdict.ok,
+        }
+    )
+
+
+def _settings(values: Mapping[str, str], names: Sequence[str]) -> str:
+    return ", ".join(f"{visible(name)}={visible(values[name])}" for name in names)
+
+
+def _distances(played: Played) -> list[tuple[str, str, float]]:
+    """How far each moving frame ended from the first one in its tree."""
+    moving = [
+        info
+        for info in played.snapshot.frames
+        if info.parent is not None and not info.is_static and info.root_from_frame is not None
+    ][:MOST_FRAMES]
+    found = []
+    for info in moving[1:]:
+        first = next(one for one in moving if one.root == info.root)
+        if first is not info and first.root_from_frame and info.root_from_frame:
+            apart = distance(first.root_from_frame.inverse() @ info.root_from_frame)
+            found.append((info.frame, first.frame, apart))
+    return found

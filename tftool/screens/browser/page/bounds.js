@@ -1,0 +1,62 @@
+// @ts-check
+// The box around everything that was drawn, for a camera that keeps it in view.
+
+/** @typedef {{ low: number[], high: number[] }} Box corners, metres */
+
+const LEAST = 0.5; // metres; a single frame has no size
+const MARGIN = 0.1; // of the largest side
+
+/**
+ * The length of a box's longest side, metres.
+ * @param {Box} box
+ */
+export function spread(box) {
+  return Math.max(...box.high.map((value, side) => value - box.low[side]), LEAST);
+}
+
+/**
+ * @param {number[][]} points
+ * @returns {Box}
+ */
+export function boxOf(points) {
+  const box = { low: [Infinity, Infinity, Infinity], high: [-Infinity, -Infinity, -Infinity] };
+  for (const point of points) {
+    for (let side = 0; side < 3; side++) {
+      box.low[side] = Math.min(box.low[side], point[side]);
+      box.high[side] = Math.max(box.high[side], point[side]);
+    }
+  }
+  return box;
+}
+
+export class Bounds {
+  constructor() {
+    /** @type {Box | null} */
+    this.box = null;
+  }
+
+  reset() {
+    this.box = null;
+  }
+
+  /**
+   * Grow around points; the box if one of them lay outside of it, else null.
+   * @param {number[][]} points
+   */
+  grow(points) {
+    if (!points.length) return null;
+    const now = boxOf(points);
+    const { box } = this;
+    if (box && now.low.every((value, side) => value >= box.low[side]) && now.high.every((value, side) => value <= box.high[side])) {
+      return null;
+    }
+    // Somewhat further at once, or the camera would creep along with every step.
+    const margin = MARGIN * spread(now);
+    const old = box ?? now;
+    this.box = {
+      low: now.low.map((value, side) => (value < old.low[side] ? value - margin : old.low[side])),
+      high: now.high.map((value, side) => (value > old.high[side] ? value + margin : old.high[side])),
+    };
+    return this.box;
+  }
+}

@@ -1,0 +1,134 @@
+// @ts-check
+// What a person has chosen: switches, frames, filters, numbers. The address carries all of it.
+
+/** Least and most of the numbers that can be typed. */
+export const LIMITS = { interval: [0, 60], timeout: [1, 1e6], length: [1, 60] };
+
+export const SPEEDS = [0.1, 0.25, 0.5, 1, 2, 4];
+
+/**
+ * A name filter as typed: the expression, or null for an empty field; or what is wrong with it.
+ * @param {string} text
+ * @returns {{ expression: RegExp | null, error: string }}
+ */
+export function compile(text) {
+  try {
+    return { expression: text ? new RegExp(text, "u") : null, error: "" };
+  } catch (error) {
+    return { expression: null, error: error instanceof Error ? error.message : String(error) };
+  }
+}
+
+export class Choices {
+  /**
+   * @param {Record<string, any>} given what the address says, as `share.read` returns it
+   * @param {"light" | "dark"} theme the theme this person's system prefers
+   */
+  constructor(given = {}, theme = "dark") {
+    this.names = given.names ?? true;
+    this.axes = given.axes ?? true;
+    this.arrows = given.arrows ?? true;
+    this.grid = given.grid ?? true;
+    this.trails = given.trails ?? false;
+    this.view = given.view === "orbit" ? "orbit" : "top";
+    this.theme = given.theme === "light" || given.theme === "dark" ? given.theme : theme;
+    this.interval = 0; // seconds
+    this.timeout = 15; // seconds
+    this.length = 10; // of trails, seconds
+    for (const id of ["interval", "timeout", "length"]) this.setNumber(id, given[id]);
+    this.speed = SPEEDS.includes(given.speed) ? given.speed : 1;
+    /** @type {number | undefined} */
+    this.scale = given.scale; // of the markers; undefined: by the size of the scene
+    /** @type {string | undefined} */
+    this.fixed = given.fixed;
+    this.fixedByHand = given.fixed !== undefined;
+    /** @type {string | undefined} */
+    this.target = given.target;
+    /** @type {string | undefined} */
+    this.source = given.source;
+    /** @type {string | undefined} */
+    this.chosen = given.chosen;
+    this.hidden = new Set(given.hidden);
+    this.closed = new Set(given.closed);
+    this.trailed = new Set(given.trailed);
+    this.only = "";
+    this.not = "";
+    /** @type {{ only: RegExp | null, not: RegExp | null }} */
+    this.filters = { only: null, not: null };
+    for (const id of ["only", "not"]) this.setFilter(id, given[id] ?? "");
+  }
+
+  /**
+   * Keep a number within its limits; anything that is none changes nothing.
+   * @param {string} id
+   * @param {number | undefined} value
+   */
+  setNumber(id, value) {
+    const [least, most] = LIMITS[id];
+    if (value !== undefined && Number.isFinite(value)) this[id] = Math.min(most, Math.max(least, value));
+  }
+
+  /**
+   * Filter names by a regular expression; a wrong one leaves the last right one in force.
+   * @param {string} id `only` or `not`
+   * @param {string} text
+   * @returns {string} what is wrong with it, empty if nothing is
+   */
+  setFilter(id, text) {
+    const { expression, error } = compile(text);
+    this[id] = text;
+    if (!error) this.filters[id] = expression;
+    return error;
+  }
+
+  /**
+   * Whether the filters leave a frame out.
+   * @param {string} name
+   */
+  leavesOut(name) {
+    const { only, not } = this.filters;
+    return (only !== null && !only.test(name)) || (not !== null && not.test(name));
+  }
+
+  /** @param {string} name */
+  setFixed(name) {
+    this.fixed = name;
+    this.fixedByHand = true;
+  }
+
+  /**
+   * @param {string | undefined} target
+   * @param {string | undefined} source
+   */
+  setPair(target, source) {
+    this.target = target || undefined;
+    this.source = source || undefined;
+  }
+
+  /**
+   * Put a name into one of the sets, or take it out.
+   * @param {"hidden" | "closed" | "trailed"} set
+   * @param {string} name
+   * @param {boolean} on
+   */
+  mark(set, name, on) {
+    if (on) this[set].add(name);
+    else this[set].delete(name);
+  }
+
+  /**
+   * Everything the address carries, for `share.write`.
+   * @param {number | null} at moment shown; null for the present
+   * @param {number[] | undefined} camera undefined while the page moves it by itself
+   */
+  shared(at, camera) {
+    return {
+      ...this,
+      hidden: [...this.hidden],
+      closed: [...this.closed],
+      trailed: [...this.trailed],
+      at: at ?? undefined,
+      camera,
+    };
+  }
+}

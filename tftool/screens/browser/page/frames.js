@@ -1,0 +1,91 @@
+// @ts-check
+// What picture and list say of every frame, from the model and the choices.
+import { number } from "./format.js";
+import { fade } from "./model.js";
+
+const MOST_TRAILS = 60;
+const HUES = [207, 332, 140, 32, 268, 180, 354, 80, 238, 300];
+
+/**
+ * pose, parent: in the fixed frame, null where not known or without a parent. grey, alpha: how far
+ * it has faded. shown: whether it is in the picture. trouble: why it cannot be. told: rate or age.
+ * @typedef {{
+ *   index: number, name: string, pose: number[] | null, parent: number[] | null,
+ *   grey: number, alpha: number, filtered: boolean, shown: boolean, lost: boolean,
+ *   trouble: string, told: string,
+ * }} Frame
+ */
+
+/**
+ * @param {import("./model.js").Model} model solved for the fixed frame
+ * @param {import("./choices.js").Choices} choices
+ * @param {boolean} past whether a past moment is shown
+ * @returns {Frame[]}
+ */
+export function describe(model, choices, past) {
+  return model.names.map((name, index) => {
+    const pose = model.absolute[index] ?? null;
+    const { grey, alpha } = fade(model.age(index), choices.timeout);
+    const filtered = choices.leavesOut(name);
+    const parent = model.parents[index];
+    return {
+      index,
+      name,
+      pose,
+      parent: parent >= 0 ? (model.absolute[parent] ?? null) : null,
+      grey,
+      alpha,
+      filtered,
+      shown: pose !== null && !filtered && !choices.hidden.has(name) && alpha > 0,
+      lost: pose === null,
+      trouble: pose === null ? trouble(model, index, choices.fixed, past) : "",
+      told: told(model, index, past),
+    };
+  });
+}
+
+/** Why there is no pose, in rviz's words, with the reason where there is one. */
+function trouble(model, index, fixed, past) {
+  const refusal = `No transform from [${model.names[index]}] to [${fixed}]`;
+  if (!model.index.has(fixed)) return `${refusal}: frame [${fixed}] does not exist`;
+  if (model.looped.includes(index)) return `${refusal}: its chain is a loop`;
+  return past ? `${refusal} at the moment shown` : refusal;
+}
+
+/** How often a frame comes, or how old it is where it stopped coming. */
+function told(model, index, past) {
+  const { poses } = model;
+  if (!poses || model.parents[index] < 0 || model.statics[index]) return "";
+  const age = poses.now - poses.newestOf(index);
+  return age > model.rate && !past ? `${number(age, 1)} s` : `${number(poses.rateOf(index), 0)} Hz`;
+}
+
+/**
+ * The trails in the picture: of frames chosen for one, and of all that move if switched on.
+ * @param {import("./model.js").Model} model
+ * @param {Frame[]} drawn
+ * @param {import("./choices.js").Choices} choices
+ * @param {number} until newest moment, seconds of the session
+ */
+export function trails(model, drawn, choices, until) {
+  if (!model.poses) return [];
+  return drawn
+    .filter(({ index, name }) => choices.trailed.has(name) || (choices.trails && model.moves(index)))
+    .slice(0, MOST_TRAILS)
+    .map(({ index }) => ({
+      color: `hsl(${HUES[index % HUES.length]} 85% ${choices.theme === "dark" ? 66 : 45}%)`,
+      points: model.trail(index, choices.fixed, choices.length, until),
+    }));
+}
+
+/**
+ * The poses along a found pair's chain; none where one of them is not known.
+ * @param {import("./model.js").Model} model
+ * @param {{ found: boolean, chain: string[] } | null} pair
+ * @returns {number[][]}
+ */
+export function chain(model, pair) {
+  if (!pair?.found) return [];
+  const poses = pair.chain.map((name) => model.absolute[model.index.get(name) ?? -1] ?? null);
+  return poses.every((pose) => pose !== null) ? poses : [];
+}

@@ -1,0 +1,58 @@
+// @ts-check
+// What has to be drawn anew: marked where something changes, taken once per animation frame.
+
+const LISTS_EVERY = 150; // milliseconds between two refreshes of the lists
+
+/** Dirty flags of the picture and of the lists beside it. */
+export class Redraw {
+  constructor(listsEvery = LISTS_EVERY) {
+    this.listsEvery = listsEvery;
+    this.pictureDue = true;
+    this.atOnce = true; // regardless of the update interval
+    this.listsDue = true;
+    this.pictureAt = -Infinity;
+    this.listsAt = -Infinity;
+  }
+
+  /** New data: the picture follows when the update interval allows it. */
+  data() {
+    this.pictureDue = true;
+  }
+
+  /** A person moved the camera or the time: the picture follows at once. */
+  picture() {
+    this.pictureDue = this.atOnce = true;
+  }
+
+  /** A person chose something: the picture and the lists follow at once. */
+  everything() {
+    this.picture();
+    this.listsAt = -Infinity;
+  }
+
+  /**
+   * What to draw in the animation frame at `now`; the flags of that are cleared.
+   *
+   * @param {number} now milliseconds
+   * @param {number} interval least time between two pictures of data, milliseconds
+   */
+  take(now, interval) {
+    const picture = this.pictureDue && (this.atOnce || now - this.pictureAt >= interval);
+    if (picture) {
+      this.pictureDue = this.atOnce = false;
+      this.listsDue = true;
+      this.pictureAt = now;
+    }
+    const lists = this.listsDue && now - this.listsAt >= this.listsEvery;
+    if (lists) {
+      this.listsDue = false;
+      this.listsAt = now;
+    }
+    return { picture, lists };
+  }
+
+  /** The last picture showed no data yet: the first that does is not to wait for the interval. */
+  nothingShown() {
+    this.pictureAt = -Infinity;
+  }
+}

@@ -1,0 +1,123 @@
+// @ts-check
+// The moment that is looked at: the present, or one in the past, at rest or being played.
+
+/**
+ * What the buffer holds, in seconds of the session.
+ * @typedef {{ oldest: number, newest: number, now: number }} Reach
+ */
+
+/**
+ * ask(at): request the poses of a moment, null for the present. moved(): the moment or the way it
+ * runs has changed. reached(reach): the buffer holds another span now.
+ * @typedef {{ ask(at: number | null): void, moved(): void, reached(reach: Reach): void }} Hooks
+ */
+
+const LONGEST_TICK = 0.25; // seconds; a page that was hidden does not leap
+
+export class Timeline {
+  /**
+   * @param {Hooks} hooks
+   * @param {number | null} at moment to begin with; null is the present
+   */
+  constructor(hooks, at = null) {
+    this.hooks = hooks;
+    this.at = at;
+    this.playing = at === null;
+    this.awaiting = false; // poses were requested and have not come yet
+    /** @type {Reach} */
+    this.reach = { oldest: 0, newest: 0, now: 0 };
+    this.rate = 1; // session seconds per second
+    this.speed = 1; // of play, chosen by a person
+    this.tickedAt = 0;
+  }
+
+  get past() {
+    return this.at !== null;
+  }
+
+  /** Whether the buffer no longer holds the moment shown. */
+  get forgotten() {
+    return this.at !== null && this.at < this.reach.oldest;
+  }
+
+  /**
+   * Take in what the buffer holds: the one place that does, so that the slider's bounds never lag.
+   * @param {Reach} reach
+   */
+  setReach({ oldest, newest, now }) {
+    this.reach = { oldest, newest, now };
+    this.hooks.reached(this.reach);
+  }
+
+  goLive() {
+    this.playing = true;
+    this.show(null);
+  }
+
+  /**
+   * Come to rest on a moment, never beyond what the buffer holds.
+   * @param {number} moment
+   */
+  scrub(moment) {
+    this.playing = false;
+    this.show(Math.min(Math.max(moment, this.reach.oldest), this.reach.newest));
+  }
+
+  /**
+   * Scrub forwards or, with a negative number, backwards.
+   * @param {number} seconds
+   */
+  step(seconds) {
+    this.scrub((this.at ?? this.reach.newest) + seconds * this.rate);
+  }
+
+  /** Pause or play on; pausing the present rests on its newest moment. */
+  toggle() {
+    if (this.at === null) this.scrub(this.reach.newest);
+    else {
+      this.playing = !this.playing;
+      this.hooks.moved();
+    }
+  }
+
+  /**
+   * Let time pass until `now`, in milliseconds: a played past runs into the present.
+   * @param {number} now
+   */
+  tick(now) {
+    const passed = Math.min(LONGEST_TICK, (now - this.tickedAt) / 1000);
+    this.tickedAt = now;
+    if (this.at === null || !this.playing || this.awaiting) return;
+    const next = Math.max(this.at, this.reach.oldest) + passed * this.rate * this.speed;
+    if (next >= this.reach.newest) this.goLive();
+    else this.show(next);
+  }
+
+  /**
+   * Whether poses of moment `at` (null: the present) are those looked at. Late ones are not.
+   * @param {number | null} at
+   */
+  accepts(at) {
+    if ((at === null) !== (this.at === null)) return false;
+    this.awaiting = false;
+    return true;
+  }
+
+  /** @param {number | null} at */
+  show(at) {
+    this.at = at;
+    this.awaiting = at !== null;
+    this.hooks.ask(at);
+    this.hooks.moved();
+  }
+
+  /** Poses of a past moment will come once more: play waits for them. */
+  awaitAgain() {
+    this.awaiting = this.at !== null;
+  }
+
+  /** The connection has ended: what was requested will not come. */
+  lost() {
+    this.awaiting = false;
+  }
+}

@@ -1,0 +1,30 @@
+"""How the terminal app reads its keys: what is typed and is no text is dropped."""
+
+from typing import Any
+
+from textual.driver import Driver
+
+
+def tolerant(driver: type[Driver]) -> type[Driver]:
+    """A driver that reads on after bytes that are no UTF-8, where it reads bytes itself.
+
+    Textual's own takes them for a failure of the app: a terminal of another encoding, or a
+    cat on the keyboard, would end it with a traceback.
+
+    Args:
+        driver: What Textual takes on this platform; that of Windows has no bytes to decode.
+    """
+    if not hasattr(driver, "run_input_thread"):
+        return driver
+    base: Any = driver
+
+    class TolerantDriver(base):  # type: ignore[misc]
+        def run_input_thread(self) -> None:
+            while True:
+                try:
+                    super().run_input_thread()
+                except UnicodeDecodeError:
+                    continue
+                return
+
+    return TolerantDriver

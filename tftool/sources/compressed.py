@@ -1,0 +1,131 @@
+"""Pieces of a recording unpacked, within bounds: what is declared is checked before it is made."""
+
+import bz2
+from typing import TYPE_CHECKING, Any, Final
+
+from tftool.errors import InputError, UsageError
+
+if TYPE_CHECKING:
+    from types import ModuleType
+
+LARGEST: Final = 1 << 30
+"""Bytes of the largest piece that is unpacked."""
+
+MOST_GAIN: Final = 1100
+"""How many times larger a piece may become; what we know of stays below."""
+
+_SLACK: Final = 1 << 20
+
+
+def unpack(method: str, packed: bytes, size: int) -> bytes:
+    """Unpack a piece whose size is known.
+
+    Args:
+        method: "", "none", "zstd", "lz4" or "bz2", as the container writes it.
+        packed: Its bytes in the file.
+        size: How many it says it will be.
+
+    Raises:
+        InputError: If it says too much, is damaged, or becomes another size.
+        UsageError: If what it takes is not installed.
+    """
+    if method in ("", "none"):
+        if len(packed) != size:
+            raise InputError(f"{len(packed)} bytes are there where {size} are announced")
+        return packed
+    check_size(len(packed), size)
+    try:
+        found = _whole(method, packed, size)
+    except (InputError, UsageError, MemoryError):
+        raise
+    except Exception as error:
+        raise InputError(f"its {method} data is damaged ({error})") from error
+    if len(found) != size:
+        raise InputError(f"its {method} data gives {len(found)} bytes where {size} are announced")
+    return found
+
+
+def unpack_beginning(method: str, packed: bytes, size: int) -> bytes:
+    """Unpack as much as there is of a piece that is cut or damaged; may be nothing."""
+    size = min(size, LARGEST, MOST_GAIN * len(packed) + _SLACK)
+    if method in ("", "none"):
+        return packed[:size]
+    try:
+        stream = _stream(method)
+    except InputError:
+        return b""
+    found = bytearray()
+    # In small steps: of the step in which it breaks, nothing comes out.
+    step = 4096
+    for start in range(0, len(packed), step):
+        try:
+            found += stream.decompress(packed[start : start + step])
+        except Exception:
+            break
+        if len(found) >= size or getattr(stream, "eof", False):
+            break
+    return bytes(found[:size])
+
+
+def check_size(packed: int, size: int) -> None:
+    """Refuse a size that nothing honest declares.
+
+    Raises:
+        InputError: If it is one.
+    """
+    if size > LARGEST or size > MOST_GAIN * packed + _SLACK:
+        raise InputError(
+            f"{packed} bytes announce {size} unpacked, more than is plausible "
+            f"(at most {LARGEST}, and {MOST_GAIN} times)"
+        )
+
+
+def zstandard() -> "ModuleType":
+    """The module that unpacks zstd."""
+    try:
+        import zstandard
+    except ImportError:
+        raise _missing("zstd") from None
+    return zstandard
+
+
+def _lz4() -> Any:
+    try:
+        import lz4.frame
+    except ImportError:
+        raise _missing("lz4") from None
+    return lz4.frame
+
+
+def _missing(method: str) -> UsageError:
+    return UsageError(
+        f"This recording is compressed with {method}, which needs an extra: "
+        "pip install 'tftool-tf2[recordings]'"
+    )
+
+
+def _whole(method: str, packed: bytes, size: int) -> bytes:
+    if method == "zstd":
+        module = zstandard()
+        declared = module.frame_content_size(packed)
+        if declared not in (-1, size):
+            raise InputError(f"its zstd data announces {declared} bytes, and the file {size}")
+        found: bytes = module.ZstdDecompressor().decompress(packed, max_output_size=size)
+        return found
+    if method == "lz4":
+        # One byte more than wanted shows whether there is more.
+        unpacked: bytes = _lz4().LZ4FrameDecompressor().decompress(packed, max_length=size + 1)
+        return unpacked
+    if method == "bz2":
+        return bz2.BZ2Decompressor().decompress(packed, max_length=size + 1)
+    raise InputError(f"it is compressed in a way not known here ({method!r})")
+
+
+def _stream(method: str) -> Any:
+    if method == "zstd":
+        return zstandard().ZstdDecompressor().decompressobj()
+    if method == "lz4":
+        return _lz4().LZ4FrameDecompressor()
+    if method == "bz2":
+        return bz2.BZ2Decompressor()
+    raise InputError(f"it is compressed in a way not known here ({method!r})")

@@ -1,0 +1,169 @@
+"""What each container gives its reader: streams of messages, in pieces of its bytes."""
+
+import os
+import re
+from collections.abc import Collection, Iterator
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Final, Protocol
+
+from tftool.errors import InputError
+from tftool.sources.columns import Batch
+from tftool.sources.contract import Progress
+from tftool.stamps import Stamp
+
+MOST_STREAMS: Final = 65_536
+"""Streams of one recording; those beyond are left out, and that is told."""
+
+LATEST_STAMP: Final = 2**63 - 1
+
+TRANSIENT_LOCAL: Final = "transient_local"
+
+_OFFER = re.compile(r"(durability|reliability):\s*([\w\"']+)")
+_LONGEST_OFFERS = 100_000
+_WORDS = {
+    "durability": {"1": TRANSIENT_LOCAL, "2": "volatile"},
+    "reliability": {"1": "reliable", "2": "best_effort"},
+}
+
+
+@dataclass(frozen=True, slots=True)
+class Offers:
+    """What publishers of a topic offered, as rosbag2 writes it beside a topic.
+
+    Attributes:
+        durability: "transient_local" if any offers it, "volatile", or empty if unknown.
+        reliability: "reliable" if any offers it, "best_effort", or empty.
+        count: How many offers were noted.
+    """
+
+    durability: str = ""
+    reliability: str = ""
+    count: int = 0
+
+
+def offers_of(text: str) -> Offers:
+    """What a text of QoS profiles says: in numbers up to rosbag2's version 8, then in words."""
+    found: dict[str, list[str]] = {"durability": [], "reliability": []}
+    for policy, word in _OFFER.findall(text[:_LONGEST_OFFERS]):
+        plain = word.strip("\"'")
+        found[policy].append(_WORDS[policy].get(plain, plain))
+
+    def best(policy: str, wanted: str, other: str) -> str:
+        words = found[policy]
+        return wanted if wanted in words else other if other in words else ""
+
+    return Offers(
+        best("durability", TRANSIENT_LOCAL, "volatile"),
+        best("reliability", "reliable", "best_effort"),
+        len(found["durability"]),
+    )
+
+
+@dataclass(frozen=True, slots=True)
+class Stream:
+    """One stream of messages: a channel, a row of `topics`, a connection.
+
+    Attributes:
+        topic: As recorded.
+        type: As recorded.
+        encoding: How its messages are written: "cdr", "ros1", "json", "protobuf".
+        definition: The type's definition as text; empty where there is none.
+        node: Who publishes; empty where that is not recorded.
+        offers: What was offered to subscribers.
+    """
+
+    topic: str
+    type: str
+    encoding: str
+    definition: str = ""
+    node: str = ""
+    offers: Offers = Offers()
+
+
+class Container(Protocol):
+    """One file of a recording, or several read as one.
+
+    Attributes:
+        kind: In words.
+        size: Bytes.
+        start: Log time of the first message; 0 where there is none.
+        end: Of the last.
+        streams: Its streams; their numbers in a batch are places in it.
+    """
+
+    kind: str
+    size: int
+    start: Stamp
+    end: Stamp
+    streams: list[Stream]
+
+    @property
+    def counts(self) -> list[int]:
+        """How many messages each stream has."""
+
+    @property
+    def damage(self) -> list[str]:
+        """What is wrong with it, as sentences; reading may add to them."""
+
+    def batches(
+        self, wanted: Collection[int], progress: Progress | None = None, head: int | None = None
+    ) -> Iterator[Batch]:
+        """The messages of some streams, in the order of the recording.
+
+        Args:
+            wanted: Numbers of streams.
+            progress: Is told how far it has come.
+            head: If only so many bytes of each message matter; more may come.
+        """
+
+    def close(self) -> None:
+        """Close the file."""
+
+
+class File:
+    """A file read at places, never beyond the end it had when it was opened.
+
+    Attributes:
+        path: Where it is.
+        size: Bytes when it was opened; it may grow while it is read.
+        read: Bytes read so far.
+    """
+
+    def __init__(self, path: Path) -> None:
+        """Open it.
+
+        Raises:
+            OSError: If it cannot be.
+        """
+        self.path = path
+        self._file = path.open("rb", buffering=0)
+        self.size = os.fstat(self._file.fileno()).st_size
+        self.read = 0
+
+    def at(self, place: int, count: int) -> bytes:
+        """So many bytes from a place on.
+
+        Raises:
+            InputError: If the file does not have them.
+        """
+        if count < 0 or place < 0 or place + count > self.size:
+            raise InputError(
+                f"{count} bytes at byte {place} lie beyond the file's end ({self.size})"
+            )
+        found = os.pread(self._file.fileno(), count, place)
+        while len(found) < count:
+            more = os.pread(self._file.fileno(), count - len(found), place + len(found))
+            if not more:
+                raise InputError(f"the file ends at byte {place + len(found)}: it was shortened")
+            found += more
+        self.read += count
+        return found
+
+    def up_to(self, place: int, count: int) -> bytes:
+        """At most so many bytes from a place on; fewer at the end of the file."""
+        return self.at(place, max(0, min(count, self.size - place)))
+
+    def close(self) -> None:
+        """Close it."""
+        self._file.close()

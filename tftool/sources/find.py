@@ -1,0 +1,239 @@
+"""Which kind of source a word on the command line names: decided by content, never by suffix.
+
+Only names, sizes and the first bytes are looked at; whoever reads the source finds out more.
+"""
+
+import glob
+import os
+import stat
+from dataclasses import dataclass
+from enum import Enum
+from pathlib import Path
+
+from tftool.errors import InputError
+
+MCAP_MAGIC = b"\x89MCAP0\r\n"
+SQLITE_MAGIC = b"SQLite format 3\x00"
+ROS1_MAGIC = b"#ROSBAG V2.0\n"
+ZSTD_MAGIC = b"\x28\xb5\x2f\xfd"
+METADATA = "metadata.yaml"
+"""What rosbag2 calls the description beside its files."""
+
+MOST_FILES = 10_000
+"""Files of one folder or glob that are looked at."""
+
+_HEAD = 4096
+_MCAP_MANGLED = (b"\x89MCAP0\n", b"\x89MCAP0\r\r\n")
+_OLD_BAG = b"#ROSRECORD"
+_LFS = b"version https://git-lfs"
+_OTHERS = {
+    b"\x1f\x8b": "a gzip archive: unpack it first (gunzip)",
+    b"BZh": "a bzip2 archive: unpack it first (bunzip2)",
+    b"\x04\x22\x4d\x18": "an lz4 archive: unpack it first (lz4 -d)",
+    b"PK\x03\x04": "a zip archive: unpack it first (unzip)",
+    b"\xfd7zXZ\x00": "an xz archive: unpack it first (unxz)",
+    b"RRF2": "a recording of Rerun, which is not read here",
+    b"\x7fELF": "a program",
+    b"%PDF": "a PDF",
+    b"\x89PNG": "a picture",
+}
+
+
+class Kind(Enum):
+    """What a source is, in words."""
+
+    SCENARIO = "scenario"
+    DESCRIPTION = "robot description"
+    MCAP = "MCAP"
+    SQLITE = "rosbag2 (sqlite3)"
+    ROS1 = "ROS 1 bag"
+    ZSTD = "compressed file"
+    ROSBAG2 = "rosbag2"
+    SEVERAL = "several recordings"
+
+    @property
+    def is_recording(self) -> bool:
+        """Whether `open_recording` reads it."""
+        return self not in (Kind.SCENARIO, Kind.DESCRIPTION)
+
+
+_RECORDINGS = (Kind.MCAP, Kind.SQLITE, Kind.ROS1, Kind.ZSTD)
+
+
+@dataclass(frozen=True, slots=True)
+class Found:
+    """What a word names.
+
+    Attributes:
+        name: The word.
+        kind: What it is. ROSBAG2 is a folder with rosbag2's metadata.
+        paths: The file or the folder; of SEVERAL, each of its recordings in the order of
+            their names, files and folders.
+    """
+
+    name: str
+    kind: Kind
+    paths: tuple[Path, ...]
+
+
+def names_a_path(word: str) -> bool:
+    """Whether a word names something in the file system: a file, a folder, a glob that fits."""
+    try:
+        return os.path.lexists(word) or bool(_globbed(word))
+    except ValueError:
+        return False  # a zero character
+
+
+def find(word: str) -> Found:
+    """What a path or a glob names.
+
+    Raises:
+        InputError: If there is nothing, or nothing we read; it says what is there instead.
+    """
+    path = Path(word)
+    try:
+        if not path.exists():
+            matches = _globbed(word)
+            if matches:
+                return _several(word, matches)
+            if path.is_symlink():
+                raise InputError(f"'{word}' is a link to nothing: {os.readlink(path)}")
+            raise InputError(f"There is no file or folder '{word}'.")
+        if path.is_dir():
+            return _folder(word, path)
+        if path.name == METADATA and _is_metadata(path):
+            return Found(word, Kind.ROSBAG2, (path.parent,))
+        return Found(word, kind_of_file(path), (path,))
+    except PermissionError as error:
+        raise InputError(
+            f"'{error.filename or word}' may not be read: permission denied."
+        ) from None
+    except (OSError, ValueError) as error:
+        reason = getattr(error, "strerror", None) or error
+        raise InputError(f"'{word}' cannot be read: {reason}") from error
+
+
+def kind_of_file(path: Path) -> Kind:
+    """What one file is, by its first bytes.
+
+    Raises:
+        InputError: If it is empty, or nothing we read.
+        OSError: If it cannot be read.
+    """
+    mode = path.stat().st_mode
+    if not stat.S_ISREG(mode):
+        what = "a pipe" if stat.S_ISFIFO(mode) else "a device"
+        raise InputError(f"'{path}' is {what}, which cannot be searched: save it to a file first.")
+    with path.open("rb") as file:
+        head = file.read(_HEAD)
+    if not head:
+        raise InputError(f"'{path}' is an empty file (0 bytes): nothing was recorded.")
+    for magic, kind in (
+        (MCAP_MAGIC, Kind.MCAP),
+        (SQLITE_MAGIC, Kind.SQLITE),
+        (ROS1_MAGIC, Kind.ROS1),
+        (ZSTD_MAGIC, Kind.ZSTD),
+    ):
+        if head.startswith(magic):
+            return kind
+    if head.startswith(_MCAP_MANGLED):
+        raise InputError(
+            f"'{path}' is an MCAP file whose line ends were converted (git without "
+            "'*.mcap binary' in .gitattributes?): it cannot be repaired, fetch it again."
+        )
+    if head.startswith(_OLD_BAG):
+        version = head[1:16].split(b"\n")[0].decode("ascii", "replace")
+        raise InputError(
+            f"'{path}' is a bag of ROS's early days ({version}): 'rosbag fix' of ROS 1 "
+            "turns it into one of version 2.0."
+        )
+    if head.startswith(_LFS):
+        raise InputError(
+            f"'{path}' is only git's pointer to a large file: 'git lfs pull' fetches the file."
+        )
+    for magic, what in _OTHERS.items():
+        if head.startswith(magic):
+            raise InputError(f"'{path}' is {what}.")
+    return _kind_of_text(path, head)
+
+
+def _kind_of_text(path: Path, head: bytes) -> Kind:
+    text = head
+    if text.startswith((b"\xff\xfe", b"\xfe\xff")):
+        text = head.decode("utf-16", "replace").encode()
+    if b"\x00" in text:
+        raise InputError(
+            f"'{path}' is neither a recording (MCAP, rosbag2, ROS 1 bag), nor a robot "
+            "description (URDF, xacro), nor a scenario (YAML)."
+        )
+    start = text.removeprefix(b"\xef\xbb\xbf").lstrip()
+    return Kind.DESCRIPTION if start.startswith(b"<") else Kind.SCENARIO
+
+
+def _is_metadata(path: Path) -> bool:
+    with path.open("rb") as file:
+        return b"rosbag2_bagfile_information" in file.read(_HEAD)
+
+
+def _folder(word: str, path: Path) -> Found:
+    """What a folder holds: one recording of rosbag2, or several recordings."""
+    if (path / METADATA).exists():
+        return Found(word, Kind.ROSBAG2, (path,))
+    entries = sorted(path.iterdir())
+    found = _recordings(entries)
+    if not found:
+        raise InputError(
+            f"No recording (MCAP, rosbag2, ROS 1 bag) is in the folder '{word}', "
+            f"which has {len(entries)} {'entry' if len(entries) == 1 else 'entries'}."
+        )
+    kinds = {kind for _, kind in found}
+    paths = tuple(one for one, _ in found)
+    if len(found) == 1:
+        return Found(word, found[0][1], paths)
+    # The parts of one recording whose metadata is lost, else recordings of their own.
+    is_split = kinds in ({Kind.SQLITE}, {Kind.MCAP}) and len({_stem(one) for one in paths}) == 1
+    return Found(word, Kind.ROSBAG2, (path,)) if is_split else Found(word, Kind.SEVERAL, paths)
+
+
+def _several(word: str, matches: list[str]) -> Found:
+    found = _recordings([Path(match) for match in matches])
+    if not found:
+        raise InputError(
+            f"None of the {len(matches)} files that '{word}' names is a recording "
+            "(MCAP, rosbag2, ROS 1 bag)."
+        )
+    if len(found) == 1:
+        return Found(word, found[0][1], (found[0][0],))
+    return Found(word, Kind.SEVERAL, tuple(one for one, _ in found))
+
+
+def _recordings(entries: list[Path]) -> list[tuple[Path, Kind]]:
+    """Those of many files and folders that are recordings."""
+    if len(entries) > MOST_FILES:
+        raise InputError(
+            f"{len(entries)} files are more than are opened at once ({MOST_FILES}): name fewer."
+        )
+    found = []
+    for entry in entries:
+        if entry.is_dir():
+            if (entry / METADATA).exists():
+                found.append((entry, Kind.ROSBAG2))
+            continue
+        try:
+            kind = kind_of_file(entry)
+        except InputError:
+            continue
+        if kind in _RECORDINGS:
+            found.append((entry, kind))
+    return found
+
+
+def _stem(path: Path) -> str:
+    """The name that all parts of a split recording share: `run_0.mcap`, `run_1.mcap`."""
+    return path.name.partition(".")[0].rstrip("0123456789")
+
+
+def _globbed(word: str) -> list[str]:
+    if not glob.has_magic(word):
+        return []
+    return sorted(glob.glob(word))

@@ -1,0 +1,545 @@
+"""MCAP, by its index where there is one, else from front to back up to the damage.
+
+Source: the MCAP format specification, version 0.
+"""
+
+import struct
+from array import array
+from collections.abc import Collection, Iterator
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Final
+
+import numpy as np
+
+from tftool.errors import InputError
+from tftool.sources.columns import Batch, words_at
+from tftool.sources.compressed import unpack, unpack_beginning
+from tftool.sources.container import LATEST_STAMP, MOST_STREAMS, File, Offers, Stream, offers_of
+from tftool.sources.contract import Indexes, Progress, Stamps
+from tftool.sources.find import MCAP_MAGIC
+
+_FOOTER: Final = 0x02
+_SCHEMA: Final = 0x03
+_CHANNEL: Final = 0x04
+_MESSAGE: Final = 0x05
+_CHUNK: Final = 0x06
+_MESSAGE_INDEX: Final = 0x07
+_CHUNK_INDEX: Final = 0x08
+_STATISTICS: Final = 0x0B
+_DATA_END: Final = 0x0F
+
+_RECORD = struct.Struct("<BQ")
+_CHUNK_HEAD = struct.Struct("<QQQII")
+_MESSAGE_HEAD = struct.Struct("<HIQQ")
+_U16, _U32, _U64 = struct.Struct("<H"), struct.Struct("<I"), struct.Struct("<Q")
+_ENTRY = struct.Struct("<HQ")
+
+_IN_CHUNK = 31  # what lies before a message's payload: 9 of the record, 22 of the message
+_FOOTER_SIZE = 37
+_LARGEST_SUMMARY = 1 << 30
+_SPARSE = 4096  # bytes that one message more is worth when reading them singly
+_BLOCK = 1 << 18
+
+
+@dataclass(slots=True, eq=False)
+class _Chunk:
+    """One chunk, and where its messages lie.
+
+    Attributes:
+        place: Where its records begin in the file, packed.
+        packed: Bytes of them there.
+        size: Bytes of them unpacked.
+        method: How they are packed.
+        start: Log time of its first message.
+        end: Of its last.
+        indexes: For each channel where its message index lies in the file.
+        walked: In their place, where there is none: channel, log time and place of each
+            message, found by walking.
+        cut: Whether the file ends within it.
+    """
+
+    place: int
+    packed: int
+    size: int
+    method: str
+    start: int
+    end: int
+    indexes: dict[int, int] = field(default_factory=dict)
+    walked: "_Messages | None" = None
+    cut: bool = False
+
+
+class _Messages:
+    """Messages that were found by walking, as columns."""
+
+    __slots__ = ("channels", "log_times", "places")
+
+    def __init__(self) -> None:
+        self.channels = array("H")
+        self.log_times = array("q")
+        self.places = array("q")
+
+    def append(self, channel: int, log_time: int, place: int) -> None:
+        self.channels.append(channel)
+        self.log_times.append(min(log_time, LATEST_STAMP))
+        self.places.append(place)
+
+
+class Mcap:
+    """An MCAP file; see `Container`."""
+
+    kind = "MCAP"
+
+    def __init__(self, path: Path) -> None:
+        """Open it and find out what is in it.
+
+        Raises:
+            InputError: If nothing of it can be read.
+            OSError: If the file cannot be opened.
+        """
+        self._file = File(path)
+        self.size = self._file.size
+        self.start = self.end = 0
+        self.streams: list[Stream] = []
+        self.counts: list[int] = []
+        self.damage: list[str] = []
+        self.profile = ""
+        self._schemas: dict[int, tuple[str, str, bytes]] = {}
+        self._numbers: dict[int, int] = {}  # of a channel: its stream
+        self._chunks: list[_Chunk] = []
+        self._loose = _Messages()
+        try:
+            self._open(path)
+        except BaseException:
+            self.close()
+            raise
+
+    def _open(self, path: Path) -> None:
+        """Find out what is in it, by its index or without."""
+        if self._file.up_to(0, len(MCAP_MAGIC)) != MCAP_MAGIC:
+            raise InputError(f"'{path}' is no MCAP file.")
+        try:
+            complete = self._read_summary()
+        except (InputError, struct.error, UnicodeDecodeError) as error:
+            complete = False
+            self.damage.append(f"Its summary cannot be read ({_reason(error)}).")
+        if not complete:
+            self._scan()
+
+    @property
+    def bytes_read(self) -> int:
+        """How many bytes of the file have been read so far."""
+        return self._file.read
+
+    def close(self) -> None:
+        """Close the file."""
+        self._file.close()
+
+    # What is in it
+
+    def _read_summary(self) -> bool:
+        """Take what the summary tells; whether that is all there is to know."""
+        size = self.size
+        if size < len(MCAP_MAGIC) + _FOOTER_SIZE:
+            return False
+        tail = self._file.at(size - _FOOTER_SIZE, _FOOTER_SIZE)
+        if not tail.endswith(MCAP_MAGIC) or tail[0] != _FOOTER:
+            self.damage.append("The recording was not closed.")
+            return False
+        (begin,) = _U64.unpack_from(tail, 9)
+        if begin == 0:
+            return False
+        end = size - _FOOTER_SIZE
+        if not len(MCAP_MAGIC) <= begin <= end or end - begin > _LARGEST_SUMMARY:
+            raise InputError(f"it should begin at byte {begin}")
+        summary = self._file.at(begin, end - begin)
+        chunks: list[_Chunk] = []
+        counts: dict[int, int] = {}
+        total, span = 0, (0, 0)
+        has_statistics = False
+        for code, first, last in _records(summary):
+            if code == _SCHEMA:
+                self._take_schema(summary[first:last])
+            elif code == _CHANNEL:
+                self._take_channel(summary[first:last])
+            elif code == _CHUNK_INDEX:
+                chunks.append(_chunk_of_index(summary[first:last], size))
+            elif code == _STATISTICS:
+                has_statistics = True
+                (total,) = _U64.unpack_from(summary, first)
+                span = struct.unpack_from("<QQ", summary, first + 26)
+                counts = _entries(summary, first + 42, last)
+        if not chunks and (total or not has_statistics):
+            # Messages outside chunks stand in no index.
+            self._forget()
+            return False
+        for channel, count in counts.items():
+            if channel in self._numbers:
+                self.counts[self._numbers[channel]] += count
+        if not has_statistics:
+            span = min(one.start for one in chunks), max(one.end for one in chunks)
+        self.start, self.end = (min(moment, LATEST_STAMP) for moment in span)
+        self._chunks = sorted(chunks, key=lambda one: one.place)
+        if not has_statistics:
+            for chunk in chunks:
+                self._count(chunk)
+        return True
+
+    def _forget(self) -> None:
+        self.streams.clear()
+        self.counts.clear()
+        self._numbers.clear()
+
+    def _take_schema(self, body: bytes) -> None:
+        (number,) = _U16.unpack_from(body)
+        name, place = _text(body, 2)
+        encoding, place = _text(body, place)
+        (length,) = _U32.unpack_from(body, place)
+        if len(self._schemas) < MOST_STREAMS:
+            self._schemas[number] = (name, encoding, body[place + 4 : place + 4 + length])
+
+    def _take_channel(self, body: bytes) -> None:
+        channel, schema = struct.unpack_from("<HH", body)
+        if channel in self._numbers:
+            return
+        topic, place = _text(body, 4)
+        encoding, place = _text(body, place)
+        metadata = _strings(body, place)
+        name, kind, data = self._schemas.get(schema, ("", "", b""))
+        definition = ""
+        if kind in ("ros2msg", "ros2idl", "ros1msg", "jsonschema"):
+            definition = data.decode("utf-8", "backslashreplace")
+        node = metadata.get("callerid", "")
+        offers = offers_of(metadata.get("offered_qos_profiles", ""))
+        if metadata.get("latching") == "1":
+            offers = Offers("transient_local", "", 1)
+        self._numbers[channel] = len(self.streams)
+        self.streams.append(Stream(topic, name, encoding, definition, node, offers))
+        self.counts.append(0)
+
+    def _count(self, chunk: _Chunk) -> None:
+        """Count a chunk's messages by its message indexes' lengths."""
+        for channel, place in chunk.indexes.items():
+            number = self._numbers.get(channel)
+            if number is None:
+                continue
+            try:
+                self.counts[number] += len(self._pairs(channel, place))
+            except InputError as error:
+                self._note(f"A message index cannot be read ({error}).")
+
+    # From front to back
+
+    def _scan(self) -> None:
+        """Find chunks and messages record by record, up to the end or the damage."""
+        self._forget()
+        self._schemas.clear()
+        file, size = self._file, self.size
+        position, block, base = len(MCAP_MAGIC), b"", 0
+        ended = False
+        while position + 9 <= size:
+            if not base <= position <= base + len(block) - 64:
+                base, block = position, file.up_to(position, _BLOCK)
+            code, length = _RECORD.unpack_from(block, position - base)
+            body = position + 9
+            whole = body + length <= size
+            if code == 0 or (not whole and code not in (_CHUNK, _MESSAGE)):
+                break
+            if code in (_FOOTER, _DATA_END):
+                ended = True
+                break
+            try:
+                if code == _CHUNK:
+                    self._take_chunk(body, min(length, size - body), not whole)
+                elif code == _MESSAGE and whole:
+                    if body - base + 22 > len(block):
+                        base, block = position, file.up_to(position, _BLOCK)
+                    channel, _, log_time, _ = _MESSAGE_HEAD.unpack_from(block, body - base)
+                    self._loose.append(channel, log_time, position)
+                elif code == _MESSAGE_INDEX and self._chunks and length >= 6:
+                    (channel,) = _U16.unpack(file.at(body, 2))
+                    self._chunks[-1].indexes[channel] = position
+                elif code == _SCHEMA:
+                    self._take_schema(file.at(body, length))
+                elif code == _CHANNEL:
+                    self._take_channel(file.at(body, length))
+            except (InputError, struct.error) as error:
+                self._note(f"A record at byte {position} cannot be read ({_reason(error)}).")
+            if not whole:
+                break
+            position = body + length
+        for chunk in self._chunks:
+            # A chunk's own records tell of channels that have not come up before.
+            if not chunk.indexes or not chunk.indexes.keys() <= self._numbers.keys():
+                self._walk(chunk)
+            else:
+                self._count(chunk)
+        for channel in self._loose.channels:
+            if channel in self._numbers:
+                self.counts[self._numbers[channel]] += 1
+        found = sum(self.counts)
+        if not ended:
+            self.damage.append(
+                f"The recording breaks off at byte {position} of {size}: "
+                f"{found} messages were read up to there."
+            )
+        if not found and not self.streams and not ended:
+            raise InputError(
+                f"'{file.path}' is damaged: no message could be read ({self.damage[-1]})"
+            )
+        moments = [moment for one in self._chunks for moment in (one.start, one.end) if moment]
+        moments += [f(self._loose.log_times) for f in (min, max) if self._loose.log_times]
+        if moments:
+            self.start = min(min(moments), LATEST_STAMP)
+            self.end = min(max(moments), LATEST_STAMP)
+
+    def _take_chunk(self, body: int, length: int, cut: bool) -> None:
+        head = self._file.up_to(body, min(length, 256))
+        start, end, size, _, name = _CHUNK_HEAD.unpack_from(head)
+        if name > 64:
+            raise InputError(f"a compression's name announces {name} bytes")
+        method = head[32 : 32 + name].decode("utf-8", "backslashreplace")
+        (packed,) = _U64.unpack_from(head, 32 + name)
+        place = body + 40 + name
+        there = min(packed, body + length - place)
+        self._chunks.append(
+            _Chunk(place, there, size, method, start, end, cut=cut or there < packed)
+        )
+
+    def _walk(self, chunk: _Chunk) -> None:
+        """Walk through a chunk's records; learn its channels, and where its messages are."""
+        found = chunk.walked = _Messages()
+        data = self._unpacked(chunk)
+        numbers, counts = self._numbers, self.counts
+        low, high = LATEST_STAMP, 0
+        try:
+            for code, first, last in _records(data):
+                if code == _MESSAGE:
+                    channel, _, log_time, _ = _MESSAGE_HEAD.unpack_from(data, first)
+                    found.append(channel, log_time, first - 9)
+                    low, high = min(low, log_time), max(high, log_time)
+                    number = numbers.get(channel)
+                    if number is not None:
+                        counts[number] += 1
+                elif code == _SCHEMA:
+                    self._take_schema(data[first:last])
+                elif code == _CHANNEL:
+                    self._take_channel(data[first:last])
+        except (InputError, struct.error) as error:
+            if not chunk.cut:
+                self._note(f"A chunk at byte {chunk.place} is damaged ({_reason(error)}).")
+        if chunk.cut or len(found.places):
+            # What is announced may not have been reached.
+            chunk.start, chunk.end = (low, high) if len(found.places) else (0, 0)
+
+    # Messages
+
+    def batches(
+        self, wanted: Collection[int], progress: Progress | None = None, head: int | None = None
+    ) -> Iterator[Batch]:
+        """The messages of some streams; see `Container`."""
+        channels = np.full(65_536, -1, dtype=np.int32)
+        for channel, number in self._numbers.items():
+            if number in wanted:
+                channels[channel] = number
+        chosen = {channel for channel, number in self._numbers.items() if number in wanted}
+        for chunk in self._chunks:
+            if chunk.walked is not None or not chunk.indexes.keys().isdisjoint(chosen):
+                try:
+                    batch = self._batch(chunk, chosen, channels, head)
+                except (InputError, struct.error) as error:
+                    self._note(f"A chunk at byte {chunk.place} is damaged ({_reason(error)}).")
+                    batch = self._rest_of(chunk, channels)
+                if batch is not None and len(batch):
+                    yield batch
+            if progress is not None:
+                progress(chunk.place + chunk.packed, self.size)
+        yield from self._loose_batches(channels, progress, head)
+
+    def _batch(
+        self, chunk: _Chunk, chosen: set[int], channels: Indexes, head: int | None
+    ) -> Batch | None:
+        if chunk.walked is not None:
+            return self._rest_of(chunk, channels)
+        parts = []
+        for channel, place in chunk.indexes.items():
+            if channel in chosen:
+                pairs = self._pairs(channel, place)
+                if len(pairs):
+                    parts.append((pairs, channel))
+        if not parts:
+            return None
+        pairs = np.concatenate([one for one, _ in parts]) if len(parts) > 1 else parts[0][0]
+        places, log_times = pairs[:, 1], pairs[:, 0]
+        owners = np.concatenate([np.full(len(one), channel) for one, channel in parts])
+        if len(parts) > 1:
+            order = np.argsort(places, kind="stable")
+            places, log_times, owners = places[order], log_times[order], owners[order]
+        if chunk.method in ("", "none") and len(places) * _SPARSE < chunk.packed:
+            return self._sparse(chunk.place + places, channels, head, chunk.place + chunk.packed)
+        data = np.frombuffer(self._unpacked(chunk), dtype=np.uint8)
+        if len(data) < _IN_CHUNK or places.min() < 0 or places.max() > len(data) - _IN_CHUNK:
+            raise InputError("its message index points outside of it")
+        lengths = words_at(data, places + 1, "<i8") - 22
+        told = words_at(data, places + 9, "<u2")
+        if (
+            (data[places] != _MESSAGE).any()
+            or (told != owners).any()
+            or (lengths < 0).any()
+            or (places + _IN_CHUNK + lengths > len(data)).any()
+        ):
+            raise InputError("its message index points at something else")
+        return Batch(data, places + _IN_CHUNK, lengths, log_times, channels[owners])
+
+    def _rest_of(self, chunk: _Chunk, channels: Indexes) -> Batch | None:
+        """What walking finds in a chunk, whatever its index says."""
+        if chunk.walked is None:
+            counts = list(self.counts)
+            self._walk(chunk)
+            self.counts[:] = counts
+        walked = chunk.walked
+        assert walked is not None
+        if not len(walked.places):
+            return None
+        owners = np.frombuffer(walked.channels, dtype=np.uint16)
+        which = np.flatnonzero(channels[owners] >= 0)
+        if not len(which):
+            return None
+        data = np.frombuffer(self._unpacked(chunk), dtype=np.uint8)
+        places = np.frombuffer(walked.places, dtype=np.int64)[which]
+        return Batch(
+            data,
+            places + _IN_CHUNK,
+            words_at(data, places + 1, "<i8") - 22,
+            np.frombuffer(walked.log_times, dtype=np.int64)[which],
+            channels[owners[which]],
+        )
+
+    def _loose_batches(
+        self, channels: Indexes, progress: Progress | None, head: int | None
+    ) -> Iterator[Batch]:
+        """Messages outside chunks."""
+        if not len(self._loose.channels):
+            return
+        owners = np.frombuffer(self._loose.channels, dtype=np.uint16)
+        places = np.frombuffer(self._loose.places, dtype=np.int64)[channels[owners] >= 0]
+        for begin in range(0, len(places), _SPARSE):
+            some = places[begin : begin + _SPARSE]
+            yield self._sparse(some, channels, head, self.size)
+            if progress is not None:
+                progress(int(some[-1]), self.size)
+
+    def _sparse(self, places: Stamps, channels: Indexes, head: int | None, end: int) -> Batch:
+        """Messages read one by one from where they lie in the file."""
+        pieces: list[bytes] = []
+        lengths, log_times, owners = array("q"), array("q"), array("H")
+        most = 1 << 62 if head is None else head + _IN_CHUNK
+        guess = 512
+        for place in places.tolist():
+            piece = self._file.at(place, min(guess, end - place))
+            code, length = _RECORD.unpack_from(piece)
+            channel, _, log_time, _ = _MESSAGE_HEAD.unpack_from(piece, 9)
+            if code != _MESSAGE or length < 22 or place + 9 + length > end:
+                raise InputError("its message index points at something else")
+            whole = min(length + 9, most)
+            if whole > len(piece):
+                piece += self._file.at(place + len(piece), whole - len(piece))
+                guess = min(max(guess, whole + 64), 65_536)
+            pieces.append(piece[:whole])
+            lengths.append(whole - _IN_CHUNK)
+            log_times.append(min(log_time, LATEST_STAMP))
+            owners.append(channel)
+        sizes = np.frombuffer(lengths, dtype=np.int64)
+        starts = np.cumsum(sizes + _IN_CHUNK) - sizes
+        numbers = channels[np.frombuffer(owners, dtype=np.uint16)]
+        data = np.frombuffer(b"".join(pieces), dtype=np.uint8)
+        return Batch(data, starts, sizes, np.frombuffer(log_times, dtype=np.int64), numbers)
+
+    def _pairs(self, channel: int, place: int) -> Stamps:
+        """Log time and place of each message that a message index tells, shape (n, 2)."""
+        head = self._file.at(place, 15)
+        code, length = _RECORD.unpack_from(head)
+        (told,) = _U16.unpack_from(head, 9)
+        (count,) = _U32.unpack_from(head, 11)
+        if code != _MESSAGE_INDEX or told != channel or count > length - 6 or count % 16:
+            raise InputError(f"no message index of its is at byte {place}")
+        return np.frombuffer(self._file.at(place + 15, count), dtype=np.int64).reshape(-1, 2)
+
+    def _unpacked(self, chunk: _Chunk) -> bytes:
+        packed = self._file.at(chunk.place, chunk.packed)
+        if chunk.cut:
+            return unpack_beginning(chunk.method, packed, chunk.size)
+        try:
+            return unpack(chunk.method, packed, chunk.size)
+        except InputError as error:
+            self._note(f"A chunk at byte {chunk.place} is damaged: {error}.")
+            return unpack_beginning(chunk.method, packed, chunk.size)
+
+    def _note(self, damage: str) -> None:
+        if damage not in self.damage and len(self.damage) < 20:
+            self.damage.append(damage)
+
+
+def _records(data: bytes) -> Iterator[tuple[int, int, int]]:
+    """Every record's code, and where its body begins and ends.
+
+    Raises:
+        InputError: At one that goes on behind the end.
+    """
+    position, size = 0, len(data)
+    unpack_from = _RECORD.unpack_from
+    while position + 9 <= size:
+        code, length = unpack_from(data, position)
+        first = position + 9
+        position = first + length
+        if position > size:
+            raise InputError(f"a record announces {length} bytes and {size - first} are there")
+        yield code, first, position
+
+
+def _chunk_of_index(body: bytes, size: int) -> _Chunk:
+    start, end, place, length = struct.unpack_from("<QQQQ", body)
+    (count,) = _U32.unpack_from(body, 32)
+    indexes = _entries(body, 32, len(body))
+    position = 36 + count + 8
+    method, position = _text(body, position)
+    packed, unpacked = struct.unpack_from("<QQ", body, position)
+    records = place + 49 + len(method.encode())
+    if records + packed > size or place + length > size:
+        raise InputError(f"a chunk at byte {place} lies beyond the file's end")
+    return _Chunk(records, packed, unpacked, method, start, end, indexes)
+
+
+def _entries(body: bytes, place: int, end: int) -> dict[int, int]:
+    """A map of channels to numbers."""
+    (length,) = _U32.unpack_from(body, place)
+    place += 4
+    if place + length > end:
+        raise InputError("a map goes on behind its record")
+    return dict(_ENTRY.iter_unpack(body[place : place + length // 10 * 10]))
+
+
+def _strings(body: bytes, place: int) -> dict[str, str]:
+    """A map of texts."""
+    (length,) = _U32.unpack_from(body, place)
+    place += 4
+    end = place + length
+    found: dict[str, str] = {}
+    while place < end and len(found) < 1000:
+        key, place = _text(body, place)
+        found[key], place = _text(body, place)
+    return found
+
+
+def _text(body: bytes, place: int) -> tuple[str, int]:
+    """A text, and where it ends."""
+    (length,) = _U32.unpack_from(body, place)
+    end = place + 4 + length
+    if end > len(body):
+        raise InputError(f"a text announces {length} bytes")
+    return body[place + 4 : end].decode("utf-8", "backslashreplace"), end
+
+
+def _reason(error: Exception) -> str:
+    return "a record is cut" if isinstance(error, struct.error) else str(error)

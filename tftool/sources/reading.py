@@ -1,0 +1,348 @@
+"""A container as a source: which streams hold transforms, and what every container shares."""
+
+import re
+import struct
+from array import array
+from collections.abc import Collection, Iterator
+from typing import Final
+
+import numpy as np
+
+from tftool.errors import InputError
+from tftool.sources.columns import Batch, Cutter, Decoding, Table
+from tftool.sources.compressed import LARGEST, unpack_beginning
+from tftool.sources.container import TRANSIENT_LOCAL, Container, Stream
+from tftool.sources.contract import (
+    Headers,
+    Progress,
+    Publisher,
+    RawMessage,
+    Stamps,
+    Topic,
+    Transforms,
+)
+from tftool.sources.find import ZSTD_MAGIC
+from tftool.sources.foreign import decoder_of, is_foreign
+from tftool.stamps import NANOSECONDS, Stamp
+from tftool.wire.layouts import CDR, ROS1, Layout
+from tftool.wire.rows import LONGEST_NAME
+
+TRANSFORM_TYPES: Final = ("tf2_msgs/TFMessage", "tf/tfMessage")
+"""Types whose messages are lists of transforms, short."""
+
+CLOCK_TYPE: Final = "rosgraph_msgs/Clock"
+
+_LAYOUTS = {"cdr": CDR, "ros1": ROS1}
+_HEAD_BYTES = 16 + LONGEST_NAME
+_COMMENT = re.compile(r"#.*")
+_HEADER_FIELD = re.compile(r"(std_msgs/(msg/)?|roslib/)?Header\s+\w+\s*$")
+
+# Where a recording has no definitions, as rosbag2's sqlite files before 2023.
+_SENSORS = """BatteryState CameraInfo CompressedImage FluidPressure Illuminance Image Imu JointState
+Joy LaserScan MagneticField MultiDOFJointState MultiEchoLaserScan NavSatFix PointCloud PointCloud2
+Range RelativeHumidity Temperature TimeReference"""
+_WITH_HEADER = frozenset(f"sensor_msgs/{name}" for name in _SENSORS.split()) | {
+    "diagnostic_msgs/DiagnosticArray",
+    "nav_msgs/GridCells",
+    "nav_msgs/OccupancyGrid",
+    "nav_msgs/Odometry",
+    "nav_msgs/Path",
+    "stereo_msgs/DisparityImage",
+    "visualization_msgs/Marker",
+}
+
+
+def short_type(name: str) -> str:
+    """A type's name as ROS 2 writes it short: without the "msg" in its middle."""
+    package, middle, last = name.partition("/msg/")
+    return f"{package}/{last}" if middle else name
+
+
+class Recorded:
+    """A recording, opened; see `Source`."""
+
+    def __init__(self, name: str, container: Container) -> None:
+        """Look at what a container holds.
+
+        Args:
+            name: What was opened, as it was given.
+            container: Its files.
+        """
+        self.name = name
+        self._container = container
+        self._notes: list[str] = []
+        self._senders = tuple(
+            Publisher(
+                stream.topic,
+                stream.node,
+                stream.offers.durability,
+                stream.offers.reliability,
+                stream.offers.count,
+            )
+            for stream in container.streams
+        )
+
+    @property
+    def kind(self) -> str:
+        """The container in words."""
+        return self._container.kind
+
+    @property
+    def size(self) -> int:
+        """Bytes of all its files."""
+        return self._container.size
+
+    @property
+    def start(self) -> Stamp:
+        """Log time of the first message; 0 where there is none."""
+        return self._container.start
+
+    @property
+    def end(self) -> Stamp:
+        """Log time of the last message; 0 where there is none."""
+        return self._container.end
+
+    @property
+    def damage(self) -> tuple[str, ...]:
+        """What is missing or wrong with the files, as sentences."""
+        return (*self._container.damage, *self._notes)
+
+    def _note(self, damage: str) -> None:
+        if damage not in self._notes:
+            self._notes.append(damage)
+
+    @property
+    def topics(self) -> tuple[Topic, ...]:
+        """Every topic, by name; each name once."""
+        first: dict[str, Stream] = {}
+        counts: dict[str, int] = {}
+        static: dict[str, bool] = {}
+        for stream, count in zip(self._container.streams, self._container.counts, strict=True):
+            first.setdefault(stream.topic, stream)
+            counts[stream.topic] = counts.get(stream.topic, 0) + count
+            static[stream.topic] = static.get(stream.topic, False) or _is_static(stream)
+        return tuple(
+            Topic(
+                name,
+                short_type(stream.type),
+                stream.encoding,
+                counts[name],
+                stream.definition,
+                _has_transforms(stream),
+                _has_transforms(stream) and static[name],
+            )
+            for name, stream in sorted(first.items())
+        )
+
+    @property
+    def publishers(self) -> tuple[Publisher, ...]:
+        """Every stream of messages, by topic and node."""
+        return tuple(sorted(set(self._senders), key=lambda one: (one.topic, one.node)))
+
+    def transforms(
+        self, topics: Collection[str] | None = None, progress: Progress | None = None
+    ) -> Transforms:
+        """Every transform; of topics that are named, else of all whose type carries them."""
+        table = Table()
+        cutters: dict[tuple[Layout, bool], Cutter] = {}
+        of_stream: dict[int, Cutter | Decoding] = {}
+        for number, stream in enumerate(self._container.streams):
+            if topics is not None and stream.topic not in topics:
+                continue
+            static = _is_static(stream)
+            if _is_tf(stream):
+                key = _LAYOUTS[stream.encoding], static
+                if key not in cutters:
+                    cutters[key] = Cutter(table, *key)
+                of_stream[number] = cutters[key]
+            elif topics is not None or _has_transforms(stream):
+                kind = short_type(stream.type)
+                try:
+                    decode = decoder_of(kind, stream.encoding, stream.definition, stream.topic)
+                except InputError as error:
+                    self._note(f"'{stream.topic}' is left out: {error}")
+                    continue
+                if decode is not None:
+                    of_stream[number] = Decoding(table, decode, static)
+        for batch in self._batches(of_stream.keys(), progress):
+            first = table.note(batch.log_times, batch.senders)
+            numbers = np.arange(first, first + len(batch), dtype=np.int32)
+            for cutter, which in _by_cutter(batch, of_stream):
+                cutter.add(batch.chosen(which), numbers[which])
+        for cutter in cutters.values():
+            cutter.flush()
+        return table.finished(self._senders)
+
+    def headers(
+        self, topics: Collection[str] | None = None, progress: Progress | None = None
+    ) -> dict[str, Headers]:
+        """Headers by topic; of topics that are named, else of all whose type begins with one."""
+        found: dict[str, _Heads] = {}
+        of_stream: dict[int, _Heads] = {}
+        for number, stream in enumerate(self._container.streams):
+            if (topics is None or stream.topic in topics) and _begins_with_header(stream):
+                heads = found.setdefault(stream.topic, _Heads(stream))
+                of_stream[number] = heads
+        for batch in self._batches(of_stream.keys(), progress, _HEAD_BYTES):
+            for number in range(len(batch)):
+                start = int(batch.starts[number])
+                end = start + min(int(batch.lengths[number]), _HEAD_BYTES)
+                head = batch.buffer[start:end].tobytes()
+                log_time = int(batch.log_times[number])
+                of_stream[int(batch.senders[number])].append(head, log_time)
+        return {topic: heads.finished() for topic, heads in sorted(found.items())}
+
+    def clock(self) -> tuple[Stamps, Stamps]:
+        """What `/clock` read and when it was received, nanoseconds, each of shape (n,)."""
+        read, received = array("q"), array("q")
+        numbers = {
+            number: stream
+            for number, stream in enumerate(self._container.streams)
+            if short_type(stream.type) == CLOCK_TYPE and stream.encoding in _LAYOUTS
+        }
+        for batch in self._batches(numbers.keys(), None, 12):
+            for number in range(len(batch)):
+                stream = numbers[int(batch.senders[number])]
+                payload = batch.payload(number)
+                begin = 4 if stream.encoding == "cdr" else 0
+                if len(payload) >= begin + 8:
+                    read.append(_stamp(payload, begin))
+                    received.append(int(batch.log_times[number]))
+        return np.frombuffer(read, dtype=np.int64), np.frombuffer(received, dtype=np.int64)
+
+    def messages(self, topics: Collection[str]) -> Iterator[RawMessage]:
+        """The messages of some topics, in the order of the recording."""
+        numbers = {n for n, one in enumerate(self._container.streams) if one.topic in topics}
+        for batch in self._batches(numbers):
+            for number in range(len(batch)):
+                yield RawMessage(
+                    int(batch.log_times[number]),
+                    self._senders[int(batch.senders[number])],
+                    batch.payload(number),
+                )
+
+    def _batches(
+        self, wanted: Collection[int], progress: Progress | None = None, head: int | None = None
+    ) -> Iterator[Batch]:
+        """The messages of some streams, unpacked where rosbag2 compressed each by itself."""
+        for batch in self._container.batches(wanted, progress, head):
+            start = int(batch.starts[0])
+            if batch.buffer[start : start + 4].tobytes() == ZSTD_MAGIC:
+                yield _unpacked(batch)
+            else:
+                yield batch
+
+    def close(self) -> None:
+        """Close its files."""
+        self._container.close()
+
+
+class _Heads:
+    """One topic's headers while they are read."""
+
+    def __init__(self, stream: Stream) -> None:
+        self._topic = stream.topic
+        self._type = short_type(stream.type)
+        self._is_cdr = stream.encoding == "cdr"
+        self._stamps = array("q")
+        self._log_times = array("q")
+        self._frames = array("i")
+        self._names: dict[str, int] = {}
+        self._known: dict[bytes, int] = {}
+
+    def append(self, head: bytes, log_time: int) -> None:
+        """Take one from the first bytes of its message; a message that is too short is none."""
+        begin = 4  # behind CDR's header, or ROS 1's sequence number
+        order = ">" if self._is_cdr and head[:2] == b"\x00\x00" else "<"
+        if len(head) < begin + 12:
+            return
+        (length,) = struct.unpack_from(f"{order}I", head, begin + 8)
+        name = head[begin + 12 : begin + 12 + length]
+        if len(name) < length:
+            return
+        place = self._known.get(name)
+        if place is None:
+            text = (name.removesuffix(b"\x00") if self._is_cdr else name).decode(
+                "utf-8", "backslashreplace"
+            )
+            place = self._names.setdefault(text, len(self._names))
+            if len(self._known) < 4096:
+                self._known[name] = place
+        self._stamps.append(_stamp(head, begin, order))
+        self._log_times.append(log_time)
+        self._frames.append(place)
+
+    def finished(self) -> Headers:
+        """As columns."""
+        return Headers(
+            self._topic,
+            self._type,
+            np.frombuffer(self._stamps, dtype=np.int64),
+            np.frombuffer(self._log_times, dtype=np.int64),
+            tuple(self._names),
+            np.frombuffer(self._frames, dtype=np.int32),
+        )
+
+
+def _unpacked(batch: Batch) -> Batch:
+    """The same messages, each unpacked by itself; empty where that fails."""
+    pieces = [b""]
+    for number in range(len(batch)):
+        packed = batch.payload(number)
+        pieces.append(unpack_beginning("zstd", packed, LARGEST))
+    lengths = np.fromiter(map(len, pieces[1:]), dtype=np.int64, count=len(batch))
+    starts = np.cumsum(lengths) - lengths
+    buffer = np.frombuffer(b"".join(pieces) or b"\0", dtype=np.uint8)
+    return Batch(buffer, starts, lengths, batch.log_times, batch.senders)
+
+
+def _by_cutter(
+    batch: Batch, of_stream: "dict[int, Cutter | Decoding]"
+) -> "Iterator[tuple[Cutter | Decoding, slice | Stamps]]":
+    """Which of a batch's messages each cutter takes."""
+    first = int(batch.senders[0])
+    if (batch.senders == first).all():
+        yield of_stream[first], slice(None)
+        return
+    owners: dict[Cutter | Decoding, list[int]] = {}
+    for number in np.unique(batch.senders).tolist():
+        owners.setdefault(of_stream[number], []).append(number)
+    for cutter, numbers in owners.items():
+        yield cutter, np.flatnonzero(np.isin(batch.senders, numbers))
+
+
+def _stamp(payload: bytes, place: int, order: str = "<") -> Stamp:
+    sec, nanosec = struct.unpack_from(f"{order}iI", payload, place)
+    return int(sec) * NANOSECONDS + int(nanosec)
+
+
+def _is_tf(stream: Stream) -> bool:
+    return short_type(stream.type) in TRANSFORM_TYPES and stream.encoding in _LAYOUTS
+
+
+def _has_transforms(stream: Stream) -> bool:
+    return _is_tf(stream) or is_foreign(short_type(stream.type), stream.encoding)
+
+
+def _is_static(stream: Stream) -> bool:
+    """Whether transforms of a stream hold at all times: by name, not by a stamp of 0."""
+    last = stream.topic.rpartition("/")[2]
+    if last == "tf_static":
+        return True
+    is_latched = stream.offers.durability == TRANSIENT_LOCAL
+    return is_latched and (stream.encoding == "ros1" or "static" in stream.topic)
+
+
+def _begins_with_header(stream: Stream) -> bool:
+    if stream.encoding not in _LAYOUTS:
+        return False
+    kind = short_type(stream.type)
+    if not stream.definition:
+        return kind in _WITH_HEADER or (
+            kind.startswith("geometry_msgs/") and kind.endswith("Stamped")
+        )
+    for line in stream.definition.splitlines():
+        field = _COMMENT.sub("", line).strip()
+        if field and "=" not in field:
+            return _HEADER_FIELD.fullmatch(field) is not None
+    return False

@@ -1,0 +1,369 @@
+"""A recording to ask: its frames over its whole length, in one buffer."""
+
+import os
+from collections import Counter
+from collections.abc import Iterator
+from dataclasses import dataclass
+from functools import cached_property
+from types import TracebackType
+from typing import Any, Final
+
+import numpy as np
+import numpy.typing as npt
+
+from tftool.errors import InputError
+from tftool.frames.buffer import NO_LIMIT, Buffer
+from tftool.frames.sample import TransformStamped
+from tftool.frames.tree import stripped
+from tftool.geometry.rigid import Transform
+from tftool.interfaces.classes import Interfaces
+from tftool.sources.contract import (
+    SIMULATED_BELOW,
+    Edge,
+    Floats,
+    Headers,
+    Indexes,
+    Progress,
+    Publisher,
+    RawMessage,
+    Source,
+    Stamps,
+    Topic,
+    Transforms,
+)
+from tftool.sources.find import find
+from tftool.sources.reading import Recorded
+from tftool.sources.rosbag2 import open_found
+from tftool.stamps import Stamp
+from tftool.wire.codec import Codec
+from tftool.wire.layouts import CDR, ROS1
+
+MOST_FRAMES: Final = 1 << 18
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class Samples:
+    """Every recorded transform of one child, in the order of its stamps.
+
+    Attributes:
+        stamps: Nanoseconds, shape (n,).
+        parents: What it hung from each time, shape (n,).
+        translations: Metres, shape (n, 3).
+        rotations: Quaternions x y z w as recorded, shape (n, 4).
+        authorities: Who published each: the node where it is recorded, else the topic,
+            shape (n,).
+        log_times: When each was received, nanoseconds, shape (n,).
+        static: Whether each holds at all times, shape (n,).
+    """
+
+    stamps: Stamps
+    parents: npt.NDArray[np.object_]
+    translations: Floats
+    rotations: Floats
+    authorities: npt.NDArray[np.object_]
+    log_times: Stamps
+    static: npt.NDArray[np.bool_]
+
+    def __len__(self) -> int:
+        return len(self.stamps)
+
+
+class Recording:
+    """A recording, opened; `open_recording` makes one. Works in a `with`.
+
+    What it holds is known at once; transforms are read when they are first asked for.
+    """
+
+    def __init__(self, source: Source, progress: Progress | None = None) -> None:
+        """Take a source.
+
+        Args:
+            source: What is read from.
+            progress: Is told how far reading has come.
+        """
+        self.source = source
+        self._progress = progress
+        self._oddities: Counter[str] = Counter()
+
+    def __enter__(self) -> "Recording":
+        return self
+
+    def __exit__(
+        self,
+        kind: type[BaseException] | None,
+        error: BaseException | None,
+        trace: TracebackType | None,
+    ) -> None:
+        self.close()
+
+    def __repr__(self) -> str:
+        return f"<Recording {self.source.name!r}, {self.source.kind}>"
+
+    def close(self) -> None:
+        """Close its files; what was read stays."""
+        self.source.close()
+
+    # What is in it
+
+    @property
+    def name(self) -> str:
+        """What was opened, as it was given."""
+        return self.source.name
+
+    @property
+    def topics(self) -> tuple[Topic, ...]:
+        """Every topic: name, type, number of messages; by name."""
+        return self.source.topics
+
+    @property
+    def publishers(self) -> tuple[Publisher, ...]:
+        """Who publishes what. Names of nodes stand in ROS 1 bags alone."""
+        return self.source.publishers
+
+    @property
+    def damage(self) -> tuple[str, ...]:
+        """What could not be read, as sentences; reading on may find more."""
+        return (*self.source.damage, *self._read_damage())
+
+    def _read_damage(self) -> tuple[str, ...]:
+        return self.transforms.damage if "transforms" in self.__dict__ else ()
+
+    @cached_property
+    def transforms(self) -> Transforms:
+        """Every transform, in columns per edge."""
+        return self.source.transforms(progress=self._progress)
+
+    @property
+    def edges(self) -> tuple[Edge, ...]:
+        """Every pair of parent and child, with its transforms as columns."""
+        return self.transforms.edges
+
+    @cached_property
+    def span(self) -> tuple[Stamp, Stamp]:
+        """First and last stamp of what moves, nanoseconds; log times where nothing does.
+
+        Of a recording with two clocks, those of the clock that most transforms have.
+        """
+        spans: dict[bool, tuple[int, int, int]] = {}
+        for edge in self.edges:
+            if edge.static:
+                continue
+            stamps = edge.stamps
+            for simulated in (False, True):
+                chosen = stamps[(stamps < SIMULATED_BELOW) == simulated]
+                chosen = chosen[chosen > 0]
+                if len(chosen):
+                    count, low, high = spans.get(simulated, (0, 2**63 - 1, 0))
+                    low, high = min(low, int(chosen.min())), max(high, int(chosen.max()))
+                    spans[simulated] = (count + len(chosen), low, high)
+        if not spans:
+            return self.source.start, self.source.end
+        _, low, high = max(spans.values())
+        return low, high
+
+    @property
+    def start(self) -> Stamp:
+        """First stamp of what moves, nanoseconds."""
+        return self.span[0]
+
+    @property
+    def end(self) -> Stamp:
+        """Last stamp of what moves, nanoseconds."""
+        return self.span[1]
+
+    # Asking
+
+    @cached_property
+    def buffer(self) -> Buffer:
+        """All of it, without a limit to its memory: look up at any stamp.
+
+        A static's last value holds at all times. Transforms that tf2 would refuse, or with
+        stamp 0 though they move, are left out; see `oddities`.
+        """
+        oddities = self._oddities
+        buffer = Buffer(NO_LIMIT, log=_silent, max_frames=MOST_FRAMES)
+        transforms = self.transforms
+        moving: dict[str, list[Edge]] = {}
+        static: dict[str, list[Edge]] = {}
+        for edge in transforms.edges:
+            (static if edge.static else moving).setdefault(edge.child, []).append(edge)
+        for child in {**moving, **static}:
+            kinds = [kind[child] for kind in (moving, static) if child in kind]
+            if len(kinds) > 1:
+                oddities[f"'{child}' is sent as static and as moving: what came last counts"] += 1
+            # In tf2 a frame is one or the other, and the last to come wipes the rest.
+            kinds.sort(key=lambda edges: max(map(_last, edges)))
+            for edges in kinds:
+                if edges[0].static:
+                    _set_static(buffer, transforms, edges, oddities)
+                    continue
+                for edge in edges:
+                    _set_moving(buffer, transforms, edge, oddities)
+        return buffer
+
+    @property
+    def oddities(self) -> dict[str, int]:
+        """What the buffer left out or had to choose, as sentences, and how often."""
+        _ = self.buffer
+        return dict(self._oddities)
+
+    def headers(self, topic: str) -> Headers:
+        """The headers of a topic's messages: stamps, log times and frame names as columns.
+
+        Raises:
+            InputError: If there is no such topic, or its messages have no header.
+        """
+        self._topic(topic)
+        found = self.source.headers([topic], self._progress)
+        if topic not in found:
+            raise InputError(f"The messages of '{topic}' do not begin with a header.")
+        return found[topic]
+
+    def samples(self, frame: str) -> Samples:
+        """Every recorded transform of one child frame, as it was recorded.
+
+        Raises:
+            InputError: If it is the child of none.
+        """
+        transforms = self.transforms
+        edges = [edge for edge in transforms.edges if edge.child == stripped(frame)]
+        if not edges:
+            raise InputError(f"No transform of '{frame}' was recorded: {self._children()}.")
+        authorities = np.array([one.authority for one in transforms.publishers], dtype=object)
+        stamps = np.concatenate([edge.stamps for edge in edges])
+        order = np.argsort(stamps, kind="stable")
+        parents = [np.full(len(edge), edge.parent, dtype=object) for edge in edges]
+        senders: Indexes = np.concatenate([transforms.senders_of(edge) for edge in edges])
+        return Samples(
+            stamps[order],
+            np.concatenate(parents)[order],
+            np.concatenate([edge.translations for edge in edges])[order],
+            np.concatenate([edge.rotations for edge in edges])[order],
+            authorities[senders[order]],
+            np.concatenate([transforms.log_times_of(edge) for edge in edges])[order],
+            np.concatenate([np.full(len(edge), edge.static) for edge in edges])[order],
+        )
+
+    def raw_messages(self, topic: str) -> Iterator[RawMessage]:
+        """A topic's messages as they were recorded, one by one.
+
+        Raises:
+            InputError: If there is no such topic.
+        """
+        self._topic(topic)
+        return self.source.messages([topic])
+
+    def messages(self, topic: str) -> Iterator[tuple[Stamp, Any]]:
+        """A topic's messages, decoded one by one by the definition in the recording.
+
+        Returns:
+            For each the moment it was received, nanoseconds, and the message: a class with
+            the definition's fields.
+
+        Raises:
+            InputError: If there is no such topic, or its type or encoding is not known.
+        """
+        found = self._topic(topic)
+        layout = {"cdr": CDR, "ros1": ROS1}.get(found.encoding)
+        if layout is None:
+            raise InputError(
+                f"The messages of '{topic}' are written as '{found.encoding}', which is not "
+                "decoded here: raw_messages gives their bytes."
+            )
+        kind = Interfaces().recorded(found.type, found.definition)
+        decode = Codec(kind, layout).decode
+        return ((raw.log_time, decode(raw.payload)) for raw in self.source.messages([topic]))
+
+    def _topic(self, name: str) -> Topic:
+        for topic in self.topics:
+            if topic.name == name:
+                return topic
+        import difflib
+
+        known = [topic.name for topic in self.topics]
+        near = difflib.get_close_matches(name, known, n=3)
+        hint = f"did you mean {' or '.join(near)}?" if near else f"there are {len(known)} topics."
+        raise InputError(f"No topic '{name}' was recorded; {hint}")
+
+    def _children(self) -> str:
+        children = sorted({edge.child for edge in self.edges})
+        shown = ", ".join(children[:8])
+        return f"there are {shown}{' …' if len(children) > 8 else ''}" if children else "none is"
+
+
+def _set_moving(
+    buffer: Buffer,
+    transforms: Transforms,
+    edge: Edge,
+    oddities: "Counter[str]",
+) -> None:
+    authority = transforms.publishers[int(transforms.senders[edge.messages[-1]])].authority
+    records, stamps = edge.records, edge.stamps
+    if not stamps.all():
+        text = f"'{edge.child}' moves, but has stamp 0: left out, as tf2 takes 0 for the latest"
+        oddities[text] += len(edge) - int(np.count_nonzero(stamps))
+        records = records[stamps != 0]
+    report = buffer.set_records(edge.parent, edge.child, records, authority)
+    if report is not None and not report:
+        for code, rows in report.reasons.items():
+            text = f"{_REFUSED.get(code, code)} ('{edge.child}' in '{edge.parent}')"
+            oddities[text] += len(rows)
+
+
+def _set_static(
+    buffer: Buffer, transforms: Transforms, edges: list[Edge], oddities: "Counter[str]"
+) -> None:
+    """Set the last of a child's statics, whichever parent it names."""
+    edge = max(edges, key=_last)
+    authority = transforms.publishers[int(transforms.senders[edge.messages[-1]])].authority
+    x, y, z = edge.translations[-1].tolist()
+    qx, qy, qz, qw = edge.rotations[-1].tolist()
+    pose = Transform((x, y, z), (qx, qy, qz, qw))
+    sample = TransformStamped(int(edge.stamps[-1]), edge.parent, edge.child, pose)
+    if not buffer.set_transform_static(sample, authority):
+        oddities[f"the static '{edge.child}' in '{edge.parent}' is refused by tf2"] += 1
+    values = sum(len(np.unique(one.records[:, 1:], axis=0)) for one in edges)
+    if values > 1:
+        text = f"'{edge.child}' has {values} different static values: the last one counts"
+        oddities[text] += 1
+
+
+_REFUSED: Final = {
+    "TF_NAN_INPUT": "not a number",
+    "TF_DENORMALIZED_QUATERNION": "a zero quaternion",
+    "TF_SELF_TRANSFORM": "a frame that is its own parent",
+    "TF_NO_CHILD_FRAME_ID": "no child frame",
+    "TF_NO_FRAME_ID": "no parent frame",
+    "TF_TOO_MANY_FRAMES": "too many frames",
+}
+
+
+def _last(edge: Edge) -> int:
+    return int(edge.messages[-1]) if len(edge) else -1
+
+
+def _silent(level: str, text: str) -> None:
+    """What a buffer refuses is counted here instead."""
+
+
+def open_recording(
+    path: "str | os.PathLike[str]", *, progress: Progress | None = None
+) -> Recording:
+    """Open an MCAP file, a rosbag2 recording, a ROS 1 bag, or a folder or glob of several.
+
+    What it is is decided by its content. Damaged files are read up to the damage, and
+    `Recording.damage` says so.
+
+    Args:
+        path: File, folder or glob.
+        progress: Is told how many bytes of how many are read, while they are.
+
+    Raises:
+        InputError: If nothing can be read.
+        UsageError: If it is compressed, and the extra `recordings` is not installed.
+    """
+    name = os.fspath(path)
+    try:
+        return Recording(Recorded(name, open_found(find(name))), progress)
+    except OSError as error:
+        raise InputError(f"'{name}' cannot be read: {error.strerror or error}") from error

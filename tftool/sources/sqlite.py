@@ -1,0 +1,192 @@
+"""rosbag2's sqlite files, read without writing a byte beside them."""
+
+import shutil
+import sqlite3
+import tempfile
+from collections.abc import Collection, Iterator
+from functools import cached_property
+from pathlib import Path
+from typing import Any, Final
+from urllib.parse import quote
+
+import numpy as np
+
+from tftool.errors import InputError
+from tftool.sources.columns import Batch
+from tftool.sources.container import MOST_STREAMS, Stream, offers_of
+from tftool.sources.contract import Progress
+
+_ROWS: Final = 2048  # fetched at a time
+_MOST_COPIED: Final = 1 << 30
+_MOST_GAPS: Final = 40
+_LEAST_HEAD: Final = 4096
+
+
+class Sqlite:
+    """One `.db3` file; see `Container`."""
+
+    kind = "rosbag2 (sqlite3)"
+
+    def __init__(self, path: Path) -> None:
+        """Open it and find out what is in it.
+
+        Raises:
+            InputError: If it is damaged, or no recording.
+            OSError: If it cannot be opened.
+        """
+        self._path = path
+        self.size = path.stat().st_size
+        self.damage: list[str] = []
+        self._copy: tempfile.TemporaryDirectory[str] | None = None
+        self._base = self._open(path)
+        self._ids: list[int] = []
+        self.streams: list[Stream] = []
+        try:
+            self._read_topics()
+            self.start, self.end = self._span()
+        except sqlite3.Error as error:
+            self.close()
+            raise InputError(f"'{path}' cannot be read as a rosbag2 recording: {error}.") from error
+
+    def _open(self, path: Path) -> sqlite3.Connection:
+        log = path.with_name(path.name + "-wal")
+        if log.exists() and log.stat().st_size:
+            # What was recorded last stands only in there. To read it, sqlite writes.
+            if path.stat().st_size + log.stat().st_size <= _MOST_COPIED:
+                self._copy = tempfile.TemporaryDirectory(prefix="tftool-")
+                copied = Path(self._copy.name) / "recording.db3"
+                shutil.copyfile(path, copied)
+                shutil.copyfile(log, copied.with_name("recording.db3-wal"))
+                self.damage.append(
+                    "The recording was not closed: what stands in its write-ahead log is read too."
+                )
+                return _connected(f"file:{quote(str(copied))}?mode=rw")
+            self.damage.append(
+                "The recording was not closed, and its end, in a write-ahead log, is left out: "
+                f"'sqlite3 {path.name} .recover' on a copy brings it in."
+            )
+        # Immutable: no locks, no journal, nothing is made beside it.
+        return _connected(f"file:{quote(str(path))}?mode=ro&immutable=1")
+
+    def close(self) -> None:
+        """Close the file."""
+        self._base.close()
+        if self._copy is not None:
+            self._copy.cleanup()
+
+    def _read_topics(self) -> None:
+        names = {row[1] for row in self._base.execute("pragma table_info(topics)")}
+        if not {"id", "name", "type"} <= names:
+            raise InputError(f"'{self._path}' is a database, but holds no recording of rosbag2.")
+        offers = "offered_qos_profiles" if "offered_qos_profiles" in names else "''"
+        form = "serialization_format" if "serialization_format" in names else "'cdr'"
+        definitions: dict[str, str] = {}
+        tables = {row[0] for row in self._base.execute("select name from sqlite_master")}
+        if "message_definitions" in tables:
+            asked = "select topic_type, encoded_message_definition from message_definitions"
+            definitions = {str(kind): str(text) for kind, text in self._base.execute(asked)}
+        asked = f"select id, name, type, {form}, {offers} from topics order by id"
+        for number, name, kind, encoding, text in self._base.execute(asked):
+            if len(self.streams) >= MOST_STREAMS:
+                self.damage.append(f"Only the first {MOST_STREAMS} topics are read.")
+                break
+            self._ids.append(int(number))
+            self.streams.append(
+                Stream(
+                    str(name),
+                    str(kind),
+                    str(encoding),
+                    definitions.get(str(kind), ""),
+                    "",
+                    offers_of(str(text)),
+                )
+            )
+
+    def _span(self) -> tuple[int, int]:
+        asked = (
+            "select (select min(timestamp) from messages), (select max(timestamp) from messages)"
+        )
+        low, high = self._base.execute(asked).fetchone()
+        return int(low or 0), int(high or 0)
+
+    @cached_property
+    def counts(self) -> list[int]:
+        """How many messages each stream has."""
+        found: dict[int, int] = {}
+        try:
+            found.update(
+                self._base.execute("select topic_id, count(*) from messages group by topic_id")
+            )
+        except sqlite3.Error as error:
+            self._note(error)
+        return [found.get(number, 0) for number in self._ids]
+
+    def batches(
+        self, wanted: Collection[int], progress: Progress | None = None, head: int | None = None
+    ) -> Iterator[Batch]:
+        """The messages of some streams; see `Container`."""
+        if not wanted:
+            return
+        streams = {self._ids[number]: number for number in wanted}
+        # Numbers of its own rows, no text of a stranger's.
+        topics = ",".join(map(str, streams))
+        # Messages that are compressed each by itself take more than their beginning.
+        data = "data" if head is None else f"substr(data, 1, {max(head, _LEAST_HEAD)})"
+        asked = (
+            f"select id, topic_id, timestamp, {data} from messages "
+            f"where id > ? and topic_id in ({topics}) order by id"
+        )
+        last, gap, gaps = -(2**63), 1, 0
+        top = self._last_row() if progress is not None else 0
+        while True:
+            rows: list[Any] = []
+            try:
+                cursor = self._base.execute(asked, (last,))
+                while rows := cursor.fetchmany(_ROWS):
+                    yield _batch(rows, streams)
+                    last, gap = rows[-1][0], 1
+                    if progress is not None:
+                        progress(self.size * last // max(top, 1), self.size)
+                return
+            except sqlite3.Error as error:
+                # Behind a damaged page others may be sound: jump over it, farther each time.
+                self._note(error)
+                gaps += 1
+                if gaps > _MOST_GAPS:
+                    return
+                last, gap = max(last, 0) + gap, gap * 2
+
+    def _last_row(self) -> int:
+        try:
+            return int(self._base.execute("select max(id) from messages").fetchone()[0] or 0)
+        except sqlite3.Error:
+            return 0
+
+    def _note(self, error: sqlite3.Error) -> None:
+        damage = f"A part of its messages cannot be read ({error})."
+        if damage not in self.damage:
+            self.damage.append(damage)
+
+
+def _connected(uri: str) -> sqlite3.Connection:
+    try:
+        base = sqlite3.connect(uri, uri=True, check_same_thread=False)
+    except sqlite3.Error as error:
+        raise InputError(f"The database cannot be opened: {error}.") from error
+    # Texts may be anything.
+    base.text_factory = lambda raw: raw.decode("utf-8", "backslashreplace")
+    return base
+
+
+def _batch(rows: list[Any], streams: dict[int, int]) -> Batch:
+    ids, topics, times, blobs = zip(*rows, strict=True)
+    if not all(type(blob) is bytes for blob in blobs):
+        blobs = tuple(bytes(blob) if isinstance(blob, bytes) else b"" for blob in blobs)
+    lengths = np.fromiter(map(len, blobs), dtype=np.int64, count=len(ids))
+    buffer = np.frombuffer(b"".join(blobs), dtype=np.uint8)
+    starts = np.cumsum(lengths) - lengths
+    if len(streams) == 1:
+        senders = np.full(len(ids), next(iter(streams.values())), dtype=np.int32)
+    else:
+        senders = np.fromiter(map(streams.__getitem__, topics), dtype=np.int32, count=len(ids))
+    return Batch(buffer, starts, lengths, np.array(times, dtype=np.int64), senders)

@@ -1,0 +1,186 @@
+"""What a recording holds, as text and as data."""
+
+from collections.abc import Sequence
+from datetime import UTC, datetime, timedelta
+from typing import Any
+
+from tftool.sources.contract import SIMULATED_BELOW
+from tftool.sources.recording import Recording
+from tftool.sources.summary import EdgeFacts, TreeFacts, edge_facts, oddities, trees
+from tftool.stamps import NANOSECONDS, Duration, Stamp
+from tftool.views.escaping import visible
+
+_EPOCH = datetime(1970, 1, 1, tzinfo=UTC)
+_UNITS = ("bytes", "KB", "MB", "GB", "TB")
+
+
+def as_text(recording: Recording) -> str:
+    """Everything about a recording, in lines."""
+    source = recording.source
+    edges = edge_facts(recording.transforms)
+    topics = recording.topics
+    count = sum(topic.count for topic in topics)
+    span = source.end - source.start
+    lines = [
+        f"{visible(recording.name)}: {recording.source.kind}, {_size(source.size)}",
+        f"{count} messages on {len(topics)} topics, "
+        f"{len(recording.transforms)} transforms of {len(edges)} edges",
+    ]
+    if count:
+        lines.append(
+            f"Received from {_moment(source.start)} to {_moment(source.end)}: {_seconds(span)}"
+        )
+    if edges:
+        lines.append(
+            f"Stamps   from {_moment(recording.start)} to {_moment(recording.end)}: "
+            f"{_seconds(recording.end - recording.start)}"
+        )
+    lines += ["", "Topics"]
+    lines += table(
+        ("name", "type", "messages", "rate", "publishers"),
+        [
+            (
+                visible(topic.name),
+                visible(topic.type),
+                str(topic.count),
+                f"{(topic.count - 1) * NANOSECONDS / span:.1f} Hz"
+                if topic.count > 1 and span
+                else "-",
+                _few(sorted({one.node for one in recording.publishers if one.topic == topic.name})),
+            )
+            for topic in topics
+        ],
+    )
+    if edges:
+        lines += ["", f"Frames: {_forest(trees(recording.transforms))}"]
+        lines += table(
+            ("edge", "kind", "transforms", "rate", "received after its stamp", "from"),
+            list(map(_row, edges)),
+        )
+    for heading, sentences in (("Damage", recording.damage), ("Odd", oddities(recording))):
+        if sentences:
+            lines += ["", heading, *(f"  {visible(sentence)}" for sentence in sentences)]
+    return "\n".join(lines) + "\n"
+
+
+def as_object(recording: Recording) -> dict[str, Any]:
+    """The same for programs; moments and durations in nanoseconds."""
+    source = recording.source
+    return {
+        "name": recording.name,
+        "kind": source.kind,
+        "bytes": source.size,
+        "log_start_ns": source.start,
+        "log_end_ns": source.end,
+        "start_ns": recording.start,
+        "end_ns": recording.end,
+        "topics": [
+            {
+                "name": topic.name,
+                "type": topic.type,
+                "encoding": topic.encoding,
+                "count": topic.count,
+                "transforms": topic.transforms,
+                "static": topic.static,
+                "publishers": [
+                    {"node": one.node, "durability": one.durability, "reliability": one.reliability}
+                    for one in recording.publishers
+                    if one.topic == topic.name
+                ],
+            }
+            for topic in recording.topics
+        ],
+        "edges": [
+            {
+                "parent": one.parent,
+                "child": one.child,
+                "static": one.static,
+                "count": one.count,
+                "rate": one.rate,
+                "first_ns": one.first,
+                "last_ns": one.last,
+                "offset_ns": None
+                if one.offset is None
+                else {
+                    "least": one.offset.least,
+                    "median": one.offset.median,
+                    "most": one.offset.most,
+                },
+                "publishers": list(one.publishers),
+            }
+            for one in edge_facts(recording.transforms)
+        ],
+        "trees": [
+            {"root": tree.root, "frames": tree.frames} for tree in trees(recording.transforms)
+        ],
+        "damage": list(recording.damage),
+        "odd": oddities(recording),
+    }
+
+
+def _row(edge: EdgeFacts) -> tuple[str, ...]:
+    offset = "-"
+    if edge.offset is not None:
+        offset = (
+            f"{_offset(edge.offset.median)} ({_offset(edge.offset.least)} … "
+            f"{_offset(edge.offset.most)})"
+        )
+    return (
+        f"{visible(edge.child)} in {visible(edge.parent)}",
+        "static" if edge.static else "dynamic",
+        str(edge.count),
+        "-" if edge.rate is None else f"{edge.rate:.1f} Hz",
+        offset,
+        _few(edge.publishers),
+    )
+
+
+def _forest(forest: Sequence[TreeFacts]) -> str:
+    total = sum(tree.frames for tree in forest)
+    words = [f"{tree.frames} below {visible(tree.root)}" for tree in forest[:4]]
+    more = f" and {len(forest) - 4} trees more" if len(forest) > 4 else ""
+    kind = "tree" if len(forest) == 1 else "trees"
+    return f"{total} in {len(forest)} {kind}, {', '.join(words)}{more}"
+
+
+def table(heads: tuple[str, ...], rows: list[tuple[str, ...]]) -> list[str]:
+    """Lines of columns, as wide as what is in them; the last one is not padded."""
+    widths = [max(map(len, column)) for column in zip(heads, *rows, strict=True)]
+    return [
+        "  "
+        + "  ".join(cell.ljust(width) for cell, width in zip(row, widths, strict=True)).rstrip()
+        for row in (heads, *rows)
+    ]
+
+
+def _few(names: Sequence[str]) -> str:
+    shown = ", ".join(visible(name) for name in names[:3] if name) or "-"
+    return shown if len(names) <= 3 else f"{shown} and {len(names) - 3} more"
+
+
+def _offset(duration: Duration) -> str:
+    if abs(duration) < NANOSECONDS:
+        return f"{duration / 1e6:.1f} ms"
+    return f"{duration / 1e9:.3f} s"
+
+
+def _seconds(duration: Duration) -> str:
+    return f"{duration / 1e9:.3f} s"
+
+
+def _moment(stamp: Stamp) -> str:
+    if stamp < SIMULATED_BELOW:
+        return f"{stamp / 1e9:.3f} s"
+    try:
+        return (_EPOCH + timedelta(microseconds=stamp // 1000)).strftime("%Y-%m-%d %H:%M:%S.%f UTC")
+    except OverflowError:
+        return f"{stamp / 1e9:.3f} s"
+
+
+def _size(count: int) -> str:
+    size = float(count)
+    for unit in _UNITS:
+        if size < 1000 or unit == _UNITS[-1]:
+            break
+        size /= 1000
+    return f"{count} bytes" if unit == "bytes" else f"{size:.1f} {unit}"

@@ -1,0 +1,102 @@
+"""What a robot description holds, as text and as data."""
+
+from typing import Any
+
+from tftool.sources.robot import Robot
+from tftool.sources.urdf import Joint
+from tftool.views.escaping import visible
+from tftool.views.info import table
+
+
+def as_text(name: str, robot: Robot) -> str:
+    """Everything about a description, in lines.
+
+    Args:
+        name: What was opened, as it was given.
+        robot: What was read from it.
+    """
+    links, joints = robot.links, robot.joints
+    moving = sum(joint.moves for joint in joints.values())
+    lines = [
+        f"{visible(name)}: description of robot '{visible(robot.name)}'",
+        f"{_count(len(links), 'link')}, {_count(len(joints), 'joint')} of which {moving} move",
+        f"Root: {visible(robot.root)}",
+        _mass(robot),
+    ]
+    if joints:
+        rest = robot.positions()
+        lines += ["", "Joints"]
+        lines += table(
+            ("name", "type", "frames", "limits", "at rest", "mimics"),
+            [
+                (
+                    visible(joint.name),
+                    joint.type,
+                    f"{visible(joint.child)} in {visible(joint.parent)}",
+                    _limits(joint),
+                    f"{rest[joint.name]:.4g}" if joint.moves else "-",
+                    _mimic(joint),
+                )
+                for joint in joints.values()
+            ],
+        )
+    if robot.notes:
+        lines += ["", "Odd", *(f"  {visible(note)}" for note in robot.notes)]
+    return "\n".join(lines) + "\n"
+
+
+def as_object(name: str, robot: Robot) -> dict[str, Any]:
+    """The same for programs; radians, metres, kilograms."""
+    rest = robot.positions()
+    return {
+        "name": name,
+        "kind": "robot description",
+        "robot": robot.name,
+        "root": robot.root,
+        "links": [{"name": link.name, "mass": link.mass} for link in robot.links.values()],
+        "joints": [
+            {
+                "name": joint.name,
+                "type": joint.type,
+                "parent": joint.parent,
+                "child": joint.child,
+                "lower": joint.limit.lower if joint.limit else None,
+                "upper": joint.limit.upper if joint.limit else None,
+                "at_rest": rest.get(joint.name),
+                "mimics": None
+                if joint.mimic is None
+                else {
+                    "joint": joint.mimic.joint,
+                    "multiplier": joint.mimic.multiplier,
+                    "offset": joint.mimic.offset,
+                },
+            }
+            for joint in robot.joints.values()
+        ],
+        "notes": list(robot.notes),
+    }
+
+
+def _count(number: int, noun: str) -> str:
+    return f"{number} {noun}" + ("" if number == 1 else "s")
+
+
+def _mass(robot: Robot) -> str:
+    masses = [link.mass for link in robot.links.values() if link.mass is not None]
+    if not masses:
+        return "Mass: not given"
+    return f"Mass: {sum(masses):.4g} kg in {_count(len(masses), 'link')}"
+
+
+def _limits(joint: Joint) -> str:
+    if joint.limit is None or joint.type not in ("revolute", "prismatic"):
+        return "-"
+    unit = "m" if joint.type == "prismatic" else "rad"
+    return f"{joint.limit.lower:.4g} {unit} … {joint.limit.upper:.4g} {unit}"
+
+
+def _mimic(joint: Joint) -> str:
+    if joint.mimic is None:
+        return "-"
+    shift = f" {joint.mimic.offset:+.4g}" if joint.mimic.offset else ""
+    return f"{joint.mimic.multiplier:.4g} · {visible(joint.mimic.joint)}{shift}"

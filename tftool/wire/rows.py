@@ -1,0 +1,226 @@
+"""Many recorded tf2_msgs/TFMessages at once: equal layouts as rows of one table, in numpy.
+
+A publisher sends the same frames again and again: its messages differ in stamps and numbers
+alone, all of them at the same places. One message is walked in Python; of others of its
+length it is only checked, word by word, that everything else is the same.
+"""
+
+import struct
+from dataclasses import dataclass
+from typing import Final, TypeAlias
+
+import numpy as np
+import numpy.typing as npt
+
+from tftool.errors import MalformedMessage
+from tftool.stamps import NANOSECONDS, Stamp
+from tftool.wire.layouts import CDR, Layout
+
+Bytes: TypeAlias = npt.NDArray[np.uint8]
+"""Bytes as an array."""
+
+Words: TypeAlias = npt.NDArray[np.uint64]
+"""One row a message, in words of 8 bytes, shape (n, words)."""
+
+Records: TypeAlias = npt.NDArray[np.int64]
+"""One row a transform: its stamp, and bit by bit seven doubles, shape (n, 8)."""
+
+LONGEST_NAME: Final = 4096
+"""Bytes of the longest frame name that is read."""
+
+_KIND: Final = "tf2_msgs/TFMessage"
+_LITTLE: Final = b"\x00\x01"
+_BIG: Final = b"\x00\x00"
+_SEVEN: Final = {order: struct.Struct(f"{order}7d") for order in "<>"}
+_WORD: Final = {order: struct.Struct(f"{order}I") for order in "<>"}
+
+
+@dataclass(frozen=True, slots=True)
+class Place:
+    """Where one transform of a message lies.
+
+    Attributes:
+        parent: Name as it was sent.
+        child: Likewise.
+        stamp: Byte at which its stamp begins, two words of 4 bytes.
+        numbers: Byte at which its seven doubles begin.
+    """
+
+    parent: str
+    child: str
+    stamp: int
+    numbers: int
+
+
+@dataclass(frozen=True, slots=True)
+class Walked:
+    """One message walked through.
+
+    Attributes:
+        order: Its byte order, as `struct` writes it.
+        places: Its transforms.
+        fixed: Where the bytes lie that are the same in every message of its kind, as
+            (begin, end).
+    """
+
+    order: str
+    places: tuple[Place, ...]
+    fixed: tuple[tuple[int, int], ...]
+
+
+def walk(layout: Layout, payload: bytes) -> Walked:
+    """Find the transforms of a message.
+
+    Raises:
+        MalformedMessage: If the bytes are not one.
+    """
+    is_cdr = layout is CDR
+    order = _byte_order(payload) if is_cdr else "<"
+    position = 4 if is_cdr else 0
+    word = _WORD[order]
+    size = len(payload)
+    places: list[Place] = []
+    fixed: list[tuple[int, int]] = []
+    try:
+        (count,) = word.unpack_from(payload, position)
+        fixed.append((0, position + 4))
+        position += 4
+        # Stamp and numbers take 64 bytes, and two lengths 8, at least.
+        if count * 72 > size - position:
+            room = (size - position) // 72
+            raise MalformedMessage(_KIND, f"it announces {count} transforms, with room for {room}")
+        for _ in range(count):
+            stamp = position if is_cdr else position + 4  # behind the sequence number
+            position = stamp + 8
+            names = []
+            for _ in range(2):
+                if is_cdr:
+                    position = (position + 3) & ~3
+                (length,) = word.unpack_from(payload, position)
+                end = position + 4 + length
+                if length > LONGEST_NAME or end > size:
+                    raise MalformedMessage(_KIND, f"a frame name announces {length} bytes")
+                raw = payload[position + 4 : end]
+                # ROS 2 counts the zero byte that ends a text.
+                raw = raw.removesuffix(b"\x00") if is_cdr else raw
+                names.append(raw.decode("utf-8", "backslashreplace"))
+                fixed.append((position, end))
+                position = end
+            if is_cdr:
+                # To the grid of 8 that starts behind the header.
+                position = ((position + 3) & ~7) + 4
+            places.append(Place(names[0], names[1], stamp, position))
+            position += 56
+            if position > size:
+                raise MalformedMessage(_KIND, f"it ends within transform {len(places)} of {count}")
+    except struct.error as error:
+        raise MalformedMessage(_KIND, f"it ends within transform {len(places) + 1}") from error
+    # Some writers round a message up to a full word.
+    if size - position > (7 if is_cdr else 0):
+        raise MalformedMessage(_KIND, f"{size - position} bytes are left over behind it")
+    return Walked(order, tuple(places), tuple(fixed))
+
+
+def sample(payload: bytes, order: str, place: Place) -> tuple[Stamp, tuple[float, ...]]:
+    """Stamp and seven numbers of one transform of a message."""
+    word = _WORD[order]
+    (sec,) = word.unpack_from(payload, place.stamp)
+    (nanosec,) = word.unpack_from(payload, place.stamp + 4)
+    return _signed(sec) * NANOSECONDS + nanosec, _SEVEN[order].unpack_from(payload, place.numbers)
+
+
+def _signed(sec: int) -> int:
+    return sec - 2**32 if sec >= 2**31 else sec
+
+
+def _byte_order(payload: bytes) -> str:
+    head = payload[:2]
+    if head == _LITTLE:
+        return "<"
+    if head == _BIG:
+        return ">"
+    raise MalformedMessage(_KIND, f"its header {payload[:4].hex()} is not that of plain CDR")
+
+
+def row_span(layout: Layout, length: int) -> tuple[int, int]:
+    """How the row of a message of that length lies to its bytes, in whole words.
+
+    Returns:
+        Where the row begins, from the first byte of the message on, and its length. ROS 1's
+        rows begin before the message, up to 7 bytes; ROS 2's behind the header, on whose
+        grid of 8 all doubles lie.
+    """
+    if layout is CDR:
+        return 4, max(0, length - 4) & ~7
+    before = -length % 8
+    return -before, length + before
+
+
+def rows_of(buffer: Bytes, starts: npt.NDArray[np.int64], width: int) -> Words:
+    """Copy rows of equal length out of a buffer.
+
+    Args:
+        buffer: Where the rows lie.
+        starts: Where each begins, shape (n,); all of it lies in the buffer.
+        width: Bytes of a row, a multiple of 8.
+
+    Returns:
+        Shape (n, width / 8).
+    """
+    # As single items of that many bytes: numpy then copies a row in one go.
+    items: npt.NDArray[np.void] = np.ndarray(
+        (len(buffer) - width + 1,), dtype=f"V{width}", buffer=buffer.data, strides=(1,)
+    )
+    return items[starts].view(np.uint64).reshape(len(starts), width // 8)
+
+
+class Template:
+    """What all messages of one layout, length and set of frames have in common.
+
+    Attributes:
+        places: Its transforms.
+    """
+
+    __slots__ = ("_begin", "_masks", "_values", "_words", "places")
+
+    def __init__(self, layout: Layout, payload: bytes, walked: Walked) -> None:
+        """Make one of a message in little endian."""
+        self.places = walked.places
+        begin, width = row_span(layout, len(payload))
+        self._begin = begin
+        mask = np.zeros(width, dtype=np.uint8)
+        row = np.zeros(width, dtype=np.uint8)
+        for first, end in walked.fixed:
+            # The header lies before the row, and is looked at apart.
+            place = slice(max(first - begin, 0), end - begin)
+            mask[place] = 0xFF
+            row[place] = np.frombuffer(payload, np.uint8)[place.start + begin : end]
+        masks = mask.view(np.uint64)
+        self._words = np.flatnonzero(masks)
+        self._masks = masks[self._words]
+        self._values = row.view(np.uint64)[self._words]
+
+    def fits(self, rows: Words) -> "npt.NDArray[np.bool_] | None":
+        """Which rows have its frames, shape (n,); None where all do."""
+        apart = rows.take(self._words, axis=1)
+        apart ^= self._values
+        apart &= self._masks
+        if not apart.any():
+            return None
+        found: npt.NDArray[np.bool_] = np.logical_not(apart.any(axis=1))
+        return found
+
+    def cut(self, rows: Words, place: Place) -> Records:
+        """One transform out of each row."""
+        raw = rows.view(np.uint8)
+        count = len(rows)
+        records = np.empty((count, 8), dtype=np.int64)
+        begin = place.numbers - self._begin
+        records.view(np.uint8)[:, 8:] = raw[:, begin : begin + 56]
+        begin = place.stamp - self._begin
+        times = np.ascontiguousarray(raw[:, begin : begin + 8])
+        stamps = records[:, 0]
+        stamps[:] = times.view("<i4")[:, 0]
+        stamps *= NANOSECONDS
+        stamps += times.view("<u4")[:, 1]
+        return records

@@ -1,0 +1,120 @@
+"""Reading YAML of strangers: nothing in it is constructed but plain values, and it stays small.
+
+A few lines of YAML can stand for billions of values, by aliases of aliases and by merge
+keys. Whatever reads YAML reads it through here, where every alias counts as often as it
+is written.
+"""
+
+from collections.abc import Iterator
+from typing import Any
+
+import yaml
+
+LARGEST = 4 * 1024 * 1024
+"""Characters a text may have."""
+
+DEEPEST = 100
+"""Levels of nesting a text may have."""
+
+MOST_VALUES = 200_000
+"""Values a text may have, with every alias written out."""
+
+
+class TooMuch(yaml.MarkedYAMLError):
+    """A text is too large, too deep, or stands for too much."""
+
+    def __init__(self, problem: str, mark: Any = None) -> None:
+        super().__init__(problem=problem, problem_mark=mark)
+
+
+def events(
+    text: str,
+    loader: Any = yaml.SafeLoader,
+    *,
+    largest: int = LARGEST,
+    deepest: int = DEEPEST,
+    most_values: int = MOST_VALUES,
+) -> Iterator[yaml.Event]:
+    """Give the events of a YAML text, as long as what it stands for is within bounds.
+
+    Args:
+        text: The YAML.
+        loader: Whose scanner and parser to use.
+        largest: Characters it may have.
+        deepest: Levels of nesting it may have.
+        most_values: Values it may have, with every alias written out.
+
+    Raises:
+        TooMuch: If it is out of bounds; the mark says where.
+        yaml.YAMLError: If it is no YAML.
+    """
+    if len(text) > largest:
+        raise TooMuch(f"more than {largest:,} characters are too many")
+    values = 0
+    sizes: dict[str, int] = {}
+    # Of each collection that is open: its anchor, and how many values there were before it.
+    opened: list[tuple[str | None, int]] = []
+    for event in yaml.parse(text, loader):
+        if isinstance(event, yaml.AliasEvent):
+            if any(anchor == event.anchor for anchor, _ in opened):
+                raise TooMuch(f"*{event.anchor} stands inside what it stands for", event.start_mark)
+            # One that is unknown is refused by what reads the events.
+            values += sizes.get(event.anchor or "", 1)
+        elif isinstance(event, yaml.NodeEvent):
+            if event.anchor is not None and isinstance(event, yaml.ScalarEvent):
+                sizes[event.anchor] = 1
+            if isinstance(event, yaml.CollectionStartEvent):
+                opened.append((event.anchor, values))
+                if len(opened) > deepest:
+                    raise TooMuch(
+                        f"more than {deepest} levels of nesting are too deep", event.start_mark
+                    )
+            values += 1
+        elif isinstance(event, yaml.CollectionEndEvent):
+            anchor, before = opened.pop()
+            if anchor is not None:
+                sizes[anchor] = values - before
+        if values > most_values:
+            raise TooMuch(f"more than {most_values:,} values are too many", event.start_mark)
+        yield event
+
+
+def compose(text: str, loader: Any = yaml.SafeLoader) -> yaml.Node | None:
+    """Give the tree of nodes of a YAML text; None of an empty one.
+
+    Raises:
+        yaml.YAMLError: If it is no YAML, or out of bounds.
+    """
+    for _ in events(text, loader):
+        pass
+    return yaml.compose(text, Loader=loader)
+
+
+def construct(node: yaml.Node, loader: Any = yaml.SafeLoader) -> Any:
+    """Give the plain value of a node.
+
+    Raises:
+        yaml.YAMLError: If it is none that YAML knows by itself.
+    """
+    maker = loader("")
+    try:
+        return maker.construct_document(node)
+    except (ValueError, ArithmeticError, AttributeError, TypeError) as error:
+        # PyYAML's own, of what is tagged as something that it is not: !!timestamp x.
+        tag = str(node.tag).rpartition(":")[2]
+        problem = f"a value is not the {tag} that it is tagged as"
+        if not isinstance(node, yaml.ScalarNode):
+            problem = "a value is not what it is tagged as"
+        raise yaml.MarkedYAMLError(problem=problem, problem_mark=node.start_mark) from error
+    finally:
+        maker.dispose()
+
+
+def load(text: str, loader: Any = yaml.SafeLoader) -> Any:
+    """Give the plain value of a YAML text.
+
+    Raises:
+        yaml.YAMLError: If it is no YAML, out of bounds, or tagged as what it is not.
+    """
+    node = compose(text, loader)
+    return None if node is None else construct(node, loader)
