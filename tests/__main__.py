@@ -1,7 +1,8 @@
 """Everything that must hold, as one command: `python -m tests`.
 
-Formatter, linter, layers, types, then the tests with branch coverage. Words
-after the command go to pytest: `python -m tests -k history` runs less.
+Formatter, linter, layers, types, then the tests. Words after the command go to
+pytest: `python -m tests -k history` runs less. `python -m tests --coverage` judges
+the branch coverage of the whole as well, which takes twice as long.
 """
 
 import subprocess
@@ -10,7 +11,8 @@ from pathlib import Path
 
 PYTHON = [sys.executable, "-m"]
 # Many tests wait for other processes; two at a time take little more than half as long.
-WHOLE = ["-n2", "--dist=worksteal", "--cov", "--cov-report=term", "--cov-fail-under=90"]
+WHOLE = ["-n2", "--dist=worksteal"]
+COVERAGE = [*WHOLE, "--cov", "--cov-report=term", "--cov-fail-under=90"]
 
 CHECKS = [
     [*PYTHON, "ruff", "format", "--check", "."],
@@ -24,7 +26,7 @@ def main(words: list[str]) -> int:
     """Run every check, tests last; stop at the first that fails."""
     root = Path(__file__).resolve().parent.parent
     # A part of the tests covers a part of the code, so only the whole is judged.
-    tests = [*PYTHON, "pytest", *(words or WHOLE)]
+    tests = [*PYTHON, "pytest", *(COVERAGE if words == ["--coverage"] else words or WHOLE)]
     for command in [*CHECKS, tests]:
         print("$", *command, flush=True)  # noqa: T201
         status = subprocess.run(command, cwd=root, check=False).returncode
