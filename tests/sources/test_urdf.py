@@ -3,7 +3,15 @@ import math
 import pytest
 
 from tftool.errors import DescriptionError, InputError
-from tftool.sources.urdf import Box, Capsule, Cylinder, Mesh, Sphere, is_xacro, load_description
+from tftool.sources.urdf import (
+    BoxShape,
+    CapsuleShape,
+    CylinderShape,
+    MeshShape,
+    SphereShape,
+    is_xacro,
+    load_description,
+)
 from tftool.sources.urdf import parse_description as parse
 
 ARM = """<?xml version="1.0"?>
@@ -67,14 +75,14 @@ def test_what_a_link_looks_like_is_read():
     upper = parse(ARM).links["upper"]
 
     tube, mesh = upper.visuals
-    assert tube.geometry == Cylinder(0.1, 1.0)
+    assert tube.geometry == CylinderShape(0.1, 1.0)
     assert tube.origin.translation == (0.0, 0.0, 0.5)
     assert tube.material.color == (0.5, 0.5, 0.5, 1.0)
-    assert mesh.geometry == Mesh("package://arm/upper.stl", (1.0, 1.0, 2.0))
+    assert mesh.geometry == MeshShape("package://arm/upper.stl", (1.0, 1.0, 2.0))
     assert [one.geometry for one in upper.collisions] == [
-        Box((1.0, 2.0, 3.0)),
-        Sphere(0.5),
-        Capsule(0.5, 2.0),
+        BoxShape((1.0, 2.0, 3.0)),
+        SphereShape(0.5),
+        CapsuleShape(0.5, 2.0),
     ]
     assert upper.mass == 2.5
 

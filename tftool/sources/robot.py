@@ -16,7 +16,7 @@ from tftool.frames.sample import TransformStamped
 from tftool.geometry import batch
 from tftool.geometry.conversions import quaternion_from_axis_angle
 from tftool.geometry.rigid import Transform
-from tftool.sources.urdf import Description, Joint, Link, load_description
+from tftool.sources.urdf import RobotDescription, RobotJoint, RobotLink, load_description
 from tftool.stamps import Stamp
 
 Floats: TypeAlias = npt.NDArray[np.float64]
@@ -32,7 +32,7 @@ class JointColumns:
         rotations: Unit quaternions x y z w, shape (n, 4).
     """
 
-    joint: Joint
+    joint: RobotJoint
     translations: Floats
     rotations: Floats
 
@@ -46,7 +46,7 @@ class Robot:
     stays at its origin; a floating joint gives no frame, as robot_state_publisher skips it.
     """
 
-    def __init__(self, description: Description) -> None:
+    def __init__(self, description: RobotDescription) -> None:
         self.description = description
 
     @property
@@ -60,12 +60,12 @@ class Robot:
         return self.description.root
 
     @property
-    def links(self) -> Mapping[str, Link]:
+    def links(self) -> Mapping[str, RobotLink]:
         """Every link by its name."""
         return self.description.links
 
     @property
-    def joints(self) -> Mapping[str, Joint]:
+    def joints(self) -> Mapping[str, RobotJoint]:
         """Every joint by its name."""
         return self.description.joints
 
@@ -167,7 +167,7 @@ class Robot:
         if not joint.moves:
             raise UsageError(f"joint '{name}' is {joint.type}: it takes no position")
 
-    def _leader(self, joint: Joint, given: frozenset[str]) -> tuple[Joint, float, float]:
+    def _leader(self, joint: RobotJoint, given: frozenset[str]) -> tuple[RobotJoint, float, float]:
         """The joint whose position decides, and the factor and offset that lead to this one's."""
         factor, offset = 1.0, 0.0
         leader, seen = joint, {joint.name}
@@ -200,14 +200,14 @@ def load_urdf(path: str | Path, arguments: Mapping[str, str] | None = None) -> R
     return Robot(load_description(path, arguments))
 
 
-def _rest(joint: Joint) -> float:
+def _rest(joint: RobotJoint) -> float:
     limit = joint.limit
     if limit is None or joint.type == "continuous" or limit.lower <= 0.0 <= limit.upper:
         return 0.0
     return (limit.lower + limit.upper) / 2.0
 
 
-def _pose(joint: Joint, position: float) -> Transform:
+def _pose(joint: RobotJoint, position: float) -> Transform:
     """The child's pose in the parent."""
     if joint.type in ("revolute", "continuous"):
         return joint.origin @ Transform(rotation=quaternion_from_axis_angle(joint.axis, position))
@@ -217,7 +217,7 @@ def _pose(joint: Joint, position: float) -> Transform:
     return joint.origin
 
 
-def _poses(joint: Joint, positions: Floats) -> JointColumns:
+def _poses(joint: RobotJoint, positions: Floats) -> JointColumns:
     """The same for many positions, shape (n,)."""
     count = len(positions)
     axis = np.array(joint.axis)

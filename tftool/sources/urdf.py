@@ -32,7 +32,7 @@ _LIMITED = ("revolute", "prismatic")
 
 
 @dataclass(frozen=True, slots=True)
-class Box:
+class BoxShape:
     """A box around its origin.
 
     Attributes:
@@ -43,7 +43,7 @@ class Box:
 
 
 @dataclass(frozen=True, slots=True)
-class Cylinder:
+class CylinderShape:
     """A cylinder along z around its origin; metres."""
 
     radius: float
@@ -51,7 +51,7 @@ class Cylinder:
 
 
 @dataclass(frozen=True, slots=True)
-class Capsule:
+class CapsuleShape:
     """A cylinder along z with half a sphere on each end; metres, `length` without the ends."""
 
     radius: float
@@ -59,14 +59,14 @@ class Capsule:
 
 
 @dataclass(frozen=True, slots=True)
-class Sphere:
+class SphereShape:
     """A sphere around its origin; metres."""
 
     radius: float
 
 
 @dataclass(frozen=True, slots=True)
-class Mesh:
+class MeshShape:
     """A surface in a file of its own.
 
     Attributes:
@@ -78,11 +78,11 @@ class Mesh:
     scale: Vector3
 
 
-Geometry: TypeAlias = Box | Cylinder | Capsule | Sphere | Mesh
+ShapeGeometry: TypeAlias = BoxShape | CylinderShape | CapsuleShape | SphereShape | MeshShape
 
 
 @dataclass(frozen=True, slots=True)
-class Material:
+class Surface:
     """What a surface looks like.
 
     Attributes:
@@ -97,7 +97,7 @@ class Material:
 
 
 @dataclass(frozen=True, slots=True)
-class Shape:
+class LinkShape:
     """One visual or one collision shape of a link.
 
     Attributes:
@@ -109,12 +109,12 @@ class Shape:
 
     name: str
     origin: Transform
-    geometry: Geometry
-    material: Material | None = None
+    geometry: ShapeGeometry
+    material: Surface | None = None
 
 
 @dataclass(frozen=True, slots=True)
-class Link:
+class RobotLink:
     """One rigid part of a robot, which is one frame.
 
     Attributes:
@@ -125,13 +125,13 @@ class Link:
     """
 
     name: str
-    visuals: tuple[Shape, ...] = ()
-    collisions: tuple[Shape, ...] = ()
+    visuals: tuple[LinkShape, ...] = ()
+    collisions: tuple[LinkShape, ...] = ()
     mass: float | None = None
 
 
 @dataclass(frozen=True, slots=True)
-class Limit:
+class JointLimit:
     """How far and how fast a joint may move; radians or metres, and per second.
 
     Attributes:
@@ -148,7 +148,7 @@ class Limit:
 
 
 @dataclass(frozen=True, slots=True)
-class Mimic:
+class JointMimic:
     """A joint that follows another: position = multiplier · leader's position + offset."""
 
     joint: str
@@ -157,7 +157,7 @@ class Mimic:
 
 
 @dataclass(frozen=True, slots=True)
-class Joint:
+class RobotJoint:
     """What joins one link to its parent.
 
     Attributes:
@@ -177,8 +177,8 @@ class Joint:
     child: str
     origin: Transform
     axis: Vector3
-    limit: Limit | None = None
-    mimic: Mimic | None = None
+    limit: JointLimit | None = None
+    mimic: JointMimic | None = None
 
     @property
     def moves(self) -> bool:
@@ -187,7 +187,7 @@ class Joint:
 
 
 @dataclass(frozen=True, slots=True)
-class Description:
+class RobotDescription:
     """A robot description: a tree of links.
 
     Attributes:
@@ -200,12 +200,14 @@ class Description:
 
     name: str
     root: str
-    links: Mapping[str, Link]
-    joints: Mapping[str, Joint]
+    links: Mapping[str, RobotLink]
+    joints: Mapping[str, RobotJoint]
     notes: tuple[str, ...] = ()
 
 
-def load_description(path: str | Path, arguments: Mapping[str, str] | None = None) -> Description:
+def load_description(
+    path: str | Path, arguments: Mapping[str, str] | None = None
+) -> RobotDescription:
     """Read a URDF file; a file that contains xacro is expanded first.
 
     Args:
@@ -252,7 +254,7 @@ def is_xacro(text: str) -> bool:
     return found
 
 
-def parse_description(text: str, name: str = "robot_description") -> Description:
+def parse_description(text: str, name: str = "robot_description") -> RobotDescription:
     """Read the text of a URDF.
 
     Args:
@@ -333,7 +335,7 @@ class _Reader:
         self.mistakes: list[Mistake] = []
         self.notes: list[str] = []
 
-    def read(self) -> Description:
+    def read(self) -> RobotDescription:
         robot = self._parsed()
         if robot.tag != "robot":
             self._give_up(robot, f"the document is <{robot.tag}>; a description is <robot>")
@@ -341,10 +343,10 @@ class _Reader:
         if not name:
             self._note(robot, "the robot has no name")
         materials = self._materials(robot)
-        links: dict[str, Link] = {}
+        links: dict[str, RobotLink] = {}
         for element in robot.all("link"):
             self._add(element, "link", links, self._link(element, materials))
-        joints: dict[str, Joint] = {}
+        joints: dict[str, RobotJoint] = {}
         places: dict[str, _Element] = {}
         for element in robot.all("joint"):
             joint = self._joint(element)
@@ -357,7 +359,7 @@ class _Reader:
         if self.mistakes:
             ordered = sorted(self.mistakes, key=lambda one: (one.line, one.column))
             raise DescriptionError(self.name, ordered)
-        return Description(name, root, links, joints, tuple(self.notes))
+        return RobotDescription(name, root, links, joints, tuple(self.notes))
 
     # XML
 
@@ -469,7 +471,7 @@ class _Reader:
 
     # Links
 
-    def _materials(self, robot: _Element) -> dict[str, Material]:
+    def _materials(self, robot: _Element) -> dict[str, Surface]:
         found = {}
         for element in robot.all("material"):
             try:
@@ -479,17 +481,17 @@ class _Reader:
             found[material.name] = material
         return found
 
-    def _material(self, element: _Element) -> Material:
+    def _material(self, element: _Element) -> Surface:
         color = element.first("color")
         rgba = self._numbers(color, "rgba", 4) if color is not None else None
         texture = element.first("texture")
-        return Material(
+        return Surface(
             element.attributes.get("name", ""),
             (rgba[0], rgba[1], rgba[2], rgba[3]) if rgba else None,
             texture.attributes.get("filename", "") if texture is not None else "",
         )
 
-    def _link(self, element: _Element, materials: Mapping[str, Material]) -> Link | None:
+    def _link(self, element: _Element, materials: Mapping[str, Surface]) -> RobotLink | None:
         try:
             name = self._word(element, "name")
         except _Unreadable:
@@ -501,7 +503,7 @@ class _Reader:
         if inertial is not None:
             with contextlib.suppress(_Unreadable):
                 mass = self._mass(inertial)
-        return Link(name, visuals, collisions, mass)
+        return RobotLink(name, visuals, collisions, mass)
 
     def _mass(self, inertial: _Element) -> float:
         self._origin(inertial)
@@ -517,8 +519,8 @@ class _Reader:
         return self._number(mass, "value")
 
     def _shapes(
-        self, link: _Element, tag: str, materials: Mapping[str, Material]
-    ) -> tuple[Shape, ...]:
+        self, link: _Element, tag: str, materials: Mapping[str, Surface]
+    ) -> tuple[LinkShape, ...]:
         shapes = []
         for element in link.all(tag):
             try:
@@ -527,7 +529,7 @@ class _Reader:
                 continue
         return tuple(shapes)
 
-    def _shape(self, element: _Element, materials: Mapping[str, Material]) -> Shape:
+    def _shape(self, element: _Element, materials: Mapping[str, Surface]) -> LinkShape:
         origin = self._origin(element)
         geometry = element.first("geometry")
         if geometry is None:
@@ -540,24 +542,26 @@ class _Reader:
             if material.color is None and not material.texture:
                 material = materials.get(material.name, material)
         name = element.attributes.get("name", "")
-        return Shape(name, origin, self._geometry(geometry), material)
+        return LinkShape(name, origin, self._geometry(geometry), material)
 
-    def _geometry(self, geometry: _Element) -> Geometry:
+    def _geometry(self, geometry: _Element) -> ShapeGeometry:
         for element in geometry.children:
             match element.tag:
                 case "box":
-                    return Box(Vector3(*self._numbers(element, "size", 3)))
+                    return BoxShape(Vector3(*self._numbers(element, "size", 3)))
                 case "cylinder":
-                    return Cylinder(
+                    return CylinderShape(
                         self._number(element, "radius"), self._number(element, "length")
                     )
                 case "capsule":
-                    return Capsule(self._number(element, "radius"), self._number(element, "length"))
+                    return CapsuleShape(
+                        self._number(element, "radius"), self._number(element, "length")
+                    )
                 case "sphere":
-                    return Sphere(self._number(element, "radius"))
+                    return SphereShape(self._number(element, "radius"))
                 case "mesh":
                     scale = self._numbers(element, "scale", 3, "1 1 1")
-                    return Mesh(self._word(element, "filename"), Vector3(*scale))
+                    return MeshShape(self._word(element, "filename"), Vector3(*scale))
         kinds = "a box, cylinder, sphere, capsule or mesh"
         there = f"<{geometry.children[0].tag}>" if geometry.children else "nothing"
         self._note(geometry, f"<geometry> holds {kinds}, not {there}")
@@ -565,7 +569,7 @@ class _Reader:
 
     # Joints
 
-    def _joint(self, element: _Element) -> Joint | None:
+    def _joint(self, element: _Element) -> RobotJoint | None:
         try:
             name = self._word(element, "name")
             kind = self._word(element, "type")
@@ -583,7 +587,7 @@ class _Reader:
                     self._note(element, f"joint '{name}' has no <{tag} link=…>")
                     raise _Unreadable
                 ends.append(self._word(end, "link"))
-            return Joint(
+            return RobotJoint(
                 name,
                 kind,
                 ends[0],
@@ -607,24 +611,24 @@ class _Reader:
             raise _Unreadable
         return Vector3(x / length, y / length, z / length)
 
-    def _limit(self, joint: _Element, name: str, kind: str) -> Limit | None:
+    def _limit(self, joint: _Element, name: str, kind: str) -> JointLimit | None:
         element = joint.first("limit")
         if element is None:
             if kind in _LIMITED:
                 self._note(joint, f"{kind} joint '{name}' needs a <limit effort=… velocity=…>")
             return None
-        return Limit(
+        return JointLimit(
             self._number(element, "lower", "0"),
             self._number(element, "upper", "0"),
             self._number(element, "effort"),
             self._number(element, "velocity"),
         )
 
-    def _mimic(self, joint: _Element) -> Mimic | None:
+    def _mimic(self, joint: _Element) -> JointMimic | None:
         element = joint.first("mimic")
         if element is None:
             return None
-        return Mimic(
+        return JointMimic(
             self._word(element, "joint"),
             self._number(element, "multiplier", "1"),
             self._number(element, "offset", "0"),
@@ -635,11 +639,11 @@ class _Reader:
     def _tree(
         self,
         robot: _Element,
-        links: Mapping[str, Link],
-        joints: Mapping[str, Joint],
+        links: Mapping[str, RobotLink],
+        joints: Mapping[str, RobotJoint],
         places: Mapping[str, _Element],
     ) -> str:
-        joint_above: dict[str, Joint] = {}
+        joint_above: dict[str, RobotJoint] = {}
         for joint in joints.values():
             place = places[joint.name]
             for tag, link in (("parent", joint.parent), ("child", joint.child)):
@@ -674,7 +678,7 @@ class _Reader:
         return roots[0] if roots else ""
 
     def _unknown_link(
-        self, place: _Element, joint: Joint, tag: str, link: str, links: Iterable[str]
+        self, place: _Element, joint: RobotJoint, tag: str, link: str, links: Iterable[str]
     ) -> None:
         near = difflib.get_close_matches(link[:100], list(links), n=1)
         hint = f"; did you mean '{near[0]}'?" if near else ""
@@ -684,7 +688,7 @@ class _Reader:
             "link",
         )
 
-    def _mimics(self, joints: Mapping[str, Joint]) -> None:
+    def _mimics(self, joints: Mapping[str, RobotJoint]) -> None:
         for joint in joints.values():
             seen = [joint.name]
             leader = joint
@@ -720,7 +724,7 @@ def _end(joint: _Element, tag: str) -> _Element:
     return joint.first(tag) or joint
 
 
-def _loops(joint_above: Mapping[str, Joint]) -> list[list[Joint]]:
+def _loops(joint_above: Mapping[str, RobotJoint]) -> list[list[RobotJoint]]:
     """Every circle of joints, each once."""
     done: set[str] = set()
     loops = []

@@ -3,7 +3,7 @@
 from typing import Any
 
 from tftool.sources.robot import Robot
-from tftool.sources.urdf import Joint
+from tftool.sources.urdf import RobotJoint
 from tftool.views.escaping import visible
 from tftool.views.info import table
 
@@ -88,14 +88,14 @@ def _mass(robot: Robot) -> str:
     return f"Mass: {sum(masses):.4g} kg in {_count(len(masses), 'link')}"
 
 
-def _limits(joint: Joint) -> str:
+def _limits(joint: RobotJoint) -> str:
     if joint.limit is None or joint.type not in ("revolute", "prismatic"):
         return "-"
     unit = "m" if joint.type == "prismatic" else "rad"
     return f"{joint.limit.lower:.4g} {unit} … {joint.limit.upper:.4g} {unit}"
 
 
-def _mimic(joint: Joint) -> str:
+def _mimic(joint: RobotJoint) -> str:
     if joint.mimic is None:
         return "-"
     shift = f" {joint.mimic.offset:+.4g}" if joint.mimic.offset else ""
