@@ -3,7 +3,7 @@ import math
 import pytest
 
 from tftool.errors import UsageError
-from tftool.nodes.static_arguments import parse
+from tftool.notation.static_arguments import parse
 
 words = str.split
 FRAMES = ["--frame-id", "a", "--child-frame-id", "b"]

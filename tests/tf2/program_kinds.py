@@ -11,7 +11,7 @@ from tftool.errors import UsageError
 from tftool.frames.sample import FrameInfo, Snapshot, TransformStamped
 from tftool.frames.traffic import NetDelay, Traffic
 from tftool.geometry.rigid import IDENTITY, Transform
-from tftool.nodes.static_arguments import parse
+from tftool.notation.static_arguments import parse
 from tftool.runtime.clock import SimClock
 from tftool.runtime.world import World
 from tftool.stamps import seconds

@@ -11,7 +11,7 @@ from tftool.cli.connection import Connection
 
 if TYPE_CHECKING:
     from tftool.cli.hosting import Session
-    from tftool.nodes.static_arguments import StaticArguments
+    from tftool.notation.static_arguments import StaticArguments
 
 Metres = Annotated[str | None, typer.Option(metavar="METRES")]
 Part = Annotated[str | None, typer.Option(metavar="NUMBER")]
@@ -57,7 +57,7 @@ def static(
     tftool static 0 0 3 0 0 3.14 A B          x y z yaw pitch roll: 3.14 is ROLL
     tftool static 0 0 3 0 0 0 1 A B           x y z qx qy qz qw
     """
-    from tftool.nodes.static_arguments import parse
+    from tftool.notation.static_arguments import parse
 
     given = {
         "x": x, "y": y, "z": z, "roll": roll, "pitch": pitch, "yaw": yaw,
@@ -97,7 +97,7 @@ async def _published(session: "Session", said: "StaticArguments", spin: bool) ->
     from tftool.cli.notices import notice
     from tftool.errors import UsageError
     from tftool.frames.sample import TransformStamped
-    from tftool.nodes.static_arguments import advice
+    from tftool.notation.static_arguments import advice
     from tftool.views.escaping import visible
     from tftool.views.static import lines
 

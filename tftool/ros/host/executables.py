@@ -9,13 +9,13 @@ from typing import Any
 from tftool.errors import UsageError
 from tftool.frames.sample import TransformStamped
 from tftool.messages import Color
-from tftool.nodes import static_arguments
 from tftool.nodes.broadcasters import Broadcaster, DynamicCarrot, FixedCarrot, StaticBroadcaster
 from tftool.nodes.follower import Follower
 from tftool.nodes.points import MessageBroadcaster, PointDrawer
 from tftool.nodes.squares import DrawSquare, Mimic
 from tftool.nodes.static_turtle import static_turtle
 from tftool.nodes.turtlesim import BACKGROUND, Turtlesim
+from tftool.notation import static_arguments
 from tftool.ros.host import user_code
 from tftool.ros.host.names import RosOptions, join
 from tftool.ros.host.program import Program
