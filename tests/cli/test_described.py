@@ -82,3 +82,72 @@ def test_commands_that_need_more_than_frames_refuse_a_description(tftool, robot,
     assert result.status == 2
     assert told in result.err
     assert "Traceback" not in result.err
+
+
+def test_a_joint_is_where_the_command_line_puts_it(tftool, robot):
+    result = tftool("echo", "foot", "lamp", str(robot), "--joint", "turn=90deg")
+
+    assert result.status == 0
+    assert result.out.count("- Translation: [0.000, 1.000, 2.000]") == 1
+    assert "1.571 rad is beyond its limits, -1 to 1" in result.err
+    assert "at rest" not in result.err
+
+
+def test_tree_marks_joints_that_move_and_says_where_they_are(tftool, robot):
+    result = tftool("tree", str(robot), "--joint", "turn=0.5")
+
+    (arm,) = [line for line in result.out.splitlines() if "arm" in line]
+    (lamp,) = [line for line in result.out.splitlines() if "lamp" in line]
+    assert arm.split(maxsplit=2)[2] == "moving  turn (revolute, 0.5 rad)"
+    assert lamp.split(maxsplit=2)[2] == "fixed   bolt (fixed)"
+
+
+def test_tree_tells_programs_which_frames_move(tftool, robot):
+    told = json.loads(tftool("tree", str(robot), "--format", "json").out)
+
+    assert {one["frame"]: one["moves"] for one in told["frames"]} == {
+        "foot": False,
+        "arm": True,
+        "lamp": False,
+    }
+
+
+@pytest.mark.parametrize(
+    ("words", "told"),
+    [
+        (["--joint", "turm=1"], "has no joint 'turm'; did you mean 'turn'?"),
+        (["--joint", "bolt=1"], "joint 'bolt' is fixed: it takes no position"),
+        (["--joint", "turn"], "write NAME=VALUE"),
+        (["--joint", "turn=fast"], "write NAME=VALUE"),
+        (["--joint", "turn=nan"], "write NAME=VALUE"),
+        (["size:=2"], "contains no xacro, so it takes no arguments: leave out size:=2"),
+        (["--argument", "size=2"], "write NAME:=VALUE"),
+    ],
+)
+def test_what_fits_no_joint_or_argument_is_refused(tftool, robot, words, told):
+    result = tftool("tree", str(robot), *words)
+
+    assert result.status == 2
+    assert told in result.err
+
+
+def test_a_scenario_takes_no_joint_positions(tftool):
+    result = tftool("tree", "turtles", "--joint", "turn=1")
+
+    assert result.status == 2
+    assert "'turtles' is no robot description and no recording: leave out --joint turn=1" in (
+        result.err
+    )
+
+
+def test_words_with_an_assignment_are_arguments_of_xacro(tftool, tmp_path):
+    pytest.importorskip("xacrodoc")
+    path = tmp_path / "post.urdf"
+    path.write_text(
+        ROBOT.replace('name="post"', 'name="post" xmlns:xacro="http://www.ros.org/wiki/xacro"')
+        .replace("<link", '<xacro:arg name="height" default="2"/><link', 1)
+        .replace("0 0 2", "0 0 $(arg height)")
+    )
+
+    assert "[1.000, 0.000, 2.000]" in tftool("echo", "foot", "lamp", str(path)).out
+    assert "[1.000, 0.000, 7.500]" in tftool("echo", "foot", "lamp", str(path), "height:=7.5").out

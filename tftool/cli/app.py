@@ -53,6 +53,10 @@ ALONE = ("check", "help")
 """Commands that share no session."""
 
 
+DESCRIBING = ("echo", "tree", "view", "info")
+"""Commands whose FROM may be a robot description."""
+
+
 class ExitStatus(IntEnum):
     """How a command ends, for who called it."""
 
@@ -133,10 +137,12 @@ def _load(name: str, providers: "Providers | None") -> "Callable[..., Any]":
     """A command with all its options."""
     from importlib import import_module
 
-    from tftool.cli.connection import with_connection
+    from tftool.cli.connection import ROBOT_OPTIONS, with_connection
 
     command: Callable[..., Any] = getattr(import_module(f"tftool.cli.commands.{name}"), name)
-    return command if name in ALONE else with_connection(command, providers)
+    if name in ALONE:
+        return command
+    return with_connection(command, providers, ROBOT_OPTIONS if name in DESCRIBING else {})
 
 
 def _unasked() -> None:

@@ -6,11 +6,13 @@ Every command that may share a session takes a `Connection` as its first paramet
 
 import functools
 import inspect
+import math
 import os
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 from enum import Enum, auto
 from pathlib import Path
+from types import MappingProxyType
 from typing import TYPE_CHECKING, Annotated, Any, Self
 
 import typer
@@ -28,6 +30,36 @@ if TYPE_CHECKING:
 
 LARGEST_DOMAIN = 232
 """ROS 2's own limit."""
+
+
+@dataclass(frozen=True, slots=True)
+class RobotOptions:
+    """What the command line says about the robot description that FROM names or goes with it.
+
+    Attributes:
+        joints: Positions by joint, radians or metres.
+        arguments: Values of xacro arguments.
+        urdf: A description for a recording that has none.
+    """
+
+    joints: Mapping[str, float] = field(default_factory=dict)
+    arguments: Mapping[str, str] = field(default_factory=dict)
+    urdf: Path | None = None
+
+    def refuse(self, what: str) -> None:
+        """Refuse them for a FROM that is no robot description.
+
+        Args:
+            what: What it is, as the beginning of a sentence.
+
+        Raises:
+            UsageError: If one was given.
+        """
+        given = [f"--joint {name}={value:g}" for name, value in self.joints.items()]
+        given += [f"{name}:={value}" for name, value in self.arguments.items()]
+        given += [] if self.urdf is None else [f"--urdf {self.urdf}"]
+        if given:
+            raise UsageError(f"{what}: leave out {', '.join(given)}.")
 
 
 class Mode(Enum):
@@ -62,16 +94,21 @@ class Providers:
 
         return Link(options)
 
-    def stored(self, found: "Found") -> "StoredFrames":
+    def stored(self, found: "Found", robot: RobotOptions) -> "StoredFrames":
         """Open a recording or a robot description.
+
+        Args:
+            found: What it is.
+            robot: Joint positions, and the description of a recorded robot.
 
         Raises:
             InputError: If it cannot be read.
+            UsageError: If a joint position or argument does not fit the description.
         """
         if not found.kind.is_recording:
             from tftool.cli.described import read_at_rest
 
-            return read_at_rest(found)
+            return read_at_rest(found, robot)
         from tftool.cli.recorded import read_and_tell
 
         return read_and_tell(found)
@@ -92,6 +129,7 @@ class Connection:
         tls: Certificate, key and authority, where given.
         config: A zenoh configuration to take as it is.
         read_only: Whether to look only.
+        robot: Joint positions, xacro arguments, a description for a recording.
         providers: Where its clocks and links come from.
     """
 
@@ -103,6 +141,7 @@ class Connection:
     tls: tuple[Path, Path, Path] | None = None
     config: Path | None = None
     read_only: bool = False
+    robot: RobotOptions = field(default_factory=RobotOptions)
     providers: Providers = field(default_factory=Providers, compare=False, repr=False)
     _opened: "list[Link | StoredFrames]" = field(default_factory=list, compare=False, repr=False)
 
@@ -149,7 +188,7 @@ class Connection:
         Raises:
             InputError: If it cannot be read.
         """
-        stored = self.providers.stored(found)
+        stored = self.providers.stored(found, self.robot)
         self._opened.append(stored)
         return stored
 
@@ -226,15 +265,58 @@ SESSION_OPTIONS: dict[str, Any] = {
 }
 
 
+ROBOT = "Robot descriptions"
+"""Heading of the help under which their options are listed."""
+
+ROBOT_OPTIONS: dict[str, Any] = {
+    "joint": Annotated[
+        list[str] | None,
+        typer.Option(
+            "--joint",
+            metavar="NAME=VALUE",
+            rich_help_panel=ROBOT,
+            help="Position of a joint in rad or m (30deg too); again for more.",
+        ),
+    ],
+    "argument": Annotated[
+        list[str] | None,
+        typer.Option(
+            "--argument",
+            metavar="NAME:=VALUE",
+            rich_help_panel=ROBOT,
+            help="A xacro argument; NAME:=VALUE alone does too. xacro evaluates expressions of the "
+            "file: expand none from strangers.",
+        ),
+    ],
+}
+"""What every command takes whose FROM may be a robot description."""
+
+URDF_OPTION: dict[str, Any] = {
+    "urdf": Annotated[
+        Path | None,
+        typer.Option(
+            "--urdf",
+            metavar="FILE",
+            rich_help_panel=ROBOT,
+            help="Description of the robot in a recording that has none inside.",
+        ),
+    ],
+}
+
+
 def with_connection(
-    command: Callable[..., Any], providers: Providers | None = None
+    command: Callable[..., Any],
+    providers: Providers | None = None,
+    robot_options: Mapping[str, Any] = MappingProxyType({}),
 ) -> Callable[..., Any]:
     """Give a command its connection, and its command line the options for that.
 
     Args:
         command: Takes a `Connection` first; then its own options.
         providers: Where clocks and links come from; the real ones when None.
+        robot_options: Which options about robot descriptions it takes.
     """
+    added_options = {**robot_options, **SESSION_OPTIONS}
     signature = inspect.signature(command)
     _, *own = signature.parameters.values()
     added = [
@@ -244,19 +326,19 @@ def with_connection(
             default=False if name in ("join", "host", "read_only") else None,
             annotation=annotation,
         )
-        for name, annotation in SESSION_OPTIONS.items()
+        for name, annotation in added_options.items()
     ]
 
     @functools.wraps(command)
     def connected(*args: Any, **words: Any) -> Any:
-        given = {name: words.pop(name) for name in SESSION_OPTIONS if name in words}
+        given = {name: words.pop(name) for name in added_options if name in words}
         with _read(command.__name__, providers or Providers(), **given) as connection:
             return command(connection, *args, **words)
 
     connected.__signature__ = signature.replace(  # type: ignore[attr-defined]
         parameters=[*own, *added]
     )
-    annotations = {**command.__annotations__, **SESSION_OPTIONS}
+    annotations = {**command.__annotations__, **added_options}
     annotations.pop(next(iter(signature.parameters)), None)
     connected.__annotations__ = annotations
     return connected
@@ -276,6 +358,9 @@ def _read(
     tls_ca: Path | None = None,
     zenoh_config: Path | None = None,
     read_only: bool = False,
+    joint: list[str] | None = None,
+    argument: list[str] | None = None,
+    urdf: Path | None = None,
 ) -> Connection:
     """Put the options together.
 
@@ -313,8 +398,35 @@ def _read(
         tls,
         zenoh_config,
         read_only,
+        RobotOptions(
+            dict(_joint(word) for word in joint or ()),
+            dict(_argument(word) for word in argument or ()),
+            urdf,
+        ),
         providers,
     )
+
+
+def _joint(word: str) -> tuple[str, float]:
+    name, equals, text = word.rpartition("=")
+    factor = math.radians(1.0) if text.endswith("deg") else 1.0
+    try:
+        position = float(text.removesuffix("deg")) * factor
+    except ValueError:
+        position = math.nan
+    if not name or not equals or not math.isfinite(position):
+        raise UsageError(
+            f"'--joint {word}' is no joint and position: write NAME=VALUE, such as "
+            "--joint elbow=0.5 or --joint elbow=30deg."
+        )
+    return name, position
+
+
+def _argument(word: str) -> tuple[str, str]:
+    name, assigned, value = word.partition(":=")
+    if not name or not assigned:
+        raise UsageError(f"'{word}' is no xacro argument: write NAME:=VALUE.")
+    return name, value
 
 
 def _check_endpoint(endpoint: str, *, has_files: bool) -> None:

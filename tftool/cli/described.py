@@ -1,5 +1,6 @@
-"""A robot description as FROM: every link where it is while the joints rest."""
+"""A robot description as FROM: every link where it is while the joints rest, or as told."""
 
+from collections.abc import Collection, Mapping
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
@@ -8,8 +9,10 @@ from tftool.stamps import Stamp
 from tftool.views.escaping import visible
 
 if TYPE_CHECKING:
+    from tftool.cli.connection import RobotOptions
     from tftool.frames.buffer import Buffer
     from tftool.sources.find import Found
+    from tftool.sources.robot import Robot
 
 
 @dataclass(frozen=True, slots=True)
@@ -17,28 +20,77 @@ class RobotAtRest:
     """The frames of a description, which hold at all times; see `hosting.StoredFrames`."""
 
     name: str
+    robot: "Robot"
     buffer: "Buffer"
     start: Stamp = 0
     end: Stamp = 0
+
+    @property
+    def moving(self) -> frozenset[str]:
+        """The links whose joint moves."""
+        return frozenset(one.child for one in self.robot.joints.values() if one.moves)
 
     def close(self) -> None:
         """Nothing is left open."""
 
 
-def read_at_rest(found: "Found") -> RobotAtRest:
+def load_described(found: "Found", options: "RobotOptions") -> "Robot":
+    """Read the description that FROM names; what is odd about it goes to stderr.
+
+    Raises:
+        InputError: If it cannot be read or has mistakes.
+        UsageError: If it needs an extra that is not installed, or options do not fit it.
+    """
+    from tftool.errors import UsageError
+    from tftool.sources.robot import load_urdf
+
+    if options.urdf is not None:
+        raise UsageError(
+            f"--urdf goes with a recording, and '{visible(found.name)}' is a robot description."
+        )
+    robot = load_urdf(found.paths[0], options.arguments)
+    for note in robot.notes:
+        notice(visible(note))
+    return robot
+
+
+def read_at_rest(found: "Found", options: "RobotOptions") -> RobotAtRest:
     """Read a robot description; say on stderr where its moving joints are, and what is odd.
 
     Raises:
         InputError: If it cannot be read or has mistakes.
-        UsageError: If it needs an extra that is not installed.
+        UsageError: If it needs an extra that is not installed, or options do not fit it.
     """
-    from tftool.sources.robot import load_urdf
+    robot = load_described(found, options)
+    buffer = robot.buffer(options.joints)
+    tell_beyond(robot, options.joints)
+    _tell_rest(robot, options.joints, found.name)
+    return RobotAtRest(found.name, robot, buffer)
 
-    robot = load_urdf(found.paths[0])
-    for note in robot.notes:
-        notice(visible(note))
-    moving = sum(joint.moves for joint in robot.joints.values())
-    if moving:
-        word = visible(found.name)
-        notice(f"Joints that move are at rest, {moving} of them: 'tftool info {word}' says where.")
-    return RobotAtRest(found.name, robot.buffer())
+
+def tell_beyond(robot: "Robot", given: Mapping[str, float]) -> None:
+    """Say on stderr which positions lie beyond their joints' limits; they are taken all the same.
+
+    Args:
+        robot: Whose joints they are.
+        given: Positions by joint, of joints it has.
+    """
+    for name, position in given.items():
+        joint = robot.joints[name]
+        if joint.limits is not None and not joint.limits[0] <= position <= joint.limits[1]:
+            lower, upper = joint.limits
+            notice(
+                f"Joint '{visible(name)}' at {position:.4g} {joint.unit} is beyond its limits, "
+                f"{lower:.4g} to {upper:.4g}."
+            )
+
+
+def _tell_rest(robot: "Robot", given: Collection[str], name: str) -> None:
+    """Say on stderr how many joints were given no position."""
+    at_rest = sum(
+        joint.moves and joint.name not in given and robot.leader(joint.name, given) not in given
+        for joint in robot.joints.values()
+    )
+    if at_rest:
+        word = visible(name)
+        notice(f"Joints that move are at rest, {at_rest} of them: 'tftool info {word}' says where.")

@@ -1,6 +1,8 @@
 """How help is laid out: commands by what one wants, options by what they are about."""
 
+import re
 from collections.abc import Callable, Sequence
+from itertools import pairwise
 from typing import Any
 
 import typer
@@ -20,6 +22,7 @@ GROUPS = {
 """Commands by what one wants; each command is in one of these."""
 
 _SESSION = "help_session"
+_ARGUMENT = re.compile(r"[A-Za-z_]\w*:=")
 
 
 class Commands(TyperGroup):
@@ -46,6 +49,20 @@ class Command(TyperCommand):
         super().__init__(name, **words)
         if any(param.name in SESSION_OPTIONS for param in self.params):
             self.params.append(_help_session())
+
+    def parse_args(self, ctx: Any, args: list[str]) -> Any:
+        """Read the command line; a word NAME:=VALUE is an argument of a robot description."""
+        if any(param.name == "argument" for param in self.params):
+            args = [
+                part
+                for before, word in pairwise(["", *args])
+                for part in (
+                    ("--argument", word)
+                    if _ARGUMENT.match(word) and before != "--argument"
+                    else (word,)
+                )
+            ]
+        return super().parse_args(ctx, args)
 
     def format_options(self, ctx: Any, formatter: Any) -> None:
         """Write the arguments, then the options by their headings."""

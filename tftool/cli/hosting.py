@@ -40,6 +40,7 @@ from itertools import pairwise
 from typing import TYPE_CHECKING, Any, Protocol, TypeVar
 
 from tftool.cli.connection import Connection, Mode
+from tftool.cli.described import RobotAtRest
 from tftool.cli.notices import notice, tell_news
 from tftool.cli.options import At
 from tftool.errors import InputError, LinkError, UsageError
@@ -414,6 +415,7 @@ def open_session(
             )
         refuse_to_share(connection, word)
         return _recorded(connection, found, simulated=simulated)
+    _refuse_robot_options(connection, word)
     link = None
     if simulated:
         refuse_to_share(connection, word)
@@ -453,6 +455,7 @@ class Observed:
         epoch: The moment from which `--at` counts.
         now: The moment at which they are observed; ages are told against it.
         moment: The stamp that was asked for; 0, which means the latest, if none was.
+        moving: Of a robot description, the frames whose joint moves; None for other frames.
     """
 
     name: str
@@ -460,6 +463,7 @@ class Observed:
     epoch: Stamp
     now: Stamp
     moment: Stamp = LATEST
+    moving: frozenset[str] | None = None
 
     def snapshot(self) -> "Snapshot":
         """All frames as they were then, each at the latest moment of its chain."""
@@ -500,7 +504,9 @@ def observe(
         name, start = f"{_kind_word(found)} '{visible(stored.name)}'", stored.start
         moment = LATEST if at is None else _checked(at, name, start, stored.end - start)
         buffer = stored.buffer if whole or not moment else _up_to(stored.buffer, moment)
-        return Observed(name, buffer, start, moment or stored.end, moment)
+        moving = stored.moving if isinstance(stored, RobotAtRest) else None
+        return Observed(name, buffer, start, moment or stored.end, moment, moving)
+    _refuse_robot_options(connection, word)
     if word is None and at is None:
         joined = join_session(connection, cache_time=cache_time)
         if joined is not None:
@@ -564,6 +570,11 @@ def refuse_to_share(connection: Connection, word: str | None) -> None:
 def _refuse_to_join(connection: Connection, word: str | None) -> None:
     if word is not None and connection.mode is Mode.JOIN:
         raise UsageError(f"'{visible(word)}' is always hosted: leave out --join, or the name.")
+
+
+def _refuse_robot_options(connection: Connection, word: str | None) -> None:
+    what = "The session that runs" if word is None else f"'{visible(word)}'"
+    connection.robot.refuse(f"{what} is no robot description and no recording")
 
 
 def _checked(at: At, name: str, epoch: Stamp, duration: Duration | None) -> Stamp:

@@ -2,7 +2,7 @@
 
 import difflib
 import math
-from collections.abc import Mapping, Sequence
+from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import TypeAlias
@@ -154,9 +154,22 @@ class Robot:
             UsageError: See `positions`.
         """
         buffer = Buffer(NO_LIMIT)
-        for one in self.transforms(given):
-            buffer.set_transform_static(one, self.name)
+        positions = self.positions(given)
+        for joint in self.joints.values():
+            if joint.type != "floating":
+                position = positions.get(joint.name, 0.0)
+                pose = TransformStamped(0, joint.parent, joint.child, _pose(joint, position))
+                buffer.set_transform_static(pose, joint_in_words(joint, position))
         return buffer
+
+    def leader(self, name: str, given: Collection[str] = ()) -> str:
+        """The joint whose position decides a joint's: its own name, unless it mimics another.
+
+        Args:
+            name: The joint.
+            given: Joints that have a position of their own, which wins.
+        """
+        return self._leader(self.joints[name], frozenset(given))[0].name
 
     def _check_joint(self, name: str) -> None:
         joint = self.joints.get(name)
@@ -200,11 +213,18 @@ def load_urdf(path: str | Path, arguments: Mapping[str, str] | None = None) -> R
     return Robot(load_description(path, arguments))
 
 
+def joint_in_words(joint: RobotJoint, position: float) -> str:
+    """A joint and where it is: "elbow (revolute, 0.5 rad)"."""
+    if not joint.moves:
+        return f"{joint.name} ({joint.type})"
+    return f"{joint.name} ({joint.type}, {position:.4g} {joint.unit})"
+
+
 def _rest(joint: RobotJoint) -> float:
-    limit = joint.limit
-    if limit is None or joint.type == "continuous" or limit.lower <= 0.0 <= limit.upper:
+    limits = joint.limits
+    if limits is None or limits[0] <= 0.0 <= limits[1]:
         return 0.0
-    return (limit.lower + limit.upper) / 2.0
+    return (limits[0] + limits[1]) / 2.0
 
 
 def _pose(joint: RobotJoint, position: float) -> Transform:

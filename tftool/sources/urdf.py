@@ -185,6 +185,18 @@ class RobotJoint:
         """Whether it has one position: revolute, continuous or prismatic."""
         return self.type in ("revolute", "continuous", "prismatic")
 
+    @property
+    def limits(self) -> tuple[float, float] | None:
+        """The least and the greatest position; None for a joint without, such as a wheel."""
+        if self.limit is None or self.type not in _LIMITED:
+            return None
+        return self.limit.lower, self.limit.upper
+
+    @property
+    def unit(self) -> str:
+        """What its position is counted in: rad or m."""
+        return "m" if self.type == "prismatic" else "rad"
+
 
 @dataclass(frozen=True, slots=True)
 class RobotDescription:

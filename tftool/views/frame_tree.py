@@ -1,8 +1,8 @@
 """Every tree of frames: as text for people, as data for programs."""
 
 import math
-from collections.abc import Iterator
-from dataclasses import dataclass
+from collections.abc import Collection, Iterator
+from dataclasses import dataclass, replace
 from typing import Any
 
 from rich.cells import cell_len
@@ -18,6 +18,9 @@ NOTHING = "No tf data received"
 
 # What a fact is when there is none: a static link has no rate and no age.
 NONE = "-"
+
+ROBOT_HEADINGS = ("", "link", "joint")
+"""Of a robot description, in which nothing is sent."""
 
 HEADINGS = ("", "link", "broadcaster", "rate", "buffer length", "oldest", "newest", "age")
 
@@ -36,19 +39,30 @@ UNICODE = _Guides()
 ASCII = _Guides("|-- ", "`-- ", "|   ", "    ")
 
 
-def render(snapshot: Snapshot, *, width: int | None = None, ascii_only: bool = False) -> Text:
+def render(
+    snapshot: Snapshot,
+    *,
+    width: int | None = None,
+    ascii_only: bool = False,
+    moving: Collection[str] | None = None,
+) -> Text:
     """Draw every tree: one line a frame where that fits, else three.
 
     Args:
         snapshot: What to draw.
         width: Columns there are; None for as many as it takes.
         ascii_only: Whether to keep to ASCII for the branches.
+        moving: Of a robot description, the frames whose joint moves; None for other frames.
 
     Returns:
         Lines; nothing in a name acts on the terminal.
     """
     text = Text(no_wrap=True, overflow="ellipsis")
-    text.append(f"Recorded at time: {display(snapshot.now)}")
+    if moving is None:
+        text.append(f"Recorded at time: {display(snapshot.now)}")
+    else:
+        fixed = len(snapshot.frames) - len(moving) - 1
+        text.append(f"{len(moving)} of {len(moving) + fixed} joints move")
     if snapshot.at:
         text.append(f"\nShown at time: {display(snapshot.at)}")
     if not snapshot.frames:
@@ -64,7 +78,9 @@ def render(snapshot: Snapshot, *, width: int | None = None, ascii_only: bool = F
     text.append("\n")
 
     branches = list(_branches(forest, names, ASCII if ascii_only else UNICODE))
-    lines = _table(branches)
+    if moving is not None:
+        branches = [_of_robot(branch, moving) for branch in branches]
+    lines = _table(branches, HEADINGS if moving is None else ROBOT_HEADINGS)
     if width is not None and any(line.cell_len > width for line in lines):
         lines = list(_stacked(branches))
     for line in lines:
@@ -72,8 +88,13 @@ def render(snapshot: Snapshot, *, width: int | None = None, ascii_only: bool = F
     return text
 
 
-def as_object(snapshot: Snapshot) -> dict[str, Any]:
+def as_object(snapshot: Snapshot, moving: Collection[str] | None = None) -> dict[str, Any]:
     """The same for programs; stamps in nanoseconds, no fact as null."""
+    if moving is not None:
+        told = as_object(snapshot)
+        for frame in told["frames"]:
+            frame["moves"] = frame["frame"] in moving
+        return told
     return {
         "recorded_at_ns": snapshot.now,
         "shown_at_ns": snapshot.at,
@@ -153,11 +174,20 @@ def _branches(forest: Forest, names: dict[str, str], guides: _Guides) -> Iterato
             waiting.append((child, below + branch, below + past))
 
 
-def _table(branches: list[_Branch]) -> list[Text]:
+def _of_robot(branch: _Branch, moving: Collection[str]) -> _Branch:
+    """The same frame with what there is to say about its joint."""
+    if not branch.facts:
+        return branch
+    info = branch.info._replace(is_static=branch.info.frame not in moving)
+    kind = "fixed" if info.is_static else "moving"
+    return replace(branch, info=info, facts=(kind, visible(info.authority or NONE)))
+
+
+def _table(branches: list[_Branch], headings: tuple[str, ...]) -> list[Text]:
     """One line a frame, under headings where there are links to describe."""
     rows = [(branch.label, *branch.facts) for branch in branches]
     if any(branch.facts for branch in branches):
-        rows.insert(0, HEADINGS)
+        rows.insert(0, headings)
     widths = [
         max(cell_len(row[column]) for row in rows if column < len(row))
         for column in range(max(map(len, rows)))
@@ -180,6 +210,9 @@ def _stacked(branches: list[_Branch]) -> Iterator[Text]:
     for branch in branches:
         yield Text(branch.label, style=_style(branch.info))
         if not branch.facts:
+            continue
+        if len(branch.facts) == len(ROBOT_HEADINGS) - 1:
+            yield Text(f"{branch.below}{', '.join(branch.facts)}", style="dim")
             continue
         kind, broadcaster, rate, length, oldest, newest, age = branch.facts
         if branch.info.is_static:

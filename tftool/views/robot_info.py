@@ -89,10 +89,10 @@ def _mass(robot: Robot) -> str:
 
 
 def _limits(joint: RobotJoint) -> str:
-    if joint.limit is None or joint.type not in ("revolute", "prismatic"):
+    if joint.limits is None:
         return "-"
-    unit = "m" if joint.type == "prismatic" else "rad"
-    return f"{joint.limit.lower:.4g} {unit} … {joint.limit.upper:.4g} {unit}"
+    lower, upper = joint.limits
+    return f"{lower:.4g} {joint.unit} … {upper:.4g} {joint.unit}"
 
 
 def _mimic(joint: RobotJoint) -> str:

@@ -174,6 +174,8 @@ def echo(
         for answer in moments(stored, target, source, rate=rate, topic=stamps_of, most=count):
             printer.found(answer)
         return ExitStatus.DONE
+    # Where nothing changes, once is enough.
+    once = once or (found is not None and found.kind is Kind.DESCRIPTION and count is None)
     session = open_session(
         connection,
         place,

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 from tftool.cli.app import ExitStatus
-from tftool.cli.connection import Connection
+from tftool.cli.connection import Connection, RobotOptions
 from tftool.cli.options import Json
 from tftool.errors import UsageError
 
@@ -44,7 +44,7 @@ def info(
 
     found = named(place)
     if found.kind is Kind.DESCRIPTION:
-        _describe(found, for_programs=for_programs)
+        _describe(connection, found, for_programs=for_programs)
         return ExitStatus.DONE
     if not found.kind.is_recording:
         word = visible(place)
@@ -67,11 +67,14 @@ def info(
     return ExitStatus.DONE
 
 
-def _describe(found: "Found", *, for_programs: bool) -> None:
+def _describe(connection: Connection, found: "Found", *, for_programs: bool) -> None:
     from tftool.sources.robot import load_urdf
     from tftool.views import robot_info as view
 
-    robot = load_urdf(found.paths[0])
+    RobotOptions(connection.robot.joints, urdf=connection.robot.urdf).refuse(
+        "'info' shows joints as they rest"
+    )
+    robot = load_urdf(found.paths[0], connection.robot.arguments)
     if for_programs:
         sys.stdout.write(json.dumps(view.as_object(found.name, robot), indent=2) + "\n")
     else:

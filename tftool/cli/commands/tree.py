@@ -20,6 +20,8 @@ if TYPE_CHECKING:
     from tftool.frames.sample import Snapshot
     from tftool.runtime.log import LogRecord
 
+    Moving = frozenset[str] | None
+
 
 class Format(StrEnum):
     """What a tree can be written as."""
@@ -92,7 +94,8 @@ def tree(
         return ExitStatus.DONE
     if run_for is not None:
         raise UsageError("--for goes with --watch; without it the tree is written once.")
-    _write(observe(connection, place, at, cache_time=cache_time).snapshot(), form, output)
+    seen = observe(connection, place, at, cache_time=cache_time)
+    _write(seen.snapshot(), seen.moving, form, output)
     return ExitStatus.DONE
 
 
@@ -113,8 +116,8 @@ def _form_of(output: Path | None) -> Format:
     return known[suffix]
 
 
-def _write(snapshot: "Snapshot", form: Format, output: Path | None) -> None:
-    content = _content(snapshot, form, to_file=output is not None)
+def _write(snapshot: "Snapshot", moving: "Moving", form: Format, output: Path | None) -> None:
+    content = _content(snapshot, moving, form, to_file=output is not None)
     if output is None or str(output) == "-":
         if isinstance(content, bytes):
             if sys.stdout.isatty():
@@ -132,18 +135,18 @@ def _write(snapshot: "Snapshot", form: Format, output: Path | None) -> None:
         raise InputError(f"'{output}' cannot be written: {error.strerror or error}.") from error
 
 
-def _content(snapshot: "Snapshot", form: Format, *, to_file: bool) -> str | bytes:
+def _content(snapshot: "Snapshot", moving: "Moving", form: Format, *, to_file: bool) -> str | bytes:
     from tftool.cli.notices import notice
     from tftool.views import frame_tree
 
     if form is Format.json:
         import json
 
-        return json.dumps(frame_tree.as_object(snapshot), indent=2, allow_nan=False) + "\n"
+        return json.dumps(frame_tree.as_object(snapshot, moving), indent=2, allow_nan=False) + "\n"
     if form is Format.yaml:
         return frame_tree.as_yaml(snapshot)
     if form is Format.tree:
-        return _drawn(snapshot, to_file=to_file)
+        return _drawn(snapshot, moving, to_file=to_file)
     from tftool.views.drawing import draw
 
     drawing = draw(snapshot, form.value)
@@ -152,7 +155,7 @@ def _content(snapshot: "Snapshot", form: Format, *, to_file: bool) -> str | byte
     return drawing.content
 
 
-def _drawn(snapshot: "Snapshot", *, to_file: bool) -> str:
+def _drawn(snapshot: "Snapshot", moving: "Moving", *, to_file: bool) -> str:
     """The tree as this terminal shows it; in full where there is none."""
     from rich.console import Console
 
@@ -164,6 +167,7 @@ def _drawn(snapshot: "Snapshot", *, to_file: bool) -> str:
         snapshot,
         width=console.width if terminal else None,
         ascii_only=not to_file and console.options.ascii_only,
+        moving=moving,
     )
     if not terminal:
         return picture.plain + "\n"
