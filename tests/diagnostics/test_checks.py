@@ -257,6 +257,14 @@ def test_transforms_on_a_namespaced_topic():
     assert found(beside, "namespaced-topic").severity is Severity.NOTE
 
 
+def test_a_note_does_not_hide_an_error():
+    made = robot(scans=False)
+    made.moving("other", "thing", topic="/r1/tf")
+    made.hears("/scan", "nowhere")
+    assert found(made, "namespaced-topic").severity is Severity.NOTE
+    assert ids(made) == ["unknown-frame"]
+
+
 @pytest.mark.parametrize("name", ["on", "1", "null", "laser ", "~laser", "a\nb", "x" * 120])
 def test_names_that_tools_stumble_over(name):
     made = robot()

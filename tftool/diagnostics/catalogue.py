@@ -994,6 +994,7 @@ FOLDS: tuple[tuple[tuple[str, ...], tuple[str, ...], str], ...] = (
         ("static-missing", "no-transforms", "unknown-frame", "split-tree"),
         "anything",
     ),
+    (("namespaced-topic",), ("split-tree",), "frame"),
     (
         (
             "gap",

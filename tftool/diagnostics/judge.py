@@ -190,9 +190,16 @@ def _cause_of(number: int, hits: list[tuple[Check, Hit]]) -> str | None:
         for other_number, (other, cause) in enumerate(hits):
             if other.id not in causes or not _share(hit, cause, common):
                 continue
+            if common not in ("edge", "frame") and _is_calm(other, cause) > _is_calm(check, hit):
+                # A note hides an error or a warning only where both are about the same thing.
+                continue
             if _cause_of(other_number, hits) is None:
                 return other.id
     return None
+
+
+def _is_calm(check: Check, hit: Hit) -> bool:
+    return (hit.severity or check.severity) is Severity.NOTE
 
 
 def _share(hit: Hit, cause: Hit, common: str) -> bool:

@@ -253,7 +253,9 @@ def namespaced_topic(model: Model, limits: Limits) -> Iterator[Hit]:
         if all(len(groups) == 1 for groups in tied.values()):
             severity = Severity.NOTE
     prefix = odd[0].rsplit("/", 1)[0]
+    heard = {name for track in usual for name in track.edge}
     yield Hit(
+        frames=tuple(sorted(model.frames - heard)),
         topics=tuple(odd),
         severity=severity,
         count=sum(len(t.stamps) for t in model.tracks if not set(t.topics) & set(_USUAL_TOPICS)),
