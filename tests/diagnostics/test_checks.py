@@ -464,9 +464,16 @@ def test_messages_older_than_the_cache():
 
 def test_messages_before_the_first_transform_are_lost():
     made = robot()
-    made.moving("map", "odom", hz=20, pose=stands, offset=1.0)
+    made.moving("map", "odom", hz=20, pose=stands, begin=2.0, offset=1.0)
     finding = found(made, "late-start")
-    assert (finding.severity, finding.facts["lost"]) == (Severity.NOTE, 10)
+    assert (finding.severity, finding.facts["lost"]) == (Severity.NOTE, 30)
+
+
+@pytest.mark.parametrize("ahead", [0.1, 1.0, 2.0])
+def test_a_localiser_that_dates_its_transforms_ahead_is_healthy(ahead):
+    made = robot()
+    made.moving("map", "odom", hz=20, pose=stands, offset=ahead)
+    assert ids(made, notes=True) == []
 
 
 def test_damage_is_told():

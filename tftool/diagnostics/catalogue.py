@@ -793,7 +793,8 @@ _LIST = (
         _O,
         _N,
         "lookups cannot succeed before a moment: an edge begins late or is dated ahead",
-        "messages are older by more than {seconds:g} s than the first transform they need",
+        "messages are older by more than {seconds:g} s, and the first second of the recording, than "
+        "the first transform they need; where a localiser dates that ahead, by up to 2 s, so much more",
         "{where} begins after the messages that need it",
         "{edge} begins at {begin:moment}: {lost} messages of {topic} can never be placed in {fixed}",
         "waiting does not help; skip them",

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from tftool.diagnostics.findings import Fix, Hit, Severity
-from tftool.diagnostics.model import NEVER, Heard, Limits, Model, Track, rate
+from tftool.diagnostics.model import NEVER, WARM_UP, Heard, Limits, Model, Track, rate
 from tftool.sources.contract import Stamps
 from tftool.stamps import NANOSECONDS
 
@@ -386,8 +386,13 @@ def late_start(model: Model, limits: Limits) -> Iterator[Hit]:
             continue
         last = max(links, key=lambda track: int(track.sorted_stamps[0]))
         begin = int(last.sorted_stamps[0])
-        lost = int(np.count_nonzero((heard.stamps < begin) & (heard.stamps != 0)))
-        if lost and begin - int(heard.stamps.min()) > limits["seconds"] * NANOSECONDS:
+        stamped = heard.stamps[heard.stamps != 0]
+        lost = int(np.count_nonzero(stamped < begin))
+        # A localiser that dates its transforms ahead loses the first second of every recording.
+        usual = WARM_UP
+        if last.is_localisation:
+            usual = max(usual, min(-last.median_latency, 2 * WARM_UP))
+        if lost and begin - int(stamped.min()) > usual + limits["seconds"] * NANOSECONDS:
             yield Hit(
                 edges=(last.edge,),
                 topics=(heard.topic,),
