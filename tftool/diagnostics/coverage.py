@@ -234,6 +234,10 @@ class Waits:
         served: Stamps = self.waits[self.waits != NEVER]
         return served
 
+    def serves(self, percent: float) -> int:
+        """The wait, nanoseconds, that serves so many of those that are ever served."""
+        return int(np.percentile(self.served, percent, method="higher"))
+
 
 def waits_of(model: Model, heard: Heard, fixed: str, *, warm: bool = True) -> Waits | None:
     """How long each message waits to be placed in a frame; None where no edge on the way moves.
@@ -274,9 +278,7 @@ def sensor_outruns_tf(model: Model, limits: Limits) -> Iterator[Hit]:
         served = waits.served
         never = 1.0 - len(served) / len(waits.waits)
         p50, p95, worst = (
-            (float(np.percentile(served, 50)), float(np.percentile(served, 95)), int(served.max()))
-            if len(served)
-            else (0.0, 0.0, 0)
+            (waits.serves(50), waits.serves(95), int(served.max())) if len(served) else (0, 0, 0)
         )
         refused = float(np.count_nonzero(waits.waits > 0)) / len(waits.waits)
         if p95 > limits["seconds"] * NANOSECONDS or never > limits["never"]:
@@ -299,8 +301,8 @@ def sensor_outruns_tf(model: Model, limits: Limits) -> Iterator[Hit]:
                 "fixed": fixed,
                 "refused": refused,
                 "never": never,
-                "p50": int(p50),
-                "p95": int(p95),
+                "p50": p50,
+                "p95": p95,
                 "worst": worst,
                 "timeout": rounded_up(worst),
                 "link": link.name,
@@ -318,7 +320,7 @@ def _cures(heard: Heard, waits: Waits, wait: float) -> tuple[Fix, ...]:
     worst = int(waits.served.max(initial=0))
     if worst < 10_000_000:
         return ()
-    p95 = math.ceil(float(np.percentile(waits.served, 95)) / 1e6)
+    p95 = math.ceil(waits.serves(95) / 1e6)
     later = waits.link.median_latency - heard.median_latency
     depth = max(1, math.ceil(worst / NANOSECONDS * rate(heard)))
     return (

@@ -643,9 +643,10 @@ def _two_clocks(link: Link, track: Track, trace: _Trace) -> _Told:
 
 def _pruned(known: _Known, link: Link, track: Track) -> _Told:
     trace = known.trace
-    newest = trace.newest_before(track.stamps[trace.arrived(track)])
+    newest = int(track.stamps[trace.arrived(track)].max())
     needed = newest - trace.stamp
-    # What is needed is the sample before the moment, if it is not stamped just then.
+    # What is needed is the sample before the moment, if it is not stamped just then. ROS 2 prunes
+    # before it adds the newest one, ROS 1 after: so much is enough for both.
     before = track.sorted_stamps[track.sorted_stamps <= trace.stamp]
     least = newest - int(before[-1]) if len(before) else needed
     advised = math.ceil((least + NANOSECONDS) / NANOSECONDS)
@@ -761,7 +762,7 @@ def _timeout(known: _Known, heard: Heard | None) -> Remedy:
     text = f"a timeout of {advised // 10**6} ms (least: {least / 1e6:.1f})"
     waits = None if heard is None else _waits(trace, heard)
     if heard is not None and waits is not None and len(waits.served):
-        p95, worst = float(np.percentile(waits.served, 95)), int(waits.served.max())
+        p95, worst = waits.serves(95), int(waits.served.max())
         text += (
             f"; {p95 / 1e6:.1f} ms serve 95 % of {heard.topic}, {worst / 1e6:.1f} ms all "
             f"{int(np.count_nonzero(waits.waits != NEVER))} that are ever served"
