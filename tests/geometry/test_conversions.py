@@ -1,5 +1,6 @@
 import math
 
+import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
@@ -141,3 +142,38 @@ def test_there_are_24_orders_of_axes_and_what_is_none_is_refused():
             conversions.euler_from_quaternion((0, 0, 0, 1), axes)
         with pytest.raises(ValueError, match="such as 'sxyz'"):
             conversions.euler_from_matrix(((1, 0, 0), (0, 1, 0), (0, 0, 1)), axes)
+
+
+@given(
+    st.floats(-math.pi, math.pi),
+    st.sampled_from([-1.0, 1.0]),
+    st.floats(1e-16, 1.0).map(lambda gap: gap**8) | st.floats(0.0, 1.0),
+    st.floats(-math.pi, math.pi),
+)
+def test_precise_angles_give_the_rotation_back_near_the_poles(roll, side, gap, yaw):
+    turn = conversions.quaternion_from_rpy(roll, side * (0.5 * math.pi - gap), yaw)
+
+    back = conversions.quaternion_from_rpy(*conversions.precise_rpy_from_quaternion(turn))
+
+    assert quaternions.angle_between(turn, back) < 1e-12
+    assert all(abs(angle) <= math.pi for angle in conversions.precise_rpy_from_quaternion(turn))
+
+
+@given(st.floats(-3.0, 3.0), st.floats(-1.5, 1.5), st.floats(-3.0, 3.0))
+def test_precise_angles_are_the_angles(roll, pitch, yaw):
+    found = conversions.precise_rpy_from_quaternion(
+        conversions.quaternion_from_rpy(roll, pitch, yaw)
+    )
+
+    assert found == pytest.approx((roll, pitch, yaw), abs=1e-11)
+
+
+def test_the_nearest_rotation_to_a_rounded_matrix_is_said_with_how_far_it_is():
+    rows, apart = conversions.nearest_rotation(
+        [[0.0, -1.004, 0.0], [1.0, 0.0, 0.0], [0.0, 0.0, 1.0]]
+    )
+
+    assert np.allclose(rows, [[0, -1, 0], [1, 0, 0], [0, 0, 1]], atol=1e-12)
+    assert apart == pytest.approx(0.004)
+    assert conversions.nearest_rotation(np.zeros((3, 3)))[1] == math.inf
+    assert conversions.nearest_rotation(-np.eye(3))[1] == math.inf

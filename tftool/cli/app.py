@@ -32,6 +32,7 @@ COMMANDS = {
     "explain": "Say why a lookup refuses: which link, by how much.",
     "session": "Show who shares the session that runs here.",
     "info": "Show what a recording or robot description holds.",
+    "convert": "Write one rotation, or pose, in every notation.",
     "check": "Play scenarios on simulated time and judge what they expect.",
     "run": "Run a node written for ROS 2, unmodified, without ROS (ros2 run).",
     "launch": "Launch what a ROS 2 launch file says, without ROS (ros2 launch).",
@@ -43,13 +44,15 @@ COMMANDS = {
 SETTINGS = {
     # A frame may lie at a negative place: -1 is a number there, not an option.
     "static": {"ignore_unknown_options": True},
+    # Nor is it one in a rotation; static_transform_publisher's own options may be pasted, too.
+    "convert": {"ignore_unknown_options": True},
     # What follows a node's file is the node's own.
     "run": {"allow_interspersed_args": False},
     # And what follows these words are ROS 2's own options.
     "ros2": {"allow_interspersed_args": False},
 }
 
-ALONE = ("check", "help")
+ALONE = ("check", "convert", "help")
 """Commands that share no session."""
 
 

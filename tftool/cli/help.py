@@ -12,7 +12,7 @@ from tftool.cli.connection import SESSION_OPTIONS
 
 GROUPS = {
     "Learn": ("demo", "teleop", "follow", "static"),
-    "Ask": ("echo", "tree", "monitor", "explain", "doctor", "ros2"),
+    "Ask": ("echo", "tree", "monitor", "explain", "doctor", "convert", "ros2"),
     "Look": ("view",),
     "Work with files": ("info",),
     "Run your own nodes": ("run", "launch", "session"),

@@ -26,6 +26,9 @@ AXES = tuple(
 # Nearer than this to the pole, roll and yaw turn about one axis and only their sum is told.
 _POLE = 1.0 - 1e-12
 
+# A sum of parts of a unit quaternion this small is rounding.
+_NOISE = 1e-13
+
 
 def quaternion_from_rpy(roll: float, pitch: float, yaw: float) -> Quaternion:
     """The rotation that turns about fixed x, then y, then z; radians, sign as computed."""
@@ -55,6 +58,35 @@ def rpy_from_quaternion(quaternion: Iterable[float]) -> tuple[float, float, floa
         return math.atan2(-m[0][1], -m[0][2]), -0.5 * math.pi, 0.0
     # asin of +0 is negated to -0, as tf2 prints it.
     return math.atan2(m[2][1], m[2][2]), -math.asin(m20), math.atan2(m[1][0], m[0][0])
+
+
+def precise_rpy_from_quaternion(quaternion: Iterable[float]) -> tuple[float, float, float]:
+    """Roll, pitch, yaw in radians that give the rotation back to 1e-12, at the poles too.
+
+    `rpy_from_quaternion` has tf2's formulas, whose arc sine loses half the digits there. What
+    is written to a file that others read back is by this one.
+
+    Source:
+        Bernardes and Viollet, "Quaternion to Euler angles conversion: a direct, general and
+        computationally efficient method", PLoS ONE 2022.
+    """
+    x, y, z, w = quaternions.unit(_quad(quaternion))
+    a, b, c, d = w - y, x + z, y + w, z - x
+    near, far = math.hypot(a, b), math.hypot(c, d)
+    pitch = 2.0 * math.atan2(far, near) - 0.5 * math.pi
+    # At a pole one of the two is told by rounding alone.
+    half_sum = math.atan2(b, a) if near > _NOISE else math.nan
+    half_difference = math.atan2(d, c) if far > _NOISE else math.nan
+    if math.isnan(half_sum):
+        return _wrapped(-2.0 * half_difference), pitch, 0.0
+    if math.isnan(half_difference):
+        return _wrapped(2.0 * half_sum), pitch, 0.0
+    return _wrapped(half_sum - half_difference), pitch, _wrapped(half_sum + half_difference)
+
+
+def _wrapped(angle: float) -> float:
+    """The same angle from -π to π."""
+    return math.remainder(angle, 2.0 * math.pi) if abs(angle) > math.pi else angle + 0.0
 
 
 def second_rpy_from_quaternion(quaternion: Iterable[float]) -> tuple[float, float, float]:
@@ -107,6 +139,31 @@ def quaternion_from_matrix(matrix: Sequence[Sequence[float]]) -> Quaternion:
 
     turn = tuple(float(number) for number in xyzw_from_wxyz(mat2quat(np.array(rows))))
     return Quaternion(*quaternions.canonical(quaternions.unit(_quad(turn))))
+
+
+def nearest_rotation(matrix: Sequence[Sequence[float]]) -> tuple[Matrix3, float]:
+    """The proper rotation nearest to a 3×3 matrix, and how far that is.
+
+    Returns:
+        The rotation, and the largest difference between two of their numbers; infinite for
+        a matrix that has none, or mirrors.
+
+    Source:
+        Higham, "Computing the polar decomposition", SIAM J. Sci. Stat. Comput. 1986, by
+        singular values.
+    """
+    import numpy as np
+
+    given = np.asarray(matrix, dtype=np.float64)
+    identity = ((1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, 0.0, 1.0))
+    if given.shape != (3, 3) or not np.isfinite(given).all():
+        return identity, math.inf
+    left, values, right = np.linalg.svd(given)
+    found = left @ right
+    if values[2] < 1e-9 or np.linalg.det(found) < 0.0:
+        return identity, math.inf
+    (a, b, c), (d, e, f), (g, h, i) = found.tolist()
+    return ((a, b, c), (d, e, f), (g, h, i)), float(np.abs(found - given).max())
 
 
 def axis_angle_from_quaternion(quaternion: Iterable[float]) -> tuple[Vector3, float]:
