@@ -26,6 +26,7 @@ PROMISED = [
     "Phase",
     "Quaternion",
     "Recording",
+    "RecordingWriter",
     "Robot",
     "SimClock",
     "Snapshot",
@@ -49,6 +50,7 @@ PROMISED = [
     "rpy_from_quaternion",
     "run",
     "seconds",
+    "write_recording",
 ]
 
 

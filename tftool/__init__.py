@@ -34,6 +34,7 @@ if TYPE_CHECKING:
     from tftool.runtime.world import World
     from tftool.sources.recording import Recording, open_recording
     from tftool.sources.robot import Robot, load_urdf
+    from tftool.sources.writing.recording import RecordingWriter, write_recording
     from tftool.stamps import LATEST, as_seconds, seconds
 
 __version__ = "0.1.0"
@@ -58,6 +59,7 @@ __all__ = [
     "Phase",
     "Quaternion",
     "Recording",
+    "RecordingWriter",
     "Robot",
     "SimClock",
     "Snapshot",
@@ -81,6 +83,7 @@ __all__ = [
     "rpy_from_quaternion",
     "run",
     "seconds",
+    "write_recording",
 ]
 
 # Where each name lives. It is imported when it is first asked for, so that `import tftool`
@@ -115,6 +118,7 @@ _HOMES = {
     "tftool.diagnostics.findings": ("Finding",),
     "tftool.sources.recording": ("Recording", "open_recording"),
     "tftool.sources.robot": ("Robot", "load_urdf"),
+    "tftool.sources.writing.recording": ("RecordingWriter", "write_recording"),
     "tftool.stamps": ("LATEST", "as_seconds", "seconds"),
 }
 _HOME_OF = {name: home for home, names in _HOMES.items() for name in names}

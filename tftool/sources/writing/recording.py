@@ -1,0 +1,223 @@
+"""A recording to write: transforms and messages into a file that `open_recording` reads."""
+
+import os
+from collections.abc import Iterable
+from pathlib import Path
+from types import TracebackType
+from typing import Any, Final
+
+from tftool.errors import UsageError
+from tftool.frames.sample import TransformStamped
+from tftool.interfaces.classes import INTERFACES, Message
+from tftool.sources.writing.channel import Channel, ContainerWriter
+from tftool.sources.writing.definitions import known_hash, ros2_definition
+from tftool.sources.writing.mcap import McapWriter
+from tftool.sources.writing.offers import offers_text
+from tftool.sources.writing.target import Target, failed
+from tftool.stamps import Stamp
+from tftool.wire.codec import codec
+from tftool.wire.transforms import encode_transforms
+
+TRANSFORMS: Final = "tf2_msgs/msg/TFMessage"
+
+
+def ros2_channel(topic: str, kind: str, *, static: bool = False, depth: int = 1) -> Channel:
+    """A stream of messages of a type we know, as ROS 2 records it.
+
+    Args:
+        topic: Its name.
+        kind: The type: "tf2_msgs/msg/TFMessage".
+        static: Whether late subscribers get the last message too.
+        depth: How many messages are kept for them.
+
+    Raises:
+        InputError: If the type is not known.
+    """
+    metadata = (
+        ("offered_qos_profiles", offers_text(static, depth=depth)),
+        ("topic_type_hash", known_hash(kind)),
+    )
+    return Channel(topic, kind, "cdr", "ros2msg", ros2_definition(kind).encode(), metadata)
+
+
+class RecordingWriter:
+    """A recording that is being written; `write_recording` makes one. Works in a `with`.
+
+    At the end of the `with` it comes to its name, whole; an exception that leaves the `with`
+    takes what was written away, and the name stays what it was.
+    """
+
+    def __init__(self, target: Target, container: ContainerWriter) -> None:
+        """Take what is written to.
+
+        Args:
+            target: Where it comes to stand.
+            container: What takes the messages.
+        """
+        self._target = target
+        self.container = container
+        self._numbers: dict[Channel, int] = {}
+        self._last = 0
+
+    def __enter__(self) -> "RecordingWriter":
+        return self
+
+    def __exit__(
+        self,
+        kind: type[BaseException] | None,
+        error: BaseException | None,
+        trace: TracebackType | None,
+    ) -> None:
+        if kind is None:
+            self.close()
+            return
+        self.discard()
+        if isinstance(error, OSError):
+            raise failed(self._target.path, error) from error
+
+    def __repr__(self) -> str:
+        return f"<RecordingWriter {str(self._target.path)!r}>"
+
+    def transforms(
+        self,
+        samples: Iterable[TransformStamped],
+        log_time: Stamp | None = None,
+        topic: str = "/tf",
+    ) -> None:
+        """Append one message of transforms.
+
+        Args:
+            samples: The transforms in it.
+            log_time: When it was received, nanoseconds; the newest stamp where it is not said.
+            topic: Where it was sent.
+        """
+        self._write_transforms(samples, log_time, topic, static=False)
+
+    def static_transforms(
+        self,
+        samples: Iterable[TransformStamped],
+        log_time: Stamp | None = None,
+        topic: str = "/tf_static",
+    ) -> None:
+        """Append one message of transforms that hold at all times; see `transforms`."""
+        self._write_transforms(samples, log_time, topic, static=True)
+
+    def _write_transforms(
+        self, samples: Iterable[TransformStamped], log_time: Stamp | None, topic: str, static: bool
+    ) -> None:
+        chosen = tuple(samples)
+        if log_time is None:
+            log_time = max((one.stamp for one in chosen), default=0) or self._last
+        channel = ros2_channel(topic, TRANSFORMS, static=static)
+        self.raw(channel, log_time, encode_transforms(chosen))
+
+    def message(self, topic: str, message: Message, log_time: Stamp) -> None:
+        """Append one message of a class that we know the definition of.
+
+        Raises:
+            InputError: If the definition is not ours, or a value does not fit its field.
+        """
+        kind = type(message)
+        self.raw(ros2_channel(topic, kind.interface__), log_time, codec(kind).encode(message))
+
+    def raw(
+        self,
+        channel: Channel,
+        log_time: Stamp,
+        payload: bytes,
+        publish_time: Stamp | None = None,
+        sequence: int = 0,
+    ) -> None:
+        """Append one message as it is.
+
+        Args:
+            channel: The stream it belongs to.
+            log_time: When it was received, nanoseconds.
+            payload: Its bytes, in the channel's encoding.
+            publish_time: When it was sent; `log_time` where it is not said.
+            sequence: Its number at its publisher.
+        """
+        number = self._numbers.get(channel)
+        if number is None:
+            number = self._numbers[channel] = self.container.channel(channel)
+        self._last = max(self._last, log_time)
+        self.container.write(number, log_time, payload, publish_time, sequence)
+
+    def new_message(self, kind: str) -> Any:
+        """An empty message of a type: `new_message("std_msgs/String")`.
+
+        Raises:
+            InputError: If the type is not known.
+        """
+        return INTERFACES.message(kind)()
+
+    def close(self) -> None:
+        """Write the rest, and bring the recording to its name.
+
+        Raises:
+            InputError: If that fails; what was written is gone then.
+        """
+        try:
+            self.container.finish()
+        except OSError as error:
+            self.discard()
+            raise failed(self._target.path, error) from error
+        except BaseException:
+            self.discard()
+            raise
+        self._target.commit()
+
+    def discard(self) -> None:
+        """Take away what was written; the name stays what it was."""
+        self.container.abandon()
+        self._target.discard()
+
+
+def write_recording(
+    path: "str | os.PathLike[str]",
+    *,
+    compression: str = "zstd",
+    profile: str = "ros2",
+    force: bool = False,
+) -> RecordingWriter:
+    """Begin a recording: an MCAP file, of a name that ends in ".mcap".
+
+        with tftool.write_recording("run.mcap") as recording:
+            recording.static_transforms([laser_in_base])
+            recording.transforms([base_in_odom])
+
+    It is written beside its place and comes to its name when it is whole.
+
+    Args:
+        path: Where it comes to stand.
+        compression: "zstd", "lz4" or "none".
+        profile: Whose rules its channels follow: "ros2", "ros1", or "" for none.
+        force: Whether it may replace what stands there.
+
+    Raises:
+        UsageError: If something stands there and `force` is not given, the name ends otherwise,
+            or the compression is not installed.
+        InputError: If it cannot be written there.
+    """
+    place = Path(path)
+    if place.suffix != ".mcap":
+        raise UsageError(f"'{place}' names no container to write: '.mcap' does.")
+    target = Target(place, force=force)
+    try:
+        container = McapWriter(
+            target.part, profile=profile, library=library_name(), compression=compression
+        )
+    except OSError as error:
+        target.discard()
+        raise failed(place, error) from error
+    except BaseException:
+        target.discard()
+        raise
+    return RecordingWriter(target, container)
+
+
+def library_name() -> str:
+    """What we call ourselves in files."""
+    from tftool import __version__
+
+    return f"tftool {__version__}"

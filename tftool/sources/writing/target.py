@@ -1,0 +1,172 @@
+"""Where a recording is written: beside its place, under another name, until it is whole.
+
+A file or folder comes to its final name by one rename, when all of it is on the disk. Until
+then the name is what it was before: nothing, or the recording that stood there.
+"""
+
+import errno
+import os
+import shutil
+from contextlib import suppress
+from pathlib import Path
+from types import TracebackType
+from typing import Final
+
+from tftool.errors import InputError, UsageError
+
+PART: Final = ".part"
+"""What is added to a name while it is written."""
+
+
+class Target:
+    """A file or folder that is written whole or not at all. Works in a `with`.
+
+    Attributes:
+        path: Its name in the end.
+        part: Where it is written until then.
+    """
+
+    def __init__(self, path: Path, *, folder: bool = False, force: bool = False) -> None:
+        """Make the part, after a look at what is in the way.
+
+        Args:
+            path: Its name in the end.
+            folder: Whether it is a folder.
+            force: Whether it may replace what has that name.
+
+        Raises:
+            UsageError: If something has that name and `force` is not given.
+            InputError: If it cannot be written there.
+        """
+        self.path = path
+        self.part = path.with_name(path.name + PART)
+        self._folder = folder
+        if not path.name:
+            raise UsageError(f"'{path}' is no name of a file to write.")
+        if os.path.lexists(path):
+            if not force:
+                raise UsageError(f"'{path}' exists: --force replaces it.")
+            if path.is_dir() and not _is_recording_folder(path):
+                raise UsageError(f"'{path}' is a folder that is no recording: not replaced.")
+        try:
+            self._clear()
+            if folder:
+                self.part.mkdir()
+            else:
+                self.part.open("xb").close()
+        except OSError as error:
+            raise failed(path, error) from error
+
+    def __enter__(self) -> "Target":
+        return self
+
+    def __exit__(
+        self,
+        kind: type[BaseException] | None,
+        error: BaseException | None,
+        trace: TracebackType | None,
+    ) -> None:
+        if kind is None:
+            self.commit()
+        else:
+            self.discard()
+
+    def commit(self) -> None:
+        """Bring it to its name, when all of it is on the disk.
+
+        Raises:
+            InputError: If that fails; the part is gone then.
+        """
+        try:
+            files = [one for one in self.part.iterdir() if one.is_file()] if self._folder else []
+            for one in [*files, self.part]:
+                synced(one)
+            if os.path.lexists(self.path):
+                self._replace()
+            else:
+                self.part.rename(self.path)
+            synced(self.path.parent)
+        except OSError as error:
+            self.discard()
+            raise failed(self.path, error) from error
+
+    def _replace(self) -> None:
+        if not self._folder and not self.path.is_dir():
+            self.part.replace(self.path)
+            return
+        # A folder cannot be replaced in one step: the old one is kept until the new has its name.
+        old = self.path.with_name(self.path.name + ".old")
+        remove(old)
+        self.path.rename(old)
+        try:
+            self.part.rename(self.path)
+        except BaseException:
+            old.rename(self.path)
+            raise
+        remove(old)
+
+    def discard(self) -> None:
+        """Remove the part; the name stays what it was."""
+        with suppress(OSError):
+            self._clear()
+
+    def _clear(self) -> None:
+        remove(self.part)
+
+
+def remove(path: Path) -> None:
+    """Remove a file or a folder, if it is there."""
+    if path.is_dir() and not path.is_symlink():
+        shutil.rmtree(path)
+    else:
+        path.unlink(missing_ok=True)
+
+
+def synced(path: Path) -> None:
+    """Wait until a file or a folder is on the disk."""
+    number = os.open(path, os.O_RDONLY)
+    try:
+        os.fsync(number)
+    except OSError as error:
+        # Some file systems do not sync folders, and devices cannot be synced.
+        if error.errno not in (errno.EINVAL, errno.ENOTSUP):
+            raise
+    finally:
+        os.close(number)
+
+
+def failed(path: Path, error: OSError) -> InputError:
+    """What went wrong with a file that is written, as a sentence."""
+    if error.errno == errno.ENOSPC:
+        return InputError(f"'{path}' cannot be written: the disk is full.")
+    if error.errno in (errno.EACCES, errno.EPERM, errno.EROFS):
+        return InputError(f"'{path}' may not be written: {(error.strerror or str(error)).lower()}.")
+    if error.errno == errno.ENOENT and not path.parent.exists():
+        return InputError(f"'{path}' cannot be written: there is no folder '{path.parent}'.")
+    return InputError(f"'{path}' cannot be written: {error.strerror or error}.")
+
+
+def check_room(path: Path, size: int) -> None:
+    """Refuse what the disk has no room for.
+
+    Raises:
+        InputError: If fewer bytes are free than so many.
+    """
+    try:
+        free = shutil.disk_usage(path.parent).free
+    except OSError as error:
+        raise failed(path, error) from error
+    if free < size:
+        raise InputError(
+            f"'{path}' needs up to {_megabytes(size)}, and {_megabytes(free)} are free on its disk."
+        )
+
+
+def _megabytes(size: int) -> str:
+    return f"{size / 1e6:.1f} MB"
+
+
+def _is_recording_folder(path: Path) -> bool:
+    return (path / "metadata.yaml").exists() or any(
+        one.suffix in (".mcap", ".db3", ".bag") for one in path.iterdir()
+    )
