@@ -1,6 +1,7 @@
 """A recording to write: transforms and messages into a file that `open_recording` reads."""
 
 import os
+import sys
 from collections.abc import Iterable
 from pathlib import Path
 from types import TracebackType
@@ -218,6 +219,6 @@ def write_recording(
 
 def library_name() -> str:
     """What we call ourselves in files."""
-    from tftool import __version__
-
-    return f"tftool {__version__}"
+    # The package stands above every room: it is asked, not imported.
+    version: str = sys.modules["tftool"].__version__
+    return f"tftool {version}"
