@@ -18,6 +18,7 @@ PROMISED = [
     "FrameInfo",
     "InputError",
     "InvalidArgumentException",
+    "JointStates",
     "LATEST",
     "LookupException",
     "NoDataForExtrapolationException",

@@ -32,6 +32,7 @@ if TYPE_CHECKING:
     from tftool.runtime.node import Node
     from tftool.runtime.supervisor import live
     from tftool.runtime.world import World
+    from tftool.sources.joint_states import JointStates
     from tftool.sources.recording import Recording, open_recording
     from tftool.sources.robot import Robot, load_urdf
     from tftool.sources.writing.recording import RecordingWriter, write_recording
@@ -52,6 +53,7 @@ __all__ = [
     "FrameInfo",
     "InputError",
     "InvalidArgumentException",
+    "JointStates",
     "LookupException",
     "NoDataForExtrapolationException",
     "Node",
@@ -117,6 +119,7 @@ _HOMES = {
     "tftool.diagnostics.explanation": ("Explanation",),
     "tftool.diagnostics.findings": ("Finding",),
     "tftool.sources.recording": ("Recording", "open_recording"),
+    "tftool.sources.joint_states": ("JointStates",),
     "tftool.sources.robot": ("Robot", "load_urdf"),
     "tftool.sources.writing.recording": ("RecordingWriter", "write_recording"),
     "tftool.stamps": ("LATEST", "as_seconds", "seconds"),

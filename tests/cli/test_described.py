@@ -151,3 +151,48 @@ def test_words_with_an_assignment_are_arguments_of_xacro(tftool, tmp_path):
 
     assert "[1.000, 0.000, 2.000]" in tftool("echo", "foot", "lamp", str(path)).out
     assert "[1.000, 0.000, 7.500]" in tftool("echo", "foot", "lamp", str(path), "height:=7.5").out
+
+
+@pytest.fixture
+def recording(tmp_path):
+    """A recording of the post's joint, without its description."""
+    from tests.sources.writers import SECOND, Sent, write_mcap
+
+    start = 1_750_000_000 * SECOND
+    moves = [
+        Sent(stamp, "/joint_states", joints=(stamp, ("turn",), (0.1 * tick,)))
+        for tick, stamp in enumerate(range(start, start + SECOND, SECOND // 10))
+    ]
+    return write_mcap(tmp_path / "run.mcap", moves)
+
+
+def test_a_recording_takes_the_description_it_lacks(tftool, recording, robot):
+    result = tftool("echo", "foot", "arm", recording, "--urdf", robot, "--at", "0.5")
+
+    assert result.status == 0
+    assert "- Rotation: in RPY (radian) [0.000, -0.000, 0.500]" in result.out
+    assert "2 frames that tf lacks come from the robot's description" in result.err
+    assert "1 of them moved by joint states" in result.err
+    assert "Robot: 'post' is described" in tftool("info", recording, "--urdf", robot).out
+
+
+@pytest.mark.parametrize(
+    ("words", "status", "told"),
+    [
+        (["--joint", "turn=1"], 2, "In a recording joints are where they were"),
+        (["a:=b"], 2, "Only a description takes arguments"),
+        (["--urdf", "none.urdf"], 3, "cannot read 'none.urdf'"),
+    ],
+)
+def test_what_a_recording_cannot_take_is_refused(tftool, recording, words, status, told):
+    result = tftool("tree", recording, *words)
+
+    assert result.status == status
+    assert told in result.err
+
+
+def test_a_description_takes_no_other(tftool, robot):
+    result = tftool("tree", robot, "--urdf", robot)
+
+    assert result.status == 2
+    assert "--urdf goes with a recording" in result.err

@@ -30,12 +30,14 @@ ROS1.register(
 TF = "tf2_msgs/msg/TFMessage"
 SCAN = "sensor_msgs/msg/LaserScan"
 CLOCK = "rosgraph_msgs/msg/Clock"
+JOINTS = "sensor_msgs/msg/JointState"
+TEXT = "std_msgs/msg/String"
 SECOND = 10**9
 
 
 @dataclass(frozen=True)
 class Sent:
-    """One message: transforms as (stamp, parent, child, seven numbers), or a scan, or a clock."""
+    """One message: transforms as (stamp, parent, child, seven numbers), or something else."""
 
     log_time: int
     topic: str
@@ -43,9 +45,15 @@ class Sent:
     scan: tuple | None = None  # stamp and frame
     clock: int | None = None
     node: str = "/robot"
+    joints: tuple | None = None  # stamp, names and positions
+    text: str | None = None
 
     @property
     def type(self):
+        if self.joints is not None:
+            return JOINTS
+        if self.text is not None:
+            return TEXT
         return TF if self.scan is self.clock is None else SCAN if self.clock is None else CLOCK
 
 
@@ -86,7 +94,18 @@ def payload(sent: Sent, store=ROS2) -> bytes:
         seq = {"seq": 5} if store is ROS1 else {}
         return types["std_msgs/msg/Header"](stamp=time(stamp), frame_id=frame, **seq)
 
-    if sent.clock is not None:
+    if sent.joints is not None:
+        stamp, names, positions = sent.joints
+        message = types[JOINTS](
+            header=header(stamp, ""),
+            name=list(names),
+            position=np.array(positions, dtype=np.float64),
+            velocity=np.zeros(0),
+            effort=np.zeros(0),
+        )
+    elif sent.text is not None:
+        message = types[TEXT](data=sent.text)
+    elif sent.clock is not None:
         message = types[CLOCK](clock=time(sent.clock))
     elif sent.scan is not None:
         stamp, frame = sent.scan

@@ -60,6 +60,10 @@ DESCRIBING = ("echo", "tree", "view", "info")
 """Commands whose FROM may be a robot description."""
 
 
+RECORDED_ROBOTS = ("echo", "tree", "view", "info")
+"""Commands whose FROM may be a recording without the description of its robot."""
+
+
 class ExitStatus(IntEnum):
     """How a command ends, for who called it."""
 
@@ -140,12 +144,16 @@ def _load(name: str, providers: "Providers | None") -> "Callable[..., Any]":
     """A command with all its options."""
     from importlib import import_module
 
-    from tftool.cli.connection import ROBOT_OPTIONS, with_connection
+    from tftool.cli.connection import ROBOT_OPTIONS, URDF_OPTION, with_connection
 
     command: Callable[..., Any] = getattr(import_module(f"tftool.cli.commands.{name}"), name)
     if name in ALONE:
         return command
-    return with_connection(command, providers, ROBOT_OPTIONS if name in DESCRIBING else {})
+    options = {
+        **(ROBOT_OPTIONS if name in DESCRIBING else {}),
+        **(URDF_OPTION if name in RECORDED_ROBOTS else {}),
+    }
+    return with_connection(command, providers, options)
 
 
 def _unasked() -> None:

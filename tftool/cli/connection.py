@@ -111,7 +111,7 @@ class Providers:
             return read_at_rest(found, robot)
         from tftool.cli.recorded import read_and_tell
 
-        return read_and_tell(found)
+        return read_and_tell(found, robot)
 
 
 @dataclass(frozen=True, slots=True)

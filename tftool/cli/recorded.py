@@ -13,10 +13,13 @@ if TYPE_CHECKING:
 
     from rich.progress import Progress, TaskID
 
+    from tftool.cli.connection import RobotOptions
     from tftool.cli.hosting import StoredFrames
     from tftool.frames.sample import TransformStamped
+    from tftool.sources.described import DescribedFrames
     from tftool.sources.find import Found
     from tftool.sources.recording import Recording
+    from tftool.sources.robot import Robot
 
 PATIENCE = seconds(0.5)
 """How long reading goes on before a bar shows."""
@@ -25,8 +28,12 @@ _REDRAWN = seconds(0.1)
 _MOST_NOTICES = 8
 
 
-def read(found: "Found") -> "Recording":
+def read(found: "Found", urdf: "RobotOptions | None" = None) -> "Recording":
     """Open a recording and read its transforms.
+
+    Args:
+        found: The recording.
+        urdf: The description of its robot, where one is given.
 
     Raises:
         InputError: If it cannot be read.
@@ -35,7 +42,7 @@ def read(found: "Found") -> "Recording":
     from tftool.sources.recording import open_recording
 
     bar = Bar(f"Reading {visible(found.name)}")
-    recording = open_recording(found.name, progress=bar)
+    recording = open_recording(found.name, progress=bar, robot=_robot(urdf))
     try:
         _ = recording.transforms
     except BaseException:
@@ -46,11 +53,28 @@ def read(found: "Found") -> "Recording":
     return recording
 
 
-def read_and_tell(found: "Found") -> "Recording":
-    """The same; what is damaged or odd is told on stderr."""
-    recording = read(found)
+def _robot(options: "RobotOptions | None") -> "Robot | None":
+    if options is None:
+        return None
+    if options.joints:
+        options.refuse("In a recording joints are where they were")
+    if options.urdf is None:
+        options.refuse("Only a description takes arguments: give it with --urdf FILE")
+        return None
+    from tftool.sources.robot import load_urdf
+
+    robot = load_urdf(options.urdf, options.arguments)
+    for note in robot.notes:
+        notice(visible(note))
+    return robot
+
+
+def read_and_tell(found: "Found", options: "RobotOptions | None" = None) -> "Recording":
+    """The same; what is damaged or odd, and what a description adds, is told on stderr."""
+    recording = read(found, options)
     told = [
         *recording.damage,
+        *_told(recording.described),
         *(f"{text} ({count} times)." for text, count in recording.oddities.items()),
     ]
     for text in told[:_MOST_NOTICES]:
@@ -58,6 +82,24 @@ def read_and_tell(found: "Found") -> "Recording":
     if len(told) > _MOST_NOTICES:
         notice(f"... and {len(told) - _MOST_NOTICES} more: 'tftool info {visible(found.name)}'.")
     return recording
+
+
+def _told(described: "DescribedFrames | None") -> "Iterator[str]":
+    """What a robot's description added, as sentences."""
+    if described is None:
+        return
+    added = len(described.still) + len(described.moving)
+    if added:
+        yield (
+            f"{added} frames that tf lacks come from the robot's description, "
+            f"{len(described.moving)} of them moved by joint states."
+        )
+    if described.gaps:
+        shown = ", ".join(described.gaps[:5]) + (" …" if len(described.gaps) > 5 else "")
+        yield (
+            f"{len(described.gaps)} links have no frame, as neither tf nor joint states say "
+            f"where they are: {shown}."
+        )
 
 
 class Bar:

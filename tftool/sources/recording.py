@@ -2,7 +2,7 @@
 
 import os
 from collections import Counter
-from collections.abc import Iterator
+from collections.abc import Collection, Iterator
 from dataclasses import dataclass
 from functools import cached_property
 from types import TracebackType
@@ -11,7 +11,7 @@ from typing import Any, Final
 import numpy as np
 import numpy.typing as npt
 
-from tftool.errors import InputError
+from tftool.errors import InputError, TftoolError
 from tftool.frames.buffer import NO_LIMIT, Buffer
 from tftool.frames.sample import TransformStamped
 from tftool.frames.tree import stripped
@@ -31,8 +31,18 @@ from tftool.sources.contract import (
     Topic,
     Transforms,
 )
+from tftool.sources.described import (
+    DescribedFrames,
+    add_described,
+    description_topics,
+    missing_motion,
+    prefix_of,
+    read_description,
+)
 from tftool.sources.find import find
+from tftool.sources.joint_states import RecordedJoints, joint_state_topics, read_joint_states
 from tftool.sources.reading import Recorded
+from tftool.sources.robot import Robot
 from tftool.sources.rosbag2 import open_found
 from tftool.stamps import Stamp
 from tftool.wire.codec import Codec
@@ -74,16 +84,21 @@ class Recording:
     What it holds is known at once; transforms are read when they are first asked for.
     """
 
-    def __init__(self, source: Source, progress: Progress | None = None) -> None:
+    def __init__(
+        self, source: Source, progress: Progress | None = None, robot: Robot | None = None
+    ) -> None:
         """Take a source.
 
         Args:
             source: What is read from.
             progress: Is told how far reading has come.
+            robot: What the recorded robot is, in place of a description in the recording.
         """
         self.source = source
+        self._robot = robot
         self._progress = progress
         self._oddities: Counter[str] = Counter()
+        self._described: DescribedFrames | None = None
 
     def __enter__(self) -> "Recording":
         return self
@@ -156,6 +171,10 @@ class Recording:
                     count, low, high = spans.get(simulated, (0, 2**63 - 1, 0))
                     low, high = min(low, int(chosen.min())), max(high, int(chosen.max()))
                     spans[simulated] = (count + len(chosen), low, high)
+        if not spans and self.robot is not None:
+            moved = [states.stamps for states in self.joint_states.states if len(states)]
+            if moved:
+                return min(int(one.min()) for one in moved), max(int(one.max()) for one in moved)
         if not spans:
             return self.source.start, self.source.end
         _, low, high = max(spans.values())
@@ -178,7 +197,8 @@ class Recording:
         """All of it, without a limit to its memory: look up at any stamp.
 
         A static's last value holds at all times. Transforms that tf2 would refuse, or with
-        stamp 0 though they move, are left out; see `oddities`.
+        stamp 0 though they move, are left out; see `oddities`. Frames that tf lacks come from
+        the robot's description and its joint states, where there are; see `described`.
         """
         oddities = self._oddities
         buffer = Buffer(NO_LIMIT, log=_silent, max_frames=MOST_FRAMES)
@@ -199,7 +219,51 @@ class Recording:
                     continue
                 for edge in edges:
                     _set_moving(buffer, transforms, edge, oddities)
+        if self.robot is not None:
+            self._described = self._add_described(buffer, self.robot, {*moving, *static})
         return buffer
+
+    def _add_described(
+        self, buffer: Buffer, robot: Robot, children: Collection[str]
+    ) -> DescribedFrames:
+        known = {*children, *buffer.frames()}
+        prefix = prefix_of(robot, known)
+        wanted = missing_motion(robot, children, prefix)
+        joints = self.joint_states if wanted else RecordedJoints()
+        for text, count in joints.ignored.items():
+            self._oddities[text] += count
+        return add_described(buffer, robot, joints, children, prefix)
+
+    # The robot in it
+
+    @cached_property
+    def robot(self) -> Robot | None:
+        """The robot, by its description: the one that was given, else the one recorded.
+
+        What is wrong with a recorded one is told in `oddities`.
+        """
+        if self._robot is not None:
+            return self._robot
+        for topic in description_topics(self.topics):
+            try:
+                return read_description(self.source, topic)
+            except TftoolError as error:
+                first = str(error).strip().partition("\n")[0]
+                self._oddities[f"'{topic.name}' cannot be read: {first}"] += 1
+        return None
+
+    @cached_property
+    def joint_states(self) -> RecordedJoints:
+        """The joint states that belong to the robot, as columns."""
+        inside = description_topics(self.topics)
+        namespace = inside[0].name.rpartition("/")[0] if inside and self._robot is None else ""
+        return read_joint_states(self.source, joint_state_topics(self.topics, namespace))
+
+    @property
+    def described(self) -> DescribedFrames | None:
+        """What the robot's description added to what tf holds; None without a description."""
+        _ = self.buffer
+        return self._described
 
     @property
     def oddities(self) -> dict[str, int]:
@@ -347,7 +411,10 @@ def _silent(level: str, text: str) -> None:
 
 
 def open_recording(
-    path: "str | os.PathLike[str]", *, progress: Progress | None = None
+    path: "str | os.PathLike[str]",
+    *,
+    progress: Progress | None = None,
+    robot: Robot | None = None,
 ) -> Recording:
     """Open an MCAP file, a rosbag2 recording, a ROS 1 bag, or a folder or glob of several.
 
@@ -357,6 +424,8 @@ def open_recording(
     Args:
         path: File, folder or glob.
         progress: Is told how many bytes of how many are read, while they are.
+        robot: What the recorded robot is, where the recording has no description of it, or
+            another one; see `load_urdf`.
 
     Raises:
         InputError: If nothing can be read.
@@ -364,6 +433,6 @@ def open_recording(
     """
     name = os.fspath(path)
     try:
-        return Recording(Recorded(name, open_found(find(name))), progress)
+        return Recording(Recorded(name, open_found(find(name))), progress, robot)
     except OSError as error:
         raise InputError(f"'{name}' cannot be read: {error.strerror or error}") from error

@@ -2,7 +2,7 @@
 
 import difflib
 import math
-from collections.abc import Collection, Mapping, Sequence
+from collections.abc import Callable, Collection, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import TypeAlias
@@ -16,10 +16,13 @@ from tftool.frames.sample import TransformStamped
 from tftool.geometry import batch
 from tftool.geometry.conversions import quaternion_from_axis_angle
 from tftool.geometry.rigid import Transform
+from tftool.sources.joint_states import JointStates
 from tftool.sources.urdf import RobotDescription, RobotJoint, RobotLink, load_description
 from tftool.stamps import Stamp
 
 Floats: TypeAlias = npt.NDArray[np.float64]
+
+Records: TypeAlias = npt.NDArray[np.int64]
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -138,28 +141,85 @@ class Robot:
             )
         for name in names:
             self._check_joint(name)
+        return tuple(
+            JointColumns(joint, poses[:, :3], poses[:, 3:])
+            for joint, values in self._moved(names, columns)
+            for poses in (_poses(joint, values, np.empty((len(values), 7))),)
+        )
+
+    def motion(
+        self, states: JointStates, wanted: Callable[[RobotJoint], bool] | None = None
+    ) -> Iterator[tuple[RobotJoint, Records]]:
+        """The poses of the joints that joint states move, as a buffer keeps samples.
+
+        As in robot_state_publisher, names that are no moving joint here are passed over, and
+        a joint that mimics another follows it unless it has a position of its own. A position
+        that is not finite gives no sample: a gap.
+
+        Args:
+            states: Positions over time.
+            wanted: Which joints are asked for; all if None.
+
+        Returns:
+            For each joint its samples, one a row, shape (n, 8), as `Buffer.set_records` takes
+            them.
+        """
+        places = [
+            place
+            for place, name in enumerate(states.names)
+            if name in self.joints and self.joints[name].moves
+        ]
+        names = [states.names[place] for place in places]
+        for joint, values in self._moved(names, states.positions[:, places]):
+            if wanted is not None and not wanted(joint):
+                continue
+            stamps = states.stamps
+            known = np.isfinite(values)
+            if not known.all():
+                stamps, values = stamps[known], values[known]
+            records = np.empty((len(values), 8), dtype=np.int64)
+            records[:, 0] = stamps
+            _poses(joint, values, records.view(np.float64)[:, 1:])
+            yield joint, records
+
+    def _moved(self, names: Sequence[str], columns: Floats) -> Iterator[tuple[RobotJoint, Floats]]:
+        """Every joint that some given ones move, with its positions, shape (n,)."""
         given = {name: columns[:, place] for place, name in enumerate(names)}
-        moved = []
+        chosen = frozenset(given)
         for joint in self.joints.values():
             if joint.moves:
-                leader, factor, offset = self._leader(joint, frozenset(given))
-                if leader.name in given:
-                    moved.append(_poses(joint, factor * given[leader.name] + offset))
-        return tuple(moved)
+                leader, factor, offset = self._leader(joint, chosen)
+                if leader is joint and joint.name in given:
+                    yield joint, given[joint.name]
+                elif leader.name in given:
+                    yield joint, factor * given[leader.name] + offset
 
-    def buffer(self, given: Mapping[str, float] | None = None) -> Buffer:
-        """A buffer in which every frame holds at all times, at one set of positions.
+    def buffer(
+        self, given: Mapping[str, float] | JointStates | Iterable[JointStates] | None = None
+    ) -> Buffer:
+        """A buffer with every frame there is.
+
+        Args:
+            given: Positions by joint (see `positions`), or none: then every frame holds at all
+                times. Or joint states: then what moves has samples at their stamps, and a
+                joint they do not say, or that does not follow one they say, has none.
 
         Raises:
             UsageError: See `positions`.
         """
         buffer = Buffer(NO_LIMIT)
-        positions = self.positions(given)
+        if given is None or isinstance(given, Mapping):
+            positions = self.positions(given)
+            for joint in self.joints.values():
+                if joint.type != "floating":
+                    set_still(buffer, joint, positions.get(joint.name, 0.0))
+            return buffer
         for joint in self.joints.values():
-            if joint.type != "floating":
-                position = positions.get(joint.name, 0.0)
-                pose = TransformStamped(0, joint.parent, joint.child, _pose(joint, position))
-                buffer.set_transform_static(pose, joint_in_words(joint, position))
+            if not joint.moves and joint.type != "floating":
+                set_still(buffer, joint)
+        for states in [given] if isinstance(given, JointStates) else given:
+            for joint, records in self.motion(states):
+                buffer.set_records(joint.parent, joint.child, records, joint.name)
         return buffer
 
     def leader(self, name: str, given: Collection[str] = ()) -> str:
@@ -213,6 +273,13 @@ def load_urdf(path: str | Path, arguments: Mapping[str, str] | None = None) -> R
     return Robot(load_description(path, arguments))
 
 
+def set_still(buffer: Buffer, joint: RobotJoint, position: float = 0.0, prefix: str = "") -> None:
+    """Put a joint's child into a buffer where it is at all times, under the joint's name."""
+    parent, child = prefix + joint.parent, prefix + joint.child
+    pose = TransformStamped(0, parent, child, _pose(joint, position))
+    buffer.set_transform_static(pose, joint_in_words(joint, position))
+
+
 def joint_in_words(joint: RobotJoint, position: float) -> str:
     """A joint and where it is: "elbow (revolute, 0.5 rad)"."""
     if not joint.moves:
@@ -237,18 +304,21 @@ def _pose(joint: RobotJoint, position: float) -> Transform:
     return joint.origin
 
 
-def _poses(joint: RobotJoint, positions: Floats) -> JointColumns:
-    """The same for many positions, shape (n,)."""
-    count = len(positions)
-    axis = np.array(joint.axis)
-    translations = np.broadcast_to(np.array(joint.origin.translation), (count, 3))
-    rotations = np.broadcast_to(np.array(joint.origin.rotation), (count, 4))
+def _poses(joint: RobotJoint, positions: Floats, poses: Floats) -> Floats:
+    """The same for many positions, shape (n,), written into `poses`, shape (n, 7)."""
+    poses[:, :3] = joint.origin.translation
+    turn = np.array(joint.origin.rotation)
     if joint.type == "prismatic":
-        along = batch.rotate(rotations[:1], axis[np.newaxis])
-        return JointColumns(
-            joint, translations + positions[:, np.newaxis] * along, rotations.copy()
-        )
-    turns = np.empty((count, 4))
-    turns[:, :3] = np.sin(0.5 * positions)[:, np.newaxis] * axis
-    turns[:, 3] = np.cos(0.5 * positions)
-    return JointColumns(joint, translations.copy(), batch.multiply(rotations, turns))
+        along = batch.rotate(turn[np.newaxis], np.array([joint.axis]))[0]
+        for place in range(3):
+            poses[:, place] += positions * along[place]
+        poses[:, 3:] = turn
+        return poses
+    # Of turn · (axis · sin, cos) both products are the same for all positions.
+    quarter = batch.multiply(turn, np.array([*joint.axis, 0.0]))
+    half = 0.5 * positions
+    sine, cosine = np.sin(half), np.cos(half)
+    for place in range(4):
+        np.multiply(sine, quarter[place], out=poses[:, 3 + place])
+        poses[:, 3 + place] += cosine * turn[place]
+    return poses

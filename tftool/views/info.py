@@ -5,7 +5,9 @@ from datetime import UTC, datetime, timedelta
 from typing import Any
 
 from tftool.sources.contract import SIMULATED_BELOW
+from tftool.sources.described import DescribedFrames
 from tftool.sources.recording import Recording
+from tftool.sources.robot import Robot
 from tftool.sources.summary import EdgeFacts, TreeFacts, edge_facts, oddities, trees
 from tftool.stamps import NANOSECONDS, Duration, Stamp
 from tftool.views.escaping import visible
@@ -57,10 +59,29 @@ def as_text(recording: Recording) -> str:
             ("edge", "kind", "transforms", "rate", "received after its stamp", "from"),
             list(map(_row, edges)),
         )
+    if recording.robot is not None:
+        lines += ["", f"Robot: {_robot(recording, recording.robot)}"]
     for heading, sentences in (("Damage", recording.damage), ("Odd", oddities(recording))):
         if sentences:
             lines += ["", heading, *(f"  {visible(sentence)}" for sentence in sentences)]
     return "\n".join(lines) + "\n"
+
+
+def _robot(recording: Recording, robot: Robot) -> str:
+    moving = sum(joint.moves for joint in robot.joints.values())
+    found = recording.described or DescribedFrames()
+    text = (
+        f"'{visible(robot.name)}' is described: {len(robot.links)} links, "
+        f"{len(robot.joints)} joints of which {moving} move"
+    )
+    if found.still or found.moving:
+        text += (
+            f"; {len(found.still) + len(found.moving)} frames come from it that tf lacks, "
+            f"{len(found.moving)} of them moved by joint states"
+        )
+    if found.gaps:
+        text += f"; {len(found.gaps)} links have no frame: {_few(list(found.gaps))}"
+    return text
 
 
 def as_object(recording: Recording) -> dict[str, Any]:
@@ -74,6 +95,15 @@ def as_object(recording: Recording) -> dict[str, Any]:
         "log_end_ns": source.end,
         "start_ns": recording.start,
         "end_ns": recording.end,
+        "robot": None
+        if recording.robot is None or recording.described is None
+        else {
+            "name": recording.robot.name,
+            "links": len(recording.robot.links),
+            "added_still": list(recording.described.still),
+            "added_moving": list(recording.described.moving),
+            "gaps": list(recording.described.gaps),
+        },
         "topics": [
             {
                 "name": topic.name,

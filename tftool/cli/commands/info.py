@@ -52,7 +52,7 @@ def info(
             f"'{word}' is a {found.kind.value} and no recording: 'tftool check {word}' plays it, "
             f"'tftool tree {word}' shows its frames."
         )
-    recording: Recording = read(found)
+    recording: Recording = read(found, connection.robot)
     with recording:
         if for_programs:
             sys.stdout.write(json.dumps(view.as_object(recording), indent=2) + "\n")
