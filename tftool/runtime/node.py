@@ -122,10 +122,17 @@ class Node(Resident):
         return publisher
 
     def subscribe(
-        self, topic: str, kind: type[T], callback: Callable[[T], object]
+        self,
+        topic: str,
+        kind: type[T],
+        callback: Callable[[T], object],
+        quality: Quality = USUAL,
     ) -> Callable[[], None]:
-        """Have `callback` called with every value; if it raises, this node has failed."""
-        return self._until_end(self.world.subscribe(self.name, topic, kind, callback))
+        """Have `callback` called with every value; if it raises, this node has failed.
+
+        A latched subscription gets what latched publishers sent before, too.
+        """
+        return self._until_end(self.world.subscribe(self.name, topic, kind, callback, quality))
 
     def serve(
         self, name: str, handler: Callable[[Any], Any], kind: Any = None

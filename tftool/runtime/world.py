@@ -2,6 +2,7 @@
 
 import asyncio
 import inspect
+from collections import deque
 from collections.abc import Callable, Coroutine, Iterable, Mapping
 from dataclasses import dataclass
 from types import MappingProxyType
@@ -57,10 +58,16 @@ class TopicPublisher(Generic[T]):
         self.name = name.removeprefix("/")
         self.kind = kind
         self._world = world
-        self._endpoint, self._withdraw = world.enter(PUBLISHER, node, self.name, kind, quality)
+        # Those of tf have a memory of their own.
+        latched = quality.is_latched and kind is not TransformMessage
+        self._endpoint, self._withdraw = world.enter(
+            PUBLISHER, node, self.name, kind, quality, keeps=latched
+        )
 
     def publish(self, value: T) -> None:
         """Publish a value, on a topic that is made anew where it was removed meanwhile."""
+        if self._endpoint is not None and self._endpoint.kept is not None:
+            self._endpoint.kept.append(value)
         self._world.topic(self.name, self.kind).publish(value, self._endpoint)
 
     @property
@@ -158,12 +165,31 @@ class World:
             name: The topic's name.
             kind: The type of what is published there.
             callback: Called with every value to come.
-            quality: What it asks for.
+            quality: What it asks for. A latched one gets at once what latched publishers of
+                this process sent before, and what those of others did as soon as it comes.
         """
         topic = self.topic(name, kind)
+        taken: Callable[[T], object] = callback
+        deliver: Callable[[Any, Endpoint | None], object] | None = None
+        if quality.is_latched and kind is not TransformMessage:
+
+            def deliver(value: Any, _sender: Endpoint | None) -> object:
+                return callback(value)
+
+            def taken(value: T) -> object:
+                # What other processes send comes by `deliver`.
+                sender = topic.sender
+                if sender is not None and sender.is_remote:
+                    return None
+                return callback(value)
+
         # Entered first: the link shows a subscriber without a name for what is not.
-        _, withdraw = self.enter(SUBSCRIPTION, node, topic.name, kind, quality)
-        stop = topic.subscribe(callback, node)
+        _, withdraw = self.enter(SUBSCRIPTION, node, topic.name, kind, quality, deliver=deliver)
+        stop = topic.subscribe(taken, node)
+        if deliver is not None:
+            for publisher in self.endpoints.of(topic.name, PUBLISHER):
+                for value in publisher.kept or ():
+                    deliver(value, publisher)
 
         def both() -> None:
             stop()
@@ -172,9 +198,26 @@ class World:
         return both
 
     def enter(
-        self, role: Role, node: str, name: str, kind: type[Any], quality: Quality
+        self,
+        role: Role,
+        node: str,
+        name: str,
+        kind: type[Any],
+        quality: Quality,
+        *,
+        keeps: bool = False,
+        deliver: Callable[[Any, Endpoint | None], object] | None = None,
     ) -> tuple[Endpoint | None, Callable[[], None]]:
         """Enter an end of a topic among the endpoints; what stays in the process has none.
+
+        Args:
+            role: Which end.
+            node: Whose.
+            name: The topic's name.
+            kind: The type of its values.
+            quality: What it offers, or asks for.
+            keeps: Whether a publisher keeps what it sent for late subscribers.
+            deliver: Takes what others sent a latched subscription before.
 
         Returns:
             The endpoint, and what takes it out again.
@@ -182,7 +225,8 @@ class World:
         interface = str(getattr(kind, "interface__", ""))
         if not interface:
             return None, _nothing
-        endpoint = Endpoint(role, node, name, interface, quality)
+        kept: deque[Any] | None = deque(maxlen=max(1, quality.depth)) if keeps else None
+        endpoint = Endpoint(role, node, name, interface, quality, deliver=deliver, kept=kept)
         return endpoint, self.endpoints.add(endpoint)
 
     def topics(self) -> Mapping[str, Topic[Any]]:

@@ -51,6 +51,7 @@ class Robot:
 
     def __init__(self, description: RobotDescription) -> None:
         self.description = description
+        self._above = {joint.child: joint for joint in description.joints.values()}
 
     @property
     def name(self) -> str:
@@ -119,6 +120,45 @@ class Robot:
             for name, joint in self.joints.items()
             if joint.type != "floating"
         )
+
+    def joint_above(self, link: str) -> RobotJoint:
+        """The joint that a link hangs from.
+
+        Raises:
+            KeyError: If it is the root, or no link.
+        """
+        return self._above[link]
+
+    def takes(self, name: str) -> bool:
+        """Whether a name is that of a joint that moves."""
+        joint = self.joints.get(name)
+        return joint is not None and joint.moves
+
+    def moved(self, given: Mapping[str, float], stamp: Stamp = 0) -> tuple[TransformStamped, ...]:
+        """The poses of the links that one joint state moves.
+
+        As in robot_state_publisher, names that are no moving joint here are passed over, and
+        so is a position that is not finite; a joint that mimics another follows it unless it
+        has a position of its own.
+
+        Args:
+            given: Positions by joint.
+            stamp: What to stamp them with, nanoseconds.
+        """
+        known = {
+            name: position
+            for name, position in given.items()
+            if self.takes(name) and math.isfinite(position)
+        }
+        chosen = frozenset(known)
+        poses = []
+        for joint in self.joints.values():
+            if joint.moves:
+                leader, factor, offset = self._leader(joint, chosen)
+                if leader.name in known:
+                    pose = _pose(joint, factor * known[leader.name] + offset)
+                    poses.append(TransformStamped(stamp, joint.parent, joint.child, pose))
+        return tuple(poses)
 
     def batch(self, names: Sequence[str], positions: npt.ArrayLike) -> tuple[JointColumns, ...]:
         """The poses of the joints that moved, for many joint states at once.

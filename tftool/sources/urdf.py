@@ -208,6 +208,7 @@ class RobotDescription:
         links: By name, in the order of the file.
         joints: By name, in the order of the file.
         notes: What is odd and still readable, as sentences.
+        text: What it was read from, xacro expanded.
     """
 
     name: str
@@ -215,6 +216,7 @@ class RobotDescription:
     links: Mapping[str, RobotLink]
     joints: Mapping[str, RobotJoint]
     notes: tuple[str, ...] = ()
+    text: str = field(default="", repr=False)
 
 
 def load_description(
@@ -240,6 +242,17 @@ def load_description(
         given = ", ".join(f"{name}:={value}" for name, value in arguments.items())
         raise UsageError(f"'{path}' contains no xacro, so it takes no arguments: leave out {given}")
     return parse_description(text, str(path))
+
+
+def expand_xacro(path: str | Path, arguments: Mapping[str, str] | None = None) -> str:
+    """The text of a description with its xacro expanded; a plain one as it is.
+
+    Raises:
+        InputError: If it cannot be read or expanded.
+        UsageError: If the extra `xacro` is not installed.
+    """
+    text = _text_of(Path(path))
+    return _expanded(Path(path), arguments or {}) if is_xacro(text) else text
 
 
 def is_xacro(text: str) -> bool:
@@ -371,7 +384,7 @@ class _Reader:
         if self.mistakes:
             ordered = sorted(self.mistakes, key=lambda one: (one.line, one.column))
             raise DescriptionError(self.name, ordered)
-        return RobotDescription(name, root, links, joints, tuple(self.notes))
+        return RobotDescription(name, root, links, joints, tuple(self.notes), self.text)
 
     # XML
 

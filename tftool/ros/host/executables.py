@@ -3,8 +3,9 @@
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from difflib import get_close_matches
+from math import isfinite
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from tftool.errors import UsageError
 from tftool.frames.sample import TransformStamped
@@ -17,11 +18,14 @@ from tftool.nodes.static_turtle import static_turtle
 from tftool.nodes.turtlesim import BACKGROUND, Turtlesim
 from tftool.notation import static_arguments
 from tftool.ros.host import user_code
-from tftool.ros.host.names import RosOptions, join
+from tftool.ros.host.names import RosOptions, expand, join
 from tftool.ros.host.program import Program
 from tftool.ros.host.workspace import Workspace, missing_package
 from tftool.runtime.node import Node
 from tftool.runtime.world import World
+
+if TYPE_CHECKING:
+    from tftool.sources.robot import Robot
 
 
 class HasItsOwnCommand(UsageError):
@@ -62,6 +66,17 @@ class Asked:
         if not isinstance(value, bool):
             raise UsageError(f"parameter '{name}' is true or false, not {value!r}")
         return value
+
+    def number(self, name: str, default: float) -> float:
+        """A parameter that is a finite number.
+
+        Raises:
+            UsageError: If it is none.
+        """
+        value = self.parameters.pop(name, default)
+        if isinstance(value, bool) or not isinstance(value, int | float) or not isfinite(value):
+            raise UsageError(f"parameter '{name}' is a number, not {value!r}")
+        return float(value)
 
     def channel(self, name: str, default: int) -> int:
         """A parameter that is a channel of a colour.
@@ -127,6 +142,82 @@ def _mimic(asked: Asked) -> Node:
     return Mimic(asked.world, asked.name, leader=leader, copy=copy)
 
 
+def _robot_of(asked: Asked) -> "Robot | None":
+    """The robot a node is given: by parameter robot_description, or by a file's name.
+
+    Raises:
+        UsageError: If neither is one; the mistakes are told.
+    """
+    # numpy comes with it, which other nodes do without.
+    from tftool.sources.robot import Robot, load_urdf
+    from tftool.sources.urdf import parse_description
+
+    text = asked.text("robot_description", "")
+    if text:
+        return Robot(parse_description(text, f"robot_description of {asked.name}"))
+    if asked.arguments:
+        return load_urdf(asked.arguments[0])
+    return None
+
+
+def _joint_topics(asked: Asked) -> tuple[str, str]:
+    """Where joint states and the description travel for a node."""
+    from tftool.nodes.joints import DESCRIPTION, JOINT_STATES
+
+    joint_states, description = (
+        asked.options.remapped(join(asked.namespace, name), asked.name, asked.namespace)
+        for name in (JOINT_STATES, DESCRIPTION)
+    )
+    return joint_states, description
+
+
+def _robot_state_publisher(asked: Asked) -> Node:
+    from tftool.nodes.joints import RobotStatePublisher
+
+    robot = _robot_of(asked)
+    if robot is None:
+        raise UsageError(
+            "robot_state_publisher needs the parameter robot_description, the text of a URDF, "
+            "or the name of a URDF file as its argument"
+        )
+    return RobotStatePublisher(
+        asked.world,
+        asked.name,
+        robot=robot,
+        frame_prefix=asked.text("frame_prefix", ""),
+        publish_frequency=asked.number("publish_frequency", 20.0),
+        ignore_timestamp=asked.flag("ignore_timestamp", False),
+        topics=_joint_topics(asked),
+    )
+
+
+def _joint_state_publisher(asked: Asked) -> Node:
+    from tftool.nodes.joints import JointStatePublisher
+
+    positions = {
+        name.removeprefix("zeros."): asked.number(name, 0.0)
+        for name in list(asked.parameters)
+        if name.startswith("zeros.")
+    }
+    sources = asked.parameters.pop("source_list", [])
+    if not isinstance(sources, list) or not all(isinstance(one, str) for one in sources):
+        raise UsageError(f"parameter 'source_list' is a list of topics, not {sources!r}")
+    return JointStatePublisher(
+        asked.world,
+        asked.name,
+        robot=_robot_of(asked),
+        positions=positions,
+        rate=asked.number("rate", 10.0),
+        sources=[
+            asked.options.remapped(
+                expand(one, asked.name, asked.namespace), asked.name, asked.namespace
+            )
+            for one in sources
+        ],
+        topics=_joint_topics(asked),
+    )
+
+
 _TF_PACKAGES = ("turtle_tf2_py", "turtle_tf2_cpp")
 
 # package, executable: the node's name unless told, and what makes it.
@@ -134,6 +225,14 @@ _OURS: dict[tuple[str, str], tuple[str, Callable[[Asked], Node]]] = {
     ("turtlesim", "turtlesim_node"): ("turtlesim", _turtlesim),
     ("turtlesim", "draw_square"): ("draw_square", lambda a: DrawSquare(a.world, a.name)),
     ("turtlesim", "mimic"): ("turtle_mimic", _mimic),
+    ("robot_state_publisher", "robot_state_publisher"): (
+        "robot_state_publisher",
+        _robot_state_publisher,
+    ),
+    ("joint_state_publisher", "joint_state_publisher"): (
+        "joint_state_publisher",
+        _joint_state_publisher,
+    ),
     ("tf2_ros", "static_transform_publisher"): ("static_transform_publisher", _static_publisher),
 }
 for _package in _TF_PACKAGES:
@@ -173,6 +272,7 @@ _ELSEWHERE = {
     ("tf2_tools", "view_frames"): "tftool tree --format pdf",
     ("rqt_tf_tree", "rqt_tf_tree"): "tftool tree --watch",
     ("rviz2", "rviz2"): "tftool view",
+    ("joint_state_publisher_gui", "joint_state_publisher_gui"): "tftool robot FILE",
 }
 
 OUR_PACKAGES = tuple(sorted({package for package, _ in _OURS}))

@@ -332,6 +332,27 @@ class ExecutableInPackage(Substitution):
         return str(found)
 
 
+def _expanded(words: list[str]) -> str:
+    """What `xacro FILE NAME:=VALUE …` writes, without ROS.
+
+    Raises:
+        SubstitutionFailure: If it is no such command line, or the file cannot be expanded.
+    """
+    from tftool.errors import InputError, UsageError
+    from tftool.sources.urdf import expand_xacro
+
+    rest = [word for word in words[1:] if word != "--inorder"]
+    files = [word for word in rest if ":=" not in word and not word.startswith("-")]
+    options = [word for word in rest if word.startswith("-")]
+    if len(files) != 1 or options:
+        raise SubstitutionFailure(f"xacro takes one file and NAME:=VALUE here, not {rest}")
+    arguments = dict(word.split(":=", 1) for word in rest if ":=" in word)
+    try:
+        return expand_xacro(files[0], arguments)
+    except (InputError, UsageError) as error:
+        raise SubstitutionFailure(str(error)) from error
+
+
 class Command(Substitution):
     """What a command writes."""
 
@@ -352,6 +373,8 @@ class Command(Substitution):
         import subprocess
 
         words = shlex.split(perform(context, self.command))
+        if words and words[0].rpartition("/")[2] == "xacro":
+            return _expanded(words)
         on_stderr = perform(context, self.on_stderr)
         if on_stderr not in ON_STDERR:
             raise SubstitutionFailure(
