@@ -1,3 +1,4 @@
+import sys
 from pathlib import Path
 
 import pytest
@@ -252,3 +253,24 @@ def test_tests_know_the_workspaces_own_interfaces_with_ros_free(pytester):
         INTERFACES.add("my_balls", {})
 
     result.assert_outcomes(passed=1)
+
+
+def test_tests_import_the_modules_of_the_workspaces_packages_with_ros_free(pytester):
+    package = pytester.mkdir("my_shelf")
+    (package / "setup.py").write_text("from setuptools import setup\nsetup(name='my_shelf')\n")
+    (package / "my_shelf").mkdir()
+    (package / "my_shelf" / "__init__.py").write_text("")
+    (package / "my_shelf" / "heights.py").write_text("HEIGHT = 1.5\n")
+    (package / "test").mkdir()
+    (package / "test" / "test_heights.py").write_text(
+        "from my_shelf.heights import HEIGHT\n\ndef test_it():\n    assert HEIGHT == 1.5\n"
+    )
+    before = list(sys.path)
+    try:
+        result = pytester.runpytest("--ros-free", "-p", "tftool.ros.pytest_plugin")
+    finally:
+        for name in [one for one in sys.modules if one.startswith("my_shelf")]:
+            del sys.modules[name]
+
+    result.assert_outcomes(passed=1)
+    assert sys.path == before

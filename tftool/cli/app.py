@@ -36,6 +36,7 @@ COMMANDS = {
     "check": "Play scenarios on simulated time and judge what they expect.",
     "run": "Run a node written for ROS 2, unmodified, without ROS (ros2 run).",
     "launch": "Launch what a ROS 2 launch file says, without ROS (ros2 launch).",
+    "new": "Make a package of nodes to begin with (ros2 pkg create).",
     "ros2": "Ask a session in the words of ROS 2's command line, without ROS.",
     "help": "Show the list of commands, or the help of one (man).",
 }
@@ -52,7 +53,7 @@ SETTINGS = {
     "ros2": {"allow_interspersed_args": False},
 }
 
-ALONE = ("check", "convert", "help")
+ALONE = ("check", "convert", "help", "new")
 """Commands that share no session."""
 
 

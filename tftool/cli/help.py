@@ -15,7 +15,7 @@ GROUPS = {
     "Ask": ("echo", "tree", "monitor", "explain", "doctor", "convert", "ros2"),
     "Look": ("view",),
     "Work with files": ("info",),
-    "Run your own nodes": ("run", "launch", "session"),
+    "Run your own nodes": ("new", "run", "launch", "session"),
     "Check": ("check",),
     "Help": ("help",),
 }

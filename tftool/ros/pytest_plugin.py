@@ -6,12 +6,15 @@ a class, a module or the session that uses rclpy has one that lasts as long as i
 and the tests it is for share it.
 """
 
+import sys
 from collections.abc import Iterator
 from typing import Any
 
 import pytest
 
 _imports: list[Any] = []
+_added: list[str] = []
+"""Folders of the workspace's modules, at the head of the path."""
 _set_up: list[Any] = []
 """The fixtures that are being set up, the innermost last."""
 _shared: list[Any] = []
@@ -39,8 +42,11 @@ def pytest_configure(config: pytest.Config) -> None:
         # Tests sleep and start threads as nodes do, so they need the same time.
         imports.__enter__().tested = config.rootpath
         _imports.append(imports)
-        # The interfaces of the workspace around the tests, and its packages' share folders.
-        packages.use(Workspace(config.rootpath))
+        # The workspace around the tests: its interfaces, its packages' share folders and modules.
+        workspace = Workspace(config.rootpath)
+        packages.use(workspace)
+        _added.extend(workspace.module_folders())
+        sys.path[:0] = _added
         program.let_outsiders_join(_program_of_fixture)
 
 
@@ -52,6 +58,8 @@ def pytest_unconfigure(config: pytest.Config) -> None:
         program.let_outsiders_join(None)
     while _imports:
         _imports.pop().__exit__(None, None, None)
+    while _added:
+        sys.path.remove(_added.pop())
 
 
 @pytest.hookimpl(hookwrapper=True)

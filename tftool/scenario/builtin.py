@@ -12,16 +12,25 @@ _PACKAGE = Path(__file__).resolve().parents[1]
 def folder() -> Path:
     """Where the built-in scenarios are.
 
-    A wheel carries them inside the package; in a checkout, also an editable
-    install of one, they lie beside it.
+    Raises:
+        InputError: If they are missing.
+    """
+    return shipped("scenarios", "turtles.yaml")
+
+
+def shipped(name: str, mark: str) -> Path:
+    """Where a folder is that comes with tftool and holds a file or folder called `mark`.
+
+    A wheel carries it inside the package; in a checkout, also an editable install of one,
+    it lies beside it.
 
     Raises:
-        InputError: If they are in neither place.
+        InputError: If it is in neither place.
     """
-    for place in (_PACKAGE / "scenarios", _PACKAGE.parent / "scenarios"):
-        if (place / "turtles.yaml").is_file():
+    for place in (_PACKAGE / name, _PACKAGE.parent / name):
+        if (place / mark).exists():
             return place
-    raise InputError(f"the built-in scenarios are missing beside {_PACKAGE}; install tftool again")
+    raise InputError(f"the folder '{name}' is missing beside {_PACKAGE}; install tftool again")
 
 
 def names() -> list[str]:

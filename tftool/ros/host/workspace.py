@@ -102,6 +102,17 @@ class Workspace:
                 roots.append(parent)
         return roots
 
+    def module_folders(self) -> list[str]:
+        """The folders that the packages' own Python modules lie in, as when they are installed.
+
+        A package named like one of Python's own modules, or of ours, is left out: it would hide it.
+        """
+        return [
+            str(package.path)
+            for name, package in self.packages.items()
+            if name not in _TAKEN and (package.path / name / "__init__.py").is_file()
+        ]
+
     def folder_without_mark(self, name: str) -> Path | None:
         """A folder of that name with Python in it that would be a package, had it a package.xml."""
         for root in self._roots():

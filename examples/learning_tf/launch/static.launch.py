@@ -1,0 +1,9 @@
+from launch import LaunchDescription
+from launch_ros.actions import Node
+
+
+def generate_launch_description():
+    return LaunchDescription([
+        Node(package="turtlesim", executable="turtlesim_node"),
+        Node(package="learning_tf", executable="static_frame"),
+    ])

@@ -1,0 +1,34 @@
+"""Say once where a frame is that never moves: a shelf, one metre above the world's corner."""
+
+import rclpy
+from geometry_msgs.msg import TransformStamped
+from rclpy.node import Node
+from tf2_ros.static_transform_broadcaster import StaticTransformBroadcaster
+
+
+class StaticFrame(Node):
+    def __init__(self):
+        super().__init__("static_frame")
+        self.broadcaster = StaticTransformBroadcaster(self)
+
+        t = TransformStamped()
+        t.header.stamp = self.get_clock().now().to_msg()
+        t.header.frame_id = "world"
+        t.child_frame_id = "shelf"
+        t.transform.translation.z = 1.0
+        # A rotation is a quaternion; w = 1 and the rest 0 means: not turned.
+        t.transform.rotation.w = 1.0
+        self.broadcaster.sendTransform(t)
+
+
+def main():
+    rclpy.init()
+    node = StaticFrame()
+    try:
+        rclpy.spin(node)
+    except KeyboardInterrupt:
+        pass
+
+
+if __name__ == "__main__":
+    main()
