@@ -33,23 +33,23 @@ def test_json_holds_all_orders_in_full(tftool):
 
 def test_a_chain_goes_on_in_the_child(tftool):
     # A metre ahead after a quarter turn to the left is a metre to the left.
-    result = tftool("convert", "--yaw", "1.5707963267948966", "--then", "--x 1", "--to", "matrix4")
+    result = tftool("convert", "--yaw", "1.5707963267948966", "--then", "--x 1", "--into", "matrix4")
 
     rows = [[float(word) for word in line.split()] for line in result.out.splitlines()]
     assert [row[3] for row in rows] == pytest.approx([0.0, 1.0, 0.0, 1.0], abs=1e-12)
 
 
 def test_the_inverse_undoes(tftool):
-    there = tftool("convert", "--x", "1", "--y", "2", "--yaw", "-0.5", "--to", "static").out
-    back = tftool("convert", *there.split(), "--inverse", "--then", there, "--to", "matrix4")
-    chained = tftool("convert", there.strip(), "--then", there, "--inverse", "--to", "matrix4")
+    there = tftool("convert", "--x", "1", "--y", "2", "--yaw", "-0.5", "--into", "static").out
+    back = tftool("convert", *there.split(), "--inverse", "--then", there, "--into", "matrix4")
+    chained = tftool("convert", there.strip(), "--then", there, "--inverse", "--into", "matrix4")
 
     assert back.status == chained.status == 0
     assert back.out == chained.out
 
 
 def test_degrees_are_read_and_printed(tftool):
-    out = tftool("convert", "rpy", "0", "0", "90", "--degrees", "--to", "ypr").out
+    out = tftool("convert", "rpy", "0", "0", "90", "--degrees", "--into", "ypr").out
 
     assert [float(word) for word in out.split()] == pytest.approx([90.0, 0.0, 0.0])
 
@@ -57,7 +57,7 @@ def test_degrees_are_read_and_printed(tftool):
 def test_stdin_is_read(tftool, monkeypatch):
     monkeypatch.setattr(sys, "stdin", io.StringIO("x: 0\ny: 0\nz: 0\nw: 1\n"))
 
-    assert tftool("convert", "--to", "wxyz").out == "1 0 0 0\n"
+    assert tftool("convert", "--into", "wxyz").out == "1 0 0 0\n"
 
 
 def test_every_order_is_listed_when_asked(tftool):
@@ -71,8 +71,8 @@ def test_every_order_is_listed_when_asked(tftool):
     [
         (["0", "0", "0.7", "0.7"], "--as xyzw or --as wxyz"),
         (["--as", "nonsense", "1"], "no form of a rotation"),
-        (["rpy", "0", "0", "1", "--to", "nonsense"], "--to nonsense: there is xyzw"),
-        (["rpy", "0", "0", "1", "--to", "xyzw", "--json"], "leave out --json"),
+        (["rpy", "0", "0", "1", "--into", "nonsense"], "--into nonsense: there is xyzw"),
+        (["rpy", "0", "0", "1", "--into", "xyzw", "--json"], "leave out --json"),
         (["--nonsense", "1", "2", "3"], "'nonsense'"),
         (["\x1b[31m0 0 0 1"], "␛"),
     ],

@@ -31,7 +31,7 @@ def convert(
     ] = None,
     degrees: Annotated[
         bool,
-        typer.Option("--degrees", help="Angles are degrees: what is read, and what --to prints."),
+        typer.Option("--degrees", help="Angles are degrees: what is read, and what --into prints."),
     ] = False,
     then: Annotated[
         list[str] | None,
@@ -47,7 +47,7 @@ def convert(
     target: Annotated[
         str | None,
         typer.Option(
-            "--to",
+            "--into",
             metavar="FORM",
             rich_help_panel=OUTPUT,
             help="Print this form alone, in full precision: one of --as, matrix4, urdf or static.",
@@ -66,7 +66,7 @@ def convert(
     of static_transform_publisher. Four bare numbers need --as xyzw or --as wxyz.
 
     tftool convert --as xyzw 0 0 0.7 0.7
-    tftool convert rpy 0 0 90 --degrees --then 'rpy 0 pi/2 0' --to xyzw
+    tftool convert rpy 0 0 90 --degrees --then 'rpy 0 pi/2 0' --into xyzw
     tftool convert '<origin xyz="1 0 0" rpy="0 0 1.57"/>' --inverse
     ros2 run tf2_ros tf2_echo map odom | head -6 | tftool convert
     """
@@ -77,11 +77,11 @@ def convert(
 
     if target is not None and target not in view.TARGETS:
         raise UsageError(
-            f"--to {visible(target)}: there is {', '.join(view.TARGETS[:10])}, and orders of axes "
+            f"--into {visible(target)}: there is {', '.join(view.TARGETS[:10])}, and orders of axes "
             "such as sxyz."
         )
     if target is not None and (for_programs or all_orders):
-        raise UsageError("--to prints one form alone: leave out --json and --all.")
+        raise UsageError("--into prints one form alone: leave out --json and --all.")
     first = read(_text(words), form, degrees=degrees)
     read_all = [first, *(read(text, form, degrees=degrees) for text in then or ())]
     pose = first.transform
