@@ -25,11 +25,32 @@ def ros2_definition(name: str, interfaces: Interfaces = INTERFACES) -> str:
         InputError: If the type is not known.
     """
     full = full_name(name)
-    texts = [_text_of(interfaces, full)]
-    for part in _parts(interfaces, full):
-        package, _, own = part.split("/")
-        texts.append(f"{_LINE}\nMSG: {package}/{own}\n{_text_of(interfaces, part)}")
+    texts = [_ros2_text(interfaces, full)]
+    texts += [
+        f"{_LINE}\nMSG: {short(part)}\n{_ros2_text(interfaces, part)}"
+        for part in _parts(interfaces, full)
+    ]
     return "\n".join(text.strip("\n") for text in texts) + "\n"
+
+
+def same_layout(name: str, one: Interfaces, other: Interfaces) -> bool:
+    """Whether a type's messages have the same bytes by either definition.
+
+    Raises:
+        InputError: If either does not know it.
+    """
+
+    def shape(interfaces: Interfaces, full: str) -> list[object]:
+        return [
+            (
+                field.type if field.type in PRIMITIVES else shape(interfaces, field.type),
+                field.size,
+            )
+            for field in interfaces.structure(full).fields
+        ]
+
+    full = full_name(name)
+    return shape(one, full) == shape(other, full)
 
 
 def ros1_definition(name: str, interfaces: Interfaces = INTERFACES) -> str:
@@ -83,9 +104,19 @@ def short(full: str) -> str:
     return full.replace("/msg/", "/")
 
 
-def _text_of(interfaces: Interfaces, full: str) -> str:
+def _ros2_text(interfaces: Interfaces, full: str) -> str:
     package, kind, own = full.split("/")
-    return interfaces.text(package, kind, own)
+    if interfaces is INTERFACES:
+        return interfaces.text(package, kind, own)
+    # What a recording of ROS 1 brought along says Header and time in its own way.
+    structure = interfaces.structure(full)
+    lines = [f"{kind} {own}={value}" for own, kind, value in structure.constants]
+    for field in structure.fields:
+        text = f"<={field.text_bound}" if field.text_bound else ""
+        bound = f"[<={field.bound}]" if field.bound is not None else _brackets(field)
+        default = f" {field.default}" if field.default else ""
+        lines.append(f"{short(field.type)}{text}{bound} {field.name}{default}")
+    return "\n".join(lines)
 
 
 def _parts(interfaces: Interfaces, full: str) -> list[str]:

@@ -1,5 +1,6 @@
 """What a publisher offered its subscribers, as rosbag2 writes it beside a topic."""
 
+import re
 from typing import Final
 
 _WORDS: Final = """\
@@ -23,26 +24,38 @@ _WORDS: Final = """\
 NUMBERS_BELOW: Final = 9
 """Versions of rosbag2's metadata below this write policies as numbers."""
 
-_NUMBERS: Final = {
-    "keep_last": "1",
-    "reliable": "1",
-    "transient_local": "1",
-    "volatile": "2",
-    "automatic": "1",
+_POLICIES: Final = {
+    "history": ("system_default", "keep_last", "keep_all", "unknown"),
+    "reliability": ("system_default", "reliable", "best_effort", "unknown"),
+    "durability": ("system_default", "transient_local", "volatile", "unknown"),
+    "liveliness": ("system_default", "automatic", "manual_by_node", "manual_by_topic", "unknown"),
 }
+_POLICY = re.compile(
+    rf"^([\s-]*)({'|'.join(_POLICIES)}):[ \t]*['\"]?(\w+)['\"]?[ \t]*$", re.MULTILINE
+)
 
 
-def offers_text(static: bool, *, depth: int = 1, version: int = 9) -> str:
-    """The offer of a publisher of transforms.
+def offers_text(static: bool, *, depth: int = 1) -> str:
+    """The offer of a publisher of transforms, in words.
 
     Args:
         static: Whether late subscribers get the last message too.
         depth: How many messages are kept for them.
-        version: Of rosbag2's metadata, whose style is kept to.
     """
     durability = "transient_local" if static else "volatile"
-    text = _WORDS.format(depth=depth if static else 100, durability=durability)
-    if version < NUMBERS_BELOW:
-        for word, number in _NUMBERS.items():
-            text = text.replace(f": {word}\n", f": {number}\n")
-    return text
+    return _WORDS.format(depth=depth if static else 100, durability=durability)
+
+
+def restyled(text: str, version: int) -> str:
+    """Offers with their policies as a version of rosbag2's metadata writes them."""
+
+    def policy(match: "re.Match[str]") -> str:
+        before, name, value = match.groups()
+        words = _POLICIES[name]
+        if version < NUMBERS_BELOW and value in words:
+            value = str(words.index(value))
+        elif version >= NUMBERS_BELOW and value.isdecimal() and int(value) < len(words):
+            value = words[int(value)]
+        return f"{before}{name}: {value}"
+
+    return _POLICY.sub(policy, text)

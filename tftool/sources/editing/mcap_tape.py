@@ -1,0 +1,358 @@
+"""MCAP from front to back, chunk by chunk, with everything that stands between."""
+
+import struct
+import zlib
+from collections.abc import Iterator, Mapping
+from pathlib import Path
+from typing import Any, Final
+
+from tftool.errors import InputError
+from tftool.sources.compressed import unpack, unpack_beginning
+from tftool.sources.container import File
+from tftool.sources.editing.tape import Extras, Taken
+from tftool.sources.find import MCAP_MAGIC
+from tftool.sources.writing import mcap as format
+from tftool.sources.writing.channel import Channel
+from tftool.sources.writing.mcap import ChunkEntry
+from tftool.stamps import Stamp
+
+_U16, _U32, _U64 = struct.Struct("<H"), struct.Struct("<I"), struct.Struct("<Q")
+_FOOTER_SIZE: Final = 37
+_LARGEST_SUMMARY: Final = 1 << 30
+_LATEST: Final = 2**63 - 1
+
+
+class McapTape:
+    """An MCAP file; see `Tape`.
+
+    Attributes:
+        schemas: Its schemas by their numbers: name, encoding, data.
+        schema_of: The schema of each channel.
+    """
+
+    container = "mcap"
+
+    def __init__(self, path: Path) -> None:
+        """Open it, and take what its summary tells of its channels.
+
+        Raises:
+            InputError: If it is no MCAP file.
+            OSError: If it cannot be opened.
+        """
+        self._file = File(path)
+        self.size = self._file.size
+        self.channels: dict[int, Channel] = {}
+        self.schemas: dict[int, tuple[str, str, bytes]] = {}
+        self.schema_of: dict[int, int] = {}
+        self.extras = Extras()
+        self.damage: list[str] = []
+        self.style: dict[str, Any] = {
+            "profile": "",
+            "library": "",
+            "compression": "",
+            "chunked": False,
+            "with_crc": False,
+            "with_chunk_crc": False,
+            "chunk_size": 0,
+        }
+        if self._file.up_to(0, len(MCAP_MAGIC)) != MCAP_MAGIC:
+            self.close()
+            raise InputError(f"'{path}' is no MCAP file.")
+        try:
+            self.is_indexed = self._read_summary()
+        except (InputError, struct.error) as error:
+            self.is_indexed = False
+            self.damage.append(f"Its summary cannot be read ({error}).")
+
+    def close(self) -> None:
+        """Close the file."""
+        self._file.close()
+
+    def _read_summary(self) -> bool:
+        size = self.size
+        if size < len(MCAP_MAGIC) + _FOOTER_SIZE:
+            return False
+        tail = self._file.at(size - _FOOTER_SIZE, _FOOTER_SIZE)
+        if not tail.endswith(MCAP_MAGIC) or tail[0] != format.FOOTER:
+            return False
+        (begin,) = _U64.unpack_from(tail, 9)
+        (crc,) = _U32.unpack_from(tail, 25)
+        if not begin:
+            return False
+        if not len(MCAP_MAGIC) <= begin <= size - _FOOTER_SIZE:
+            raise InputError(f"it should begin at byte {begin}")
+        if size - begin > _LARGEST_SUMMARY:
+            raise InputError(f"it would be {size - begin} bytes long")
+        summary = self._file.at(begin, size - _FOOTER_SIZE - begin)
+        if crc and zlib.crc32(summary + tail[:25]) != crc:
+            raise InputError("its CRC is wrong")
+        for code, first, last in _records(summary):
+            self.learn(code, summary[first:last])
+        return True
+
+    def learn(self, code: int, body: bytes) -> None:
+        """Take what a record tells of schemas and channels."""
+        if code == format.SCHEMA:
+            (number,) = _U16.unpack_from(body)
+            name, place = _text(body, 2)
+            encoding, place = _text(body, place)
+            (length,) = _U32.unpack_from(body, place)
+            self.schemas.setdefault(number, (name, encoding, body[place + 4 : place + 4 + length]))
+        elif code == format.CHANNEL:
+            number, schema = struct.unpack_from("<HH", body)
+            if number in self.channels:
+                return
+            topic, place = _text(body, 4)
+            encoding, place = _text(body, place)
+            metadata = _strings(body, place)
+            name, kind, data = self.schemas.get(schema, ("", "", b""))
+            self.schema_of[number] = schema
+            self.channels[number] = Channel(
+                topic, name, encoding, kind, data, tuple(metadata.items())
+            )
+
+    # From front to back
+
+    def blocks(self) -> "Iterator[_Chunk | _Loose]":
+        """Its chunks, and the messages between them."""
+        position, size = len(MCAP_MAGIC), self.size
+        loose: list[Taken] = []
+        ended = False
+        crc_told = 0
+        while position + 9 <= size:
+            code, length = format.RECORD.unpack(self._file.at(position, 9))
+            body, end = position + 9, position + 9 + length
+            if code in (format.DATA_END, format.FOOTER):
+                ended = True
+                if code == format.DATA_END and length == 4:
+                    (crc_told,) = _U32.unpack(self._file.at(body, 4))
+                    self.style["with_crc"] = crc_told != 0
+                break
+            if code == 0 or (end > size and code != format.CHUNK):
+                break
+            try:
+                if code == format.CHUNK:
+                    if loose:
+                        yield _Loose(loose)
+                        loose = []
+                    chunk = _Chunk(self, position, min(end, size), end > size)
+                    position = chunk.behind
+                    yield chunk
+                    continue
+                if code == format.MESSAGE:
+                    loose.append(_message(self._file.at(body, length)))
+                    if len(loose) >= 4096:
+                        yield _Loose(loose)
+                        loose = []
+                elif code in (format.SCHEMA, format.CHANNEL):
+                    self.learn(code, self._file.at(body, length))
+                elif code == format.HEADER:
+                    head = self._file.at(body, length)
+                    self.style["profile"], place = _text(head, 0)
+                    self.style["library"], _ = _text(head, place)
+                elif code == format.ATTACHMENT:
+                    self._attachment(self._file.at(body, length), position)
+                elif code == format.METADATA:
+                    self.extras.metadata.append(self._file.at(body, length))
+            except (InputError, struct.error) as error:
+                self.note(f"A record at byte {position} cannot be read ({_reason(error)}).")
+            if end > size:
+                break
+            position = end
+        if loose:
+            yield _Loose(loose)
+        if not ended:
+            self.note(f"The recording breaks off at byte {position} of {size}.")
+
+    def _attachment(self, body: bytes, position: int) -> None:
+        (crc,) = _U32.unpack_from(body, len(body) - 4)
+        if crc and zlib.crc32(body[:-4]) != crc:
+            self.note(f"The CRC of the attachment at byte {position} is wrong: it is left out.")
+            return
+        self.extras.attachments.append(body)
+
+    def note(self, damage: str) -> None:
+        """Tell what is wrong."""
+        if damage not in self.damage and len(self.damage) < 20:
+            self.damage.append(damage)
+
+    def bytes_at(self, place: int, count: int) -> bytes:
+        """So many bytes of the file."""
+        return self._file.at(place, count)
+
+
+class _Loose:
+    """Messages outside of chunks; see `Block`."""
+
+    whole = False
+
+    def __init__(self, messages: list[Taken]) -> None:
+        self._messages = messages
+        self.start = min(one.log_time for one in messages)
+        self.end = max(one.log_time for one in messages)
+        self.channels: Mapping[int, int] | None = None
+
+    def messages(self) -> list[Taken]:
+        """Its messages."""
+        return self._messages
+
+
+class _Chunk:
+    """One chunk with its message indexes; see `Block`.
+
+    Attributes:
+        behind: Where the record behind its message indexes begins.
+        damaged: Whether what it holds is not what was written.
+    """
+
+    def __init__(self, tape: McapTape, position: int, end: int, cut: bool) -> None:
+        self._tape = tape
+        self._position = position
+        self._end = end
+        self._cut = cut
+        self._found: list[Taken] | None = None
+        head = tape.bytes_at(position, min(end - position, 256))
+        start, stop, self._size, self._crc, length = struct.unpack_from("<QQQII", head, 9)
+        if length > 64:
+            raise InputError(f"a compression's name announces {length} bytes")
+        self._method = head[41 : 41 + length].decode("utf-8", "backslashreplace")
+        (packed,) = _U64.unpack_from(head, 41 + length)
+        self._data = position + 49 + length
+        self._packed = min(packed, end - self._data)
+        if packed != self._packed:
+            self._cut = True
+        self.start: Stamp = min(start, _LATEST)
+        self.end: Stamp = min(stop, _LATEST)
+        tape.style["chunked"] = True
+        tape.style["compression"] = self._method or "none"
+        tape.style["with_chunk_crc"] = bool(self._crc)
+        tape.style["chunk_size"] = max(tape.style["chunk_size"], self._size)
+        self._offsets: dict[int, int] = {}
+        self.channels: Mapping[int, int] | None = None
+        self.behind = end
+        self._read_indexes()
+        known = self.channels is not None and self.channels.keys() <= tape.channels.keys()
+        # Without a summary its own records may be all that tells of channels behind it.
+        self.whole = known and tape.is_indexed and not self._cut
+
+    def _read_indexes(self) -> None:
+        """Step over the message indexes behind it, and note what they tell."""
+        tape, counts, length = self._tape, dict[int, int](), 0
+        position = self._end
+        while not self._cut and position + 15 <= tape.size:
+            head = tape.bytes_at(position, 15)
+            code, length = format.RECORD.unpack_from(head)
+            if code != format.MESSAGE_INDEX or position + 9 + length > tape.size:
+                break
+            (channel,) = _U16.unpack_from(head, 9)
+            (count,) = _U32.unpack_from(head, 11)
+            if count != length - 6 or count % 16:
+                break
+            if count:
+                counts[channel] = counts.get(channel, 0) + count // 16
+            self._offsets[channel] = position
+            position += 9 + length
+        self.behind = position
+        if self._offsets:
+            self.channels = counts
+
+    @property
+    def entry(self) -> ChunkEntry:
+        """What the summary says of it."""
+        return ChunkEntry(
+            self.start,
+            self.end,
+            self._position,
+            self._end - self._position,
+            self._offsets,
+            self.behind - self._end,
+            self._method,
+            self._packed,
+            self._size,
+        )
+
+    def raw(self) -> bytes:
+        """Its record and those of its message indexes."""
+        return self._tape.bytes_at(self._position, self.behind - self._position)
+
+    def messages(self) -> list[Taken]:
+        """Its messages, those up to the damage where there is any."""
+        if self._found is not None:
+            return self._found
+        tape, found = self._tape, list[Taken]()
+        data = self._unpacked()
+        try:
+            for code, first, last in _records(data):
+                if code == format.MESSAGE:
+                    found.append(_message(data[first:last]))
+                else:
+                    tape.learn(code, data[first:last])
+        except (InputError, struct.error) as error:
+            tape.note(f"The chunk at byte {self._position} is damaged ({_reason(error)}).")
+            self.whole = False
+        self._found = found
+        counts: dict[int, int] = {}
+        for one in found:
+            counts[one.channel] = counts.get(one.channel, 0) + 1
+        if counts != self.channels:
+            self.whole = False
+        self.channels = counts
+        return found
+
+    def _unpacked(self) -> bytes:
+        packed = self._tape.bytes_at(self._data, self._packed)
+        if self._cut:
+            return unpack_beginning(self._method, packed, self._size)
+        try:
+            data = unpack(self._method, packed, self._size)
+        except InputError as error:
+            self._tape.note(f"The chunk at byte {self._position} is damaged ({error}).")
+            self.whole = False
+            return unpack_beginning(self._method, packed, self._size)
+        if self._crc and zlib.crc32(data) != self._crc:
+            self._tape.note(
+                f"The CRC of the chunk at byte {self._position} is wrong: its messages are "
+                "copied as they are, and may not be what was recorded."
+            )
+            self.whole = False
+        return data
+
+
+def _message(body: bytes) -> Taken:
+    channel, sequence, log_time, publish_time = struct.unpack_from("<HIQQ", body)
+    return Taken(channel, min(log_time, _LATEST), body[22:], publish_time, sequence)
+
+
+def _records(data: bytes) -> Iterator[tuple[int, int, int]]:
+    """Every record's code, and where its body begins and ends."""
+    position, size = 0, len(data)
+    while position + 9 <= size:
+        code, length = format.RECORD.unpack_from(data, position)
+        first = position + 9
+        position = first + length
+        if position > size:
+            raise InputError("it ends within a record")
+        yield code, first, position
+
+
+def _strings(body: bytes, place: int) -> dict[str, str]:
+    (length,) = _U32.unpack_from(body, place)
+    place += 4
+    end = place + length
+    found: dict[str, str] = {}
+    while place < end and len(found) < 1000:
+        key, place = _text(body, place)
+        found[key], place = _text(body, place)
+    return found
+
+
+def _text(body: bytes, place: int) -> tuple[str, int]:
+    (length,) = _U32.unpack_from(body, place)
+    end = place + 4 + length
+    if end > len(body):
+        raise InputError(f"a text announces {length} bytes")
+    return body[place + 4 : end].decode("utf-8", "surrogateescape"), end
+
+
+def _reason(error: Exception) -> str:
+    return "a record is cut" if isinstance(error, struct.error) else str(error)
