@@ -120,7 +120,7 @@ class Recorded:
         for stream, count in zip(self._container.streams, self._container.counts, strict=True):
             first.setdefault(stream.topic, stream)
             counts[stream.topic] = counts.get(stream.topic, 0) + count
-            static[stream.topic] = static.get(stream.topic, False) or _is_static(stream)
+            static[stream.topic] = static.get(stream.topic, False) or is_static(stream)
         return tuple(
             Topic(
                 name,
@@ -149,7 +149,7 @@ class Recorded:
         for number, stream in enumerate(self._container.streams):
             if topics is not None and stream.topic not in topics:
                 continue
-            static = _is_static(stream)
+            static = is_static(stream)
             if _is_tf(stream):
                 key = _LAYOUTS[stream.encoding], static
                 if key not in cutters:
@@ -180,7 +180,7 @@ class Recorded:
         found: dict[str, _Heads] = {}
         of_stream: dict[int, _Heads] = {}
         for number, stream in enumerate(self._container.streams):
-            if (topics is None or stream.topic in topics) and _begins_with_header(stream):
+            if (topics is None or stream.topic in topics) and begins_with_header(stream):
                 heads = found.setdefault(stream.topic, _Heads(stream))
                 of_stream[number] = heads
         for batch in self._batches(of_stream.keys(), progress, _HEAD_BYTES):
@@ -324,7 +324,7 @@ def _has_transforms(stream: Stream) -> bool:
     return _is_tf(stream) or is_foreign(short_type(stream.type), stream.encoding)
 
 
-def _is_static(stream: Stream) -> bool:
+def is_static(stream: Stream) -> bool:
     """Whether transforms of a stream hold at all times: by name, not by a stamp of 0."""
     last = stream.topic.rpartition("/")[2]
     if last == "tf_static":
@@ -333,7 +333,8 @@ def _is_static(stream: Stream) -> bool:
     return is_latched and (stream.encoding == "ros1" or "static" in stream.topic)
 
 
-def _begins_with_header(stream: Stream) -> bool:
+def begins_with_header(stream: Stream) -> bool:
+    """Whether messages of a stream begin with a header that we can read."""
     if stream.encoding not in _LAYOUTS:
         return False
     kind = short_type(stream.type)

@@ -58,6 +58,15 @@ def _open_file(path: Path) -> Container:
 def _open_folder(folder: Path) -> Container:
     """The files of one rosbag2 recording."""
     damage: list[str] = []
+    return _joined(files_of_folder(folder, damage), damage)
+
+
+def files_of_folder(folder: Path, damage: list[str]) -> list[Path]:
+    """The files of a rosbag2 recording, in order; what is odd about them is added to `damage`.
+
+    Raises:
+        InputError: If there is none.
+    """
     there = sorted(
         (path for path in folder.iterdir() if path.is_file() and _is_part(path)),
         key=_natural,
@@ -82,7 +91,7 @@ def _open_folder(folder: Path) -> Container:
             f"'{folder}' has the {METADATA} of a rosbag2 recording, but none of its files"
             + (f": {_few(missing)} is missing." if missing else ".")
         )
-    return _joined(parts, damage)
+    return parts
 
 
 def _joined(paths: Sequence[Path], damage: list[str]) -> Container:
@@ -154,7 +163,7 @@ class _Unpacked:
         self._folder = tempfile.TemporaryDirectory(prefix="tftool-")
         try:
             target = Path(self._folder.name) / path.stem
-            cut = _unpack_file(path, target)
+            cut = unpack_file(path, target)
             self._inner = _open_file(target)
         except BaseException:
             self._folder.cleanup()
@@ -180,7 +189,7 @@ class _Unpacked:
         self._folder.cleanup()
 
 
-def _unpack_file(path: Path, target: Path) -> str:
+def unpack_file(path: Path, target: Path) -> str:
     """Unpack a file; what was wrong with it, as a sentence."""
     free = shutil.disk_usage(target.parent).free
     limit = min(_LARGEST_UNPACKED, free - (1 << 26))
