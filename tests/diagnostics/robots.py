@@ -7,7 +7,10 @@ import numpy as np
 
 from tftool.diagnostics.judge import Diagnosis, judge
 from tftool.diagnostics.model import Material, Settings
+from tftool.errors import DescriptionError
 from tftool.sources.contract import Edge, Headers, Publisher, Topic, Transforms
+from tftool.sources.robot import Robot as DescribedRobot
+from tftool.sources.urdf import parse_description
 from tftool.stamps import seconds
 
 START = 1_750_000_000.0
@@ -41,6 +44,10 @@ class Robot:
     slashed: dict[tuple[str, str, bool], int] = field(default_factory=dict)
     clock: list[tuple[int, int]] = field(default_factory=list)
     damage: tuple[str, ...] = ()
+    urdf: str = ""
+    joints: frozenset[str] | None = None
+    odometry: "Robot | None" = None
+    """Its transforms are what odometry messages say."""
     log_from: float | None = None
     """Log time of the start; that of the stamps when None."""
 
@@ -146,7 +153,12 @@ class Robot:
             for name in sorted({publisher.topic for publisher in self.publishers})
         )
         clock = np.array(self.clock, dtype=np.int64).reshape(-1, 2)
+        described, mistakes = self._description()
         return Material(
+            joints=self.joints,
+            robot=described,
+            mistakes=mistakes,
+            odometry=None if self.odometry is None else self.odometry.material().transforms,
             name="made up",
             kind="columns",
             transforms=transforms,
@@ -158,6 +170,12 @@ class Robot:
             start=min(every, default=0),
             end=max(every, default=0),
         )
+
+    def _description(self) -> tuple[DescribedRobot | None, tuple[str, ...]]:
+        try:
+            return (DescribedRobot(parse_description(self.urdf)) if self.urdf else None), ()
+        except DescriptionError as error:
+            return None, tuple(mistake.text for mistake in error.mistakes)
 
     def judged(self, settings: Settings | None = None) -> Diagnosis:
         return judge(self.material(), settings)

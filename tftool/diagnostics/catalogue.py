@@ -19,6 +19,7 @@ NEEDS = {
     "durability": "what publishers offer to late subscribers is not recorded",
     "odometry": "there are no odometry messages",
     "description": "no robot description was given (--urdf FILE)",
+    "valid description": "the robot description has mistakes",
     "joint states": "there are no joint states",
 }
 """What a check may need beside transforms, and what is said where that is missing."""
@@ -917,6 +918,26 @@ _LIST = (
         needs=("headers",),
     ),
     Check(
+        "odometry-tf-mismatch",
+        _V,
+        _W,
+        "odometry message and transform of one name disagree",
+        "an Odometry message and the transform of the same two names and the same stamp are more "
+        "than {metres:g} m or {degrees:g}° apart, in a share above {share:g} of such pairs; a note "
+        "where tf has no transform of these names",
+        "{topic} and tf disagree about {edge}",
+        "{found}",
+        "what uses the message and what uses tf believe the robot in different places",
+        (Fix("let one node publish both, from one estimate"),),
+        (
+            "the message is the wheels', the transform a filter's",
+            "the filter's publish_tf is off and another node sends the transform",
+        ),
+        (),
+        {"metres": 0.05, "degrees": 2.0, "share": 0.5},
+        ("odometry",),
+    ),
+    Check(
         "suspect-units",
         _V,
         _N,
@@ -941,6 +962,81 @@ _LIST = (
         "if no turn was meant, the frame is upside down",
         (Fix("write quaternions as x y z w: no turn is 0 0 0 1"),),
         ("a quaternion written w first",),
+    ),
+    Check(
+        "urdf-invalid",
+        _D,
+        _E,
+        "the robot description has mistakes",
+        "it is no XML, has no root or several, a joint names a link that is missing, joints form a "
+        "circle, or a name comes twice",
+        "the robot description cannot be read",
+        "{mistakes}",
+        "robot_state_publisher refuses it or publishes a part; nothing is compared with it",
+        (Fix("mend the description: `tftool info FILE` shows each mistake in its line"),),
+        ("a link was renamed and its joint was not", "xacro that was not expanded"),
+        needs=("description",),
+    ),
+    Check(
+        "joint-without-state",
+        _D,
+        _E,
+        "a movable joint has no state, so its link has no frame",
+        "a joint that moves and follows no other is in no JointState of the recording, and no "
+        "transform has its link",
+        "{joint} has no state: {child} has no frame",
+        "{joint} ({kind}) moves {below}",
+        "robot_state_publisher publishes nothing below such a joint",
+        (
+            Fix(
+                "start joint_state_publisher or the controller's broadcaster; or make the joint "
+                "fixed"
+            ),
+        ),
+        (
+            "joint_state_publisher or the joint state broadcaster was not started",
+            "a plug-in publishes the driven joints only",
+            "casters",
+        ),
+        _threads("LeoRover/leo_simulator#6", "iRobotEducation/create3_sim#203"),
+        needs=("description", "valid description", "joint states"),
+    ),
+    Check(
+        "urdf-frame-unpublished",
+        _D,
+        _W,
+        "a link of the robot description never appears in tf",
+        "a link of the robot description is in no transform of the whole recording",
+        "{where} of the robot description: in no transform",
+        "{frame}: {reason}",
+        "nothing can be placed in these frames",
+        (),
+        (
+            "robot_state_publisher does not run, or with another description",
+            "/tf_static was not recorded",
+            "a movable joint has no state",
+        ),
+        _threads("iRobotEducation/create3_sim#203"),
+        needs=("description", "valid description"),
+    ),
+    Check(
+        "urdf-tf-mismatch",
+        _D,
+        _W,
+        "a static differs from the robot description's fixed joint",
+        "a static and the fixed joint of the same two links are more than {metres:g} m or "
+        "{degrees:g}° apart",
+        "{where} differs from the robot description",
+        "{edge}: {apart:m} and {turned:deg} apart; {joint} has {says}, tf {has}",
+        "what was calibrated and what is published are two mounts",
+        (Fix("publish it once: take the second publisher away, or write the calibration down"),),
+        (
+            "a calibration is published beside the description",
+            "the robot runs with an older description",
+        ),
+        (),
+        {"metres": 0.001, "degrees": 0.1},
+        ("description", "valid description"),
     ),
 )
 
@@ -984,6 +1080,7 @@ FOLDS: tuple[tuple[tuple[str, ...], tuple[str, ...], str], ...] = (
     ),
     (("static-and-dynamic",), ("parent-switch", "static-on-tf", "single-sample"), "child"),
     (("static-missing",), ("unknown-frame", "split-tree"), "anything"),
+    (("static-missing", "unknown-frame", "split-tree"), ("urdf-frame-unpublished",), "frame"),
     (
         ("slash-twins", "namespace-twins", "case-twins", "typo-twins"),
         ("unknown-frame", "split-tree", "rep105-shape"),
@@ -996,6 +1093,7 @@ FOLDS: tuple[tuple[tuple[str, ...], tuple[str, ...], str], ...] = (
         "anything",
     ),
     (("namespaced-topic",), ("split-tree",), "frame"),
+    (("joint-without-state",), ("urdf-frame-unpublished", "split-tree"), "frame"),
     (
         (
             "gap",

@@ -6,7 +6,7 @@ from types import MappingProxyType
 
 import numpy as np
 
-from tftool.diagnostics import clocks, coverage, names, publishers, shape, values
+from tftool.diagnostics import clocks, coverage, description, names, publishers, shape, values
 from tftool.diagnostics.catalogue import CHECKS, FOLDS, NEEDS, Check
 from tftool.diagnostics.findings import Area, Confidence, Finding, Fix, Hit, Severity, Skipped
 from tftool.diagnostics.model import Limits, Material, Model, Settings
@@ -15,7 +15,7 @@ from tftool.errors import UsageError
 
 Run = Callable[[Model, Limits], Iterator[Hit]]
 
-_ROOMS = (publishers, shape, names, clocks, coverage, values)
+_ROOMS = (publishers, shape, names, clocks, coverage, values, description)
 
 RUNS: Mapping[str, Run] = {
     name: getattr(room, name.replace("-", "_"))
@@ -102,6 +102,14 @@ def _has(material: Material, need: str) -> bool:
         return material.recorded
     if need == "headers":
         return any(len(headers) for headers in material.headers.values())
+    if need == "odometry":
+        return material.odometry is not None
+    if need == "description":
+        return material.robot is not None or bool(material.mistakes)
+    if need == "valid description":
+        return material.robot is not None
+    if need == "joint states":
+        return material.joints is not None
     return any(publisher.durability for publisher in material.publishers)
 
 

@@ -7,10 +7,12 @@ import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from functools import cached_property
+from pathlib import Path
 
 import numpy as np
 import numpy.typing as npt
 
+from tftool.errors import DescriptionError, InputError
 from tftool.geometry.batch import Floats, angles_between, unit
 from tftool.sources.contract import (
     SIMULATED_BELOW,
@@ -22,6 +24,10 @@ from tftool.sources.contract import (
     Topic,
     Transforms,
 )
+from tftool.sources.described import description_topics, prefix_of, read_description
+from tftool.sources.joint_states import joint_state_topics, read_joint_states
+from tftool.sources.robot import Robot, load_urdf
+from tftool.sources.urdf import RobotJoint
 from tftool.stamps import NANOSECONDS, Duration, Stamp, seconds
 
 Mask = npt.NDArray[np.bool_]
@@ -30,6 +36,8 @@ Places = npt.NDArray[np.intp]
 
 Limits = Mapping[str, float]
 """The thresholds of one check, by name."""
+
+ODOMETRY = "nav_msgs/Odometry"
 
 NEVER = np.iinfo(np.int64).max
 """The arrival of what never arrives."""
@@ -65,6 +73,9 @@ class Material:
         timed: Whether it has log times; a buffer has none.
         recorded: Whether it was recorded, and may be played.
         joints: Names in all joint states; None where none was recorded.
+        robot: The robot's description, given or recorded; None without one that can be read.
+        mistakes: What is wrong with the description, as sentences.
+        odometry: Odometry messages as transforms; None where there are none.
     """
 
     name: str
@@ -82,15 +93,35 @@ class Material:
     timed: bool = True
     recorded: bool = True
     joints: frozenset[str] | None = None
+    robot: Robot | None = None
+    mistakes: tuple[str, ...] = ()
+    odometry: Transforms | None = None
 
 
-def read(source: Source, transforms: Transforms) -> Material:
+def read(source: Source, transforms: Transforms, urdf: "Described | None" = None) -> Material:
     """Take from an opened source, whose transforms are read, what a diagnosis looks at.
+
+    Args:
+        source: The recording.
+        transforms: Its transforms.
+        urdf: The robot's description; None for the one that was recorded, if any.
 
     Raises:
         InputError: If the headers cannot be read.
     """
+    described = urdf or _recorded_description(source)
+    odometry = [topic.name for topic in source.topics if topic.type == ODOMETRY and topic.count]
+    joints = None
+    if described.robot is not None:
+        names = joint_state_topics(source.topics, described.namespace)
+        if names:
+            states = read_joint_states(source, names).states
+            joints = frozenset(name for one in states for name in one.names)
     return Material(
+        joints=joints,
+        robot=described.robot,
+        mistakes=described.mistakes,
+        odometry=source.transforms(odometry) if odometry else None,
         name=source.name,
         kind=source.kind,
         transforms=transforms,
@@ -105,6 +136,54 @@ def read(source: Source, transforms: Transforms) -> Material:
 
 
 @dataclass(frozen=True, slots=True)
+class Described:
+    """A robot description that was looked for.
+
+    Attributes:
+        robot: What it describes; None where there is none that can be read.
+        mistakes: What is wrong with it, as sentences.
+        namespace: That of its topic, "/arm" for "/arm/robot_description".
+    """
+
+    robot: Robot | None = None
+    mistakes: tuple[str, ...] = ()
+    namespace: str = ""
+
+
+def described_by(path: str | Path) -> Described:
+    """The robot that a URDF or xacro file describes, or what is wrong with it.
+
+    Raises:
+        InputError: If the file cannot be read.
+        UsageError: If it needs xacro, which is not installed.
+    """
+    try:
+        return Described(load_urdf(path))
+    except DescriptionError as error:
+        return Described(mistakes=_mistakes(error))
+
+
+def _recorded_description(source: Source) -> Described:
+    for topic in description_topics(source.topics):
+        namespace = topic.name.rpartition("/")[0]
+        try:
+            return Described(read_description(source, topic), namespace=namespace)
+        except DescriptionError as error:
+            return Described(mistakes=_mistakes(error), namespace=namespace)
+        except InputError as error:
+            return Described(mistakes=(str(error),), namespace=namespace)
+    return Described()
+
+
+def _mistakes(error: DescriptionError) -> tuple[str, ...]:
+    """Each with its line; the lines themselves are left out."""
+    return tuple(
+        f"{mistake.file}:{mistake.line}:{mistake.column}: {mistake.text}"
+        for mistake in error.mistakes[: error.MOST]
+    )
+
+
+@dataclass(frozen=True, slots=True)
 class Settings:
     """What the listener that is thought of would do, and other limits than the usual ones.
 
@@ -112,10 +191,12 @@ class Settings:
         cache_time: How far back its buffer remembers, nanoseconds.
         fixed_frame: Where it wants to place sensors; empty for the usual one.
         limits: Thresholds by check and name, in place of the catalogue's.
+        tf_topics: Topics it listens to for transforms; empty for the usual ones.
     """
 
     cache_time: Duration = CACHE_TIME
     fixed_frame: str = ""
+    tf_topics: tuple[str, ...] = ()
     limits: Mapping[str, Mapping[str, float]] = field(default_factory=dict)
 
 
@@ -464,6 +545,25 @@ class Model:
     def frames(self) -> frozenset[str]:
         """Every frame that a transform names."""
         return frozenset(name for track in self.tracks for name in track.edge)
+
+    @cached_property
+    def prefix(self) -> str:
+        """What stands before a described link's name in that of its frame; usually nothing."""
+        robot = self.material.robot
+        return "" if robot is None else prefix_of(robot, self.frames)
+
+    @cached_property
+    def joint_above(self) -> Mapping[str, RobotJoint]:
+        """The description's joint above each frame; none without a description."""
+        robot = self.material.robot
+        joints = () if robot is None else robot.joints.values()
+        return {self.prefix + joint.child: joint for joint in joints}
+
+    @cached_property
+    def described(self) -> frozenset[str]:
+        """The frames that the description promises; none without one."""
+        robot = self.material.robot
+        return frozenset(() if robot is None else (self.prefix + link for link in robot.links))
 
     @cached_property
     def trees(self) -> tuple[Tree, ...]:

@@ -297,6 +297,9 @@ def static_on_tf(model: Model, limits: Limits) -> Iterator[Hit]:
     for track in model.dynamic:
         if track.is_localisation or track in moving or len(track.stamps) < limits["samples"]:
             continue
+        joint = model.joint_above.get(track.child)
+        if joint is not None and joint.moves:
+            continue  # it could move, and rests
         yield Hit(
             edges=(track.edge,),
             publishers=track.nodes,

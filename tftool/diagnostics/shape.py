@@ -5,6 +5,7 @@ from collections.abc import Iterator
 
 from tftool.diagnostics.findings import Confidence, Fix, Hit, Severity
 from tftool.diagnostics.model import Limits, Model, Tree, last_part, overlap
+from tftool.geometry.rigid import Transform
 
 _BASES = ("base_link", "base_footprint", "base")
 
@@ -64,7 +65,9 @@ def split_tree(model: Model, limits: Limits) -> Iterator[Hit]:
         severity = Severity.ERROR if topics else Severity.WARNING
         if _is_complete(main) and _is_complete(tree):
             severity = Severity.NOTE
-        parent, child = missing_join(main, tree.root, is_base=_is_base(tree))
+        joint = _described_join(model, main, tree)
+        guess = missing_join(main, tree.root, is_base=_is_base(tree))
+        parent, child = guess if joint is None else joint
         yield Hit(
             frames=(tree.root, *sorted(tree.frames - {tree.root})),
             topics=tuple(topics),
@@ -74,22 +77,53 @@ def split_tree(model: Model, limits: Limits) -> Iterator[Hit]:
                 "main_root": main.root,
                 "number": number,
                 "used": [f"{topic} ({count} messages)" for topic, count in topics.items()],
-                "join": {"parent": parent, "child": child, "guess": True},
+                "join": {"parent": parent, "child": child, "guess": joint is None},
             },
-            fixes=(
-                Fix(
-                    f"probably {child} belongs on {parent}; put in the measured mount:",
-                    static_publisher(parent, child),
-                ),
-            ),
+            fixes=(_join(model, tree, parent, child, certain=joint is not None),),
             alone=True,
         )
 
 
-def static_publisher(parent: str, child: str) -> str:
-    """The line that publishes a mount."""
+def _described_join(model: Model, main: Tree, tree: Tree) -> tuple[str, str] | None:
+    """The joint of the robot description that joins a tree to the main one."""
+    for child in (tree.root, main.root):
+        joint = model.joint_above.get(child)
+        if joint is not None:
+            parent = model.prefix + joint.parent
+            if parent in (main.frames if child == tree.root else tree.frames):
+                return parent, child
+    return None
+
+
+def _join(model: Model, tree: Tree, parent: str, child: str, *, certain: bool) -> Fix:
+    if certain:
+        joint = model.joint_above[child]
+        if joint.type != "fixed":
+            return Fix(f"the robot description joins them by {joint.name}: publish its state")
+        return Fix(
+            f"the robot description joins them by {joint.name}: start robot_state_publisher, or",
+            static_publisher(parent, child, joint.origin),
+        )
+    if last_part(tree.root) == "body" and last_part(parent) in _BASES:
+        return Fix(
+            f"probably {child} is {parent} by another name; if so:",
+            static_publisher(parent, child, Transform()),
+        )
+    return Fix(
+        f"probably {child} belongs on {parent}; put in the measured mount:",
+        static_publisher(parent, child),
+    )
+
+
+def static_publisher(parent: str, child: str, pose: Transform | None = None) -> str:
+    """The line that publishes a mount; with letters for its numbers where they are not known."""
+    numbers = "--x X --y Y --z Z --yaw A"
+    if pose is not None:
+        names = ("x", "y", "z", "qx", "qy", "qz", "qw")
+        values = (*pose.translation, *pose.rotation)
+        numbers = " ".join(f"--{a} {b:.9g}" for a, b in zip(names, values, strict=True))
     return (
-        "ros2 run tf2_ros static_transform_publisher --x X --y Y --z Z --yaw A "
+        f"ros2 run tf2_ros static_transform_publisher {numbers} "
         f"--frame-id {quoted(parent)} --child-frame-id {quoted(child)}"
     )
 

@@ -7,9 +7,10 @@ import numpy as np
 from tftool.diagnostics.findings import Confidence, Hit, Severity
 from tftool.diagnostics.model import ZERO_QUATERNION, Limits, Model, Track, last_part
 from tftool.diagnostics.shape import base_of
-from tftool.geometry.batch import unit
+from tftool.diagnostics.wording import metres
+from tftool.geometry.batch import angles_between, unit
 from tftool.geometry.quaternions import angle_between
-from tftool.stamps import NANOSECONDS
+from tftool.stamps import NANOSECONDS, Stamp
 
 _OPTICAL = (-0.5, 0.5, -0.5, 0.5)
 _ENDINGS = ("_optical_frame", "_optical_link", "_optical")
@@ -171,6 +172,79 @@ def image_not_optical(model: Model, limits: Limits) -> Iterator[Hit]:
                 count=len(heard.stamps),
                 facts={"topic": heard.topic, "frame": heard.frame},
             )
+
+
+def odometry_tf_mismatch(model: Model, limits: Limits) -> Iterator[Hit]:
+    """Odometry message and transform of one name disagree."""
+    odometry = model.material.odometry
+    if odometry is None:
+        return
+    tracks = {track.edge: track for track in model.tracks}
+    for edge in odometry.edges:
+        told = Track(edge, odometry)
+        track = tracks.get(told.edge)
+        topic = ", ".join(told.topics)
+        if track is None:
+            if {edge.parent, edge.child} <= model.frames and edge.parent != edge.child:
+                yield _no_such_transform(model, told, topic)
+            continue
+        hit = _disagreement(track, told, topic, model.end, limits)
+        if hit is not None:
+            yield hit
+
+
+def _no_such_transform(model: Model, told: Track, topic: str) -> Hit:
+    above = model.parents.get(told.child)
+    hangs = f"in tf {told.child} hangs from {above.parent}" if above else "in tf it has no parent"
+    return Hit(
+        edges=(told.edge,),
+        topics=told.topics,
+        publishers=told.nodes,
+        count=len(told.stamps),
+        severity=Severity.NOTE,
+        facts={
+            "topic": topic,
+            "edge": told.name,
+            "found": f"{topic} says {told.name}; {hangs}",
+        },
+        alone=True,
+    )
+
+
+def _disagreement(
+    track: Track, told: Track, topic: str, end: Stamp, limits: Limits
+) -> "Hit | None":
+    """How far the two are apart where they are stamped alike, if that is too far too often."""
+    if track.static:
+        return None
+    places = told.by_stamp[told.logs[told.by_stamp] <= end]
+    _, mine, theirs = np.intersect1d(track.sorted_stamps, told.stamps[places], return_indices=True)
+    if not len(mine):
+        return None
+    some, others = track.by_stamp[mine], places[theirs]
+    away = track.translations[some] - told.translations[others]
+    apart = np.sqrt(np.einsum("ij,ij->i", away, away))
+    turned = angles_between(unit(track.rotations[some]), unit(told.rotations[others]))
+    wrong = (apart > limits["metres"]) | (turned > np.radians(limits["degrees"]))
+    count = int(np.count_nonzero(wrong))
+    if count <= limits["share"] * len(wrong):
+        return None
+    return Hit(
+        edges=(track.edge,),
+        topics=told.topics,
+        publishers=tuple(dict.fromkeys((*track.nodes, *told.nodes))),
+        since=int(track.logs[some[wrong]].min()),
+        count=count,
+        facts={
+            "topic": topic,
+            "edge": track.name,
+            "apart": float(np.median(apart)),
+            "turned": float(np.median(turned)),
+            "found": f"{count:,} of {len(wrong):,} pairs of one stamp, usually "
+            f"{metres(float(np.median(apart)))} and {np.degrees(np.median(turned)):.3g}° apart",
+        },
+        alone=True,
+    )
 
 
 def suspect_units(model: Model, limits: Limits) -> Iterator[Hit]:
