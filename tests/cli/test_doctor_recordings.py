@@ -1,6 +1,7 @@
 """The doctor looks at real recordings, written by other people's writers."""
 
 import csv
+import dataclasses
 import json
 from pathlib import Path
 
@@ -122,3 +123,72 @@ def test_a_sweep_that_cannot_be_is_refused(tftool, runs, tmp_path, monkeypatch, 
     result = tftool("doctor", runs[0], *words)
     assert (result.status, told in result.err) == (2, True)
     assert not (tmp_path / "found.csv").exists()
+
+
+ROBOT = """<robot name="r">
+  <link name="base_link"/><link name="laser"/><link name="caster_link"/>
+  <joint name="laser_joint" type="fixed">
+    <parent link="base_link"/><child link="laser"/><origin xyz="0.1 0 0.25"/>
+  </joint>
+  <joint name="caster" type="continuous">
+    <parent link="base_link"/><child link="caster_link"/>
+  </joint>
+</robot>"""
+
+
+def ids_of(result):
+    return [one["id"] for one in json.loads(result.out)["findings"] if not one["because_of"]]
+
+
+def test_a_description_beside_a_recording_or_in_it_is_compared(tftool, tmp_path):
+    states = Sent(START, "/joint_states", joints=(START, ("wheel",), (0.0,)))
+    file = tmp_path / "robot.urdf"
+    file.write_text(ROBOT, encoding="utf-8")
+    run = write_mcap(tmp_path / "run.mcap", [*drive(), states])
+    inside = write_mcap(
+        tmp_path / "inside.mcap", [*drive(), states, Sent(START, "/robot_description", text=ROBOT)]
+    )
+    expected = ["joint-without-state", "urdf-tf-mismatch"]
+    assert ids_of(tftool("doctor", run, "--urdf", file, "--json")) == expected
+    assert ids_of(tftool("doctor", inside, "--json")) == expected
+    with open_recording(run) as recording:
+        found = [one.id for one in diagnose(recording, urdf=file) if one.because_of is None]
+    assert found == expected
+    assert ids_of(tftool("doctor", run, "--json")) == []
+
+
+def test_a_description_with_mistakes_is_a_finding_and_a_missing_one_is_refused(tftool, tmp_path):
+    file = tmp_path / "robot.urdf"
+    file.write_text(ROBOT.replace('child link="laser"', 'child link="lasre"'), encoding="utf-8")
+    run = write_mcap(tmp_path / "run.mcap", drive())
+    result = tftool("doctor", run, "--urdf", file)
+    assert result.status == 1
+    assert "error  urdf-invalid: the robot description cannot be read" in result.out
+    assert f"{file}:4:" in result.out
+    assert tftool("doctor", run, "--urdf", tmp_path / "none.urdf").status == 3
+
+
+def test_a_part_of_a_recording_is_looked_at(tftool, tmp_path):
+    sent = [one for one in drive() if not (one.topic == "/tf" and START + 1.5e9 < one.log_time
+            < START + 2.5e9)]  # fmt: skip
+    run = write_mcap(tmp_path / "run.mcap", sent)
+    assert "gap" in ids_of(tftool("doctor", run, "--json"))
+    assert ids_of(tftool("doctor", run, "--to", "1.4", "--json")) == []
+    assert ids_of(tftool("doctor", run, "--from", "2.6", "--json")) == []
+    assert ids_of(tftool("doctor", run, "--from", "1750000002.6", "--json")) == []
+    for words in (["--from", "9"], ["--from", "2", "--to", "1"]):
+        result = tftool("doctor", run, *words)
+        assert (result.status, "has nothing in that time: it lasts" in result.err) == (3, True)
+    assert tftool("doctor", "turtles", "--from", "1").status == 2
+
+
+def test_transforms_of_a_namespace_are_looked_at_where_that_is_said(tftool, tmp_path):
+    moved = [
+        dataclasses.replace(one, topic=f"/r1{one.topic}") if one.topic.startswith("/tf") else one
+        for one in drive()
+    ]
+    run = write_mcap(tmp_path / "run.mcap", moved)
+    assert ids_of(tftool("doctor", run, "--json")) == ["namespaced-topic"]
+    assert ids_of(tftool("doctor", run, "--tf-topic", "/r1/tf", "--json")) == []
+    result = tftool("doctor", run, "--tf-topic", "/r2/tf")
+    assert (result.status, "there is /r1/tf" in result.err) == (3, True)

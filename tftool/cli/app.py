@@ -61,7 +61,7 @@ DESCRIBING = ("echo", "tree", "view", "info")
 """Commands whose FROM may be a robot description."""
 
 
-RECORDED_ROBOTS = ("echo", "tree", "view", "info")
+RECORDED_ROBOTS = ("echo", "tree", "view", "info", "doctor")
 """Commands whose FROM may be a recording without the description of its robot."""
 
 

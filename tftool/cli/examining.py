@@ -1,12 +1,14 @@
 """Where `doctor` and `explain` get what they look at: a recording, a scenario, a session."""
 
+from dataclasses import replace
 from typing import TYPE_CHECKING
 
 from tftool.cli.connection import Connection
 from tftool.cli.hosting import LISTEN, NO_SESSION, Session, join_session, named, open_session
 from tftool.cli.notices import notice
 from tftool.diagnostics.hearing import Hearing
-from tftool.diagnostics.model import Material, read
+from tftool.diagnostics.model import Material
+from tftool.diagnostics.scope import Scope
 from tftool.errors import UsageError
 from tftool.sources.find import Kind
 from tftool.stamps import Duration, as_seconds, seconds
@@ -16,12 +18,18 @@ if TYPE_CHECKING:
     from tftool.runtime.world import TransformMessage, World
     from tftool.stamps import Stamp
 
+WHOLE = Scope()
+"""All of a source."""
+
 LISTEN_LIVE = seconds(10)
 """How long a session that runs is listened to where nothing else is said."""
 
 
 def material_of(
-    connection: Connection, word: str | None, lasting: Duration | None = None
+    connection: Connection,
+    word: str | None,
+    lasting: Duration | None = None,
+    scope: Scope = WHOLE,
 ) -> Material:
     """What is known of the frames that FROM names.
 
@@ -31,32 +39,44 @@ def material_of(
         connection: What the command's options say.
         word: What FROM names; None for the session that runs, else the turtle world.
         lasting: How long to listen, nanoseconds; the usual time when None.
+        scope: What of a recording is looked at.
 
     Raises:
         InputError: If the word names nothing, or it cannot be read.
         LinkError: If a session was asked for and there is none.
-        UsageError: If the word names a robot description.
+        UsageError: If the word names a robot description, or what is no recording is to be
+            looked at in part.
     """
     found = None if word is None else named(word)
     if found is not None and found.kind.is_recording:
         from tftool.cli import recorded
 
         with recorded.read(found) as recording:
-            return read(recording.source, recording.transforms)
+            return scope.material(recording)
+    if scope.tf_topics or scope.begin is not None or scope.end is not None:
+        raise UsageError("--tf-topic, --from and --to are for recordings.")
     if found is not None and found.kind is Kind.DESCRIPTION:
         raise UsageError(
             f"'{visible(found.name)}' is a robot description, which publishes nothing to judge: "
-            f"'tftool tree {visible(found.name)}' shows its frames and reports its mistakes."
+            f"'tftool doctor RECORDING --urdf {visible(found.name)}' compares the two, "
+            f"'tftool info {visible(found.name)}' reports its mistakes."
         )
     if word is None:
         session = join_session(connection)
         if session is not None:
             lasting = lasting or LISTEN_LIVE
             notice(f"Listening for {as_seconds(lasting):g} s ...")
-            return _heard(session, lasting, "live session")
+            return _described(_heard(session, lasting, "live session"), scope)
     session = open_session(connection, word, simulated=True, because=NO_SESSION)
     whole = session.duration or LISTEN
-    return _heard(session, lasting or whole, "scenario")
+    return _described(_heard(session, lasting or whole, "scenario"), scope)
+
+
+def _described(material: Material, scope: Scope) -> Material:
+    """What was heard, beside the description that was given."""
+    if scope.described is None:
+        return material
+    return replace(material, robot=scope.described.robot, mistakes=scope.described.mistakes)
 
 
 def _heard(session: Session, lasting: Duration, kind: str) -> Material:

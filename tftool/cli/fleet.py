@@ -6,6 +6,7 @@ import sys
 from collections.abc import Iterator, Sequence
 from concurrent.futures import Executor, Future, ProcessPoolExecutor, as_completed
 from concurrent.futures.process import BrokenProcessPool
+from dataclasses import dataclass
 from multiprocessing import get_context
 from pathlib import Path
 from typing import TYPE_CHECKING, TextIO
@@ -15,6 +16,7 @@ from tftool.views.escaping import visible
 
 if TYPE_CHECKING:
     from tftool.diagnostics.model import Settings
+    from tftool.diagnostics.scope import Scope
 
 COLUMNS = (
     "source", "id", "severity", "area", "message", "confidence", "because_of", "edges", "frames",
@@ -31,18 +33,32 @@ UNREADABLE = "unreadable"
 Row = dict[str, object]
 
 
-def examined(
-    path: str, settings: "Settings", select: Sequence[str], ignore: Sequence[str]
-) -> list[Row]:
+@dataclass(frozen=True, slots=True)
+class Job:
+    """What is done with each recording.
+
+    Attributes:
+        settings: What the listener is like.
+        select: Checks to run.
+        ignore: Checks to leave out.
+        scope: What of a recording is looked at.
+    """
+
+    settings: "Settings"
+    select: tuple[str, ...]
+    ignore: tuple[str, ...]
+    scope: "Scope"
+
+
+def examined(path: str, job: Job) -> list[Row]:
     """One recording's findings as rows; what cannot be read is a row too, and raises nothing."""
     from tftool.diagnostics.judge import judge
-    from tftool.diagnostics.model import read
     from tftool.sources.recording import open_recording
 
     try:
         with open_recording(path) as recording:
-            material = read(recording.source, recording.transforms)
-        diagnosis = judge(material, settings, select=select, ignore=ignore)
+            material = job.scope.material(recording)
+        diagnosis = judge(material, job.settings, select=job.select, ignore=job.ignore)
     except UsageError:
         raise
     except (TftoolError, OSError, MemoryError) as error:
@@ -149,9 +165,7 @@ def sweep(
     paths: Sequence[str],
     output: Output,
     processes: int,
-    settings: "Settings",
-    select: Sequence[str],
-    ignore: Sequence[str],
+    job: Job,
 ) -> dict[str, int]:
     """Judge many recordings, and write what is found as it comes.
 
@@ -159,9 +173,7 @@ def sweep(
         paths: The recordings; those that the output holds already are passed over.
         output: Where rows go.
         processes: How many work at once.
-        settings: What the listener is like.
-        select: Checks to run.
-        ignore: Checks to leave out.
+        job: What is done with each.
 
     Returns:
         How many recordings there are of each worst severity; "unreadable" and "none" too.
@@ -184,7 +196,7 @@ def sweep(
     console = Console(stderr=True)
     with Progress(*columns, console=console, disable=not console.is_terminal) as progress:
         task = progress.add_task("", total=len(left), found="")
-        for rows in _results(left, processes, settings, select, ignore):
+        for rows in _results(left, processes, job):
             output.write(rows)
             worst = _worst(rows)
             counts[worst] = counts.get(worst, 0) + 1
@@ -195,19 +207,17 @@ def sweep(
 def _results(
     paths: Sequence[str],
     processes: int,
-    settings: "Settings",
-    select: Sequence[str],
-    ignore: Sequence[str],
+    job: Job,
 ) -> Iterator[list[Row]]:
     if processes == 1:
         for path in paths:
-            yield examined(path, settings, select, ignore)
+            yield examined(path, job)
         return
     waiting = list(paths)
     while waiting:
         # Spawned, not forked: a fork would carry over threads and locks.
         with ProcessPoolExecutor(processes, mp_context=get_context("spawn")) as pool:
-            futures = _submitted(pool, waiting, settings, select, ignore)
+            futures = _submitted(pool, waiting, job)
             finished: set[str] = set()
             try:
                 for future in as_completed(futures):
@@ -221,28 +231,24 @@ def _results(
             except BaseException:
                 pool.shutdown(wait=False, cancel_futures=True)
                 raise
-        yield from _alone(waiting[:processes], settings, select, ignore)
+        yield from _alone(waiting[:processes], job)
         waiting = waiting[processes:]
 
 
 def _submitted(
     pool: Executor,
     paths: Sequence[str],
-    settings: "Settings",
-    select: Sequence[str],
-    ignore: Sequence[str],
+    job: Job,
 ) -> dict[Future[list[Row]], str]:
-    return {pool.submit(examined, path, settings, select, ignore): path for path in paths}
+    return {pool.submit(examined, path, job): path for path in paths}
 
 
-def _alone(
-    paths: Sequence[str], settings: "Settings", select: Sequence[str], ignore: Sequence[str]
-) -> Iterator[list[Row]]:
+def _alone(paths: Sequence[str], job: Job) -> Iterator[list[Row]]:
     """Each in a process of its own, so that one that ends it harms no other."""
     for path in paths:
         with ProcessPoolExecutor(1, mp_context=get_context("spawn")) as pool:
             try:
-                yield pool.submit(examined, path, settings, select, ignore).result()
+                yield pool.submit(examined, path, job).result()
             except BrokenProcessPool:
                 yield [unreadable(path, "the process that read it was ended (memory?)")]
 

@@ -1,37 +1,28 @@
 """The diagnosis in Python: of a recording, or of what a buffer holds."""
 
 from collections.abc import Sequence
-from typing import Protocol
+from dataclasses import replace
+from pathlib import Path
 
 import numpy as np
 
 from tftool.diagnostics.explanation import Explanation, Question, traced
 from tftool.diagnostics.findings import Finding
 from tftool.diagnostics.judge import judge
-from tftool.diagnostics.model import CACHE_TIME, Material, Model, Settings, read
+from tftool.diagnostics.model import CACHE_TIME, Material, Model, Settings, described_by
+from tftool.diagnostics.scope import Readable, Scope
 from tftool.frames.buffer import Buffer
-from tftool.sources.contract import Edge, Publisher, Source, Transforms
+from tftool.sources.contract import Edge, Publisher, Transforms
 from tftool.stamps import LATEST, Duration, Stamp
 
 
-class Recorded(Protocol):
-    """What `tftool.open_recording` gives."""
-
-    @property
-    def source(self) -> Source:
-        """What is read from."""
-
-    @property
-    def transforms(self) -> Transforms:
-        """Every transform, in columns."""
-
-
 def diagnose(
-    recording: Recorded | Buffer,
+    recording: Readable | Buffer,
     *,
     select: Sequence[str] = (),
     ignore: Sequence[str] = (),
     cache_time: Duration = CACHE_TIME,
+    urdf: str | Path | None = None,
 ) -> list[Finding]:
     """Say what is wrong with the frames.
 
@@ -42,20 +33,23 @@ def diagnose(
         select: Ids or areas of checks to run; all where empty.
         ignore: Ids or areas to leave out.
         cache_time: How far back the listener that is thought of remembers, nanoseconds.
+        urdf: A file with the robot's description; None for the one recorded, if any.
 
     Returns:
         What was found, by area, errors first. Findings with `because_of` are consequences.
 
     Raises:
         InputError: If nothing of the recording can be read.
-        UsageError: If there is no such check or area.
+        UsageError: If there is no such check or area, or the description needs xacro, which is
+            not installed.
     """
     settings = Settings(cache_time=cache_time)
-    return list(judge(_material(recording), settings, select=select, ignore=ignore).findings)
+    scope = Scope(None if urdf is None else described_by(urdf))
+    return list(judge(_material(recording, scope), settings, select=select, ignore=ignore).findings)
 
 
 def explain(
-    recording: Recorded | Buffer,
+    recording: Readable | Buffer,
     target_frame: str,
     source_frame: str,
     time: Stamp = LATEST,
@@ -80,18 +74,19 @@ def explain(
         InputError: If nothing of the recording can be read.
     """
     settings = Settings(cache_time=cache_time)
-    model = Model(_material(recording), settings)
+    model = Model(_material(recording, Scope()), settings)
     if asked_at is None and not model.material.timed:
         asked_at = model.end
     return traced(model, Question(target_frame, source_frame, time, asked_at, settings, timeout))
 
 
-def _material(recording: Recorded | Buffer) -> Material:
-    return (
-        of_buffer(recording)
-        if isinstance(recording, Buffer)
-        else read(recording.source, recording.transforms)
-    )
+def _material(recording: Readable | Buffer, scope: Scope) -> Material:
+    if not isinstance(recording, Buffer):
+        return scope.material(recording)
+    material = of_buffer(recording)
+    if scope.described is None:
+        return material
+    return replace(material, robot=scope.described.robot, mistakes=scope.described.mistakes)
 
 
 def of_buffer(buffer: Buffer, name: str = "buffer") -> Material:

@@ -7,7 +7,7 @@ from difflib import get_close_matches
 
 from tftool.diagnostics.findings import Confidence, Fix, Hit, Severity
 from tftool.diagnostics.model import Heard, Limits, Model, last_part
-from tftool.diagnostics.shape import base_of, static_publisher
+from tftool.diagnostics.shape import base_of, quoted, static_publisher
 
 _FAMILY = re.compile(
     r"\d+|(?<![a-z])(?:left|right|front|rear|back|upper|lower|top|bottom|fl|fr|rl|rr|[lrxyz])(?![a-z])"
@@ -29,6 +29,7 @@ def unknown_frame(model: Model, limits: Limits) -> Iterator[Hit]:
     by_name: dict[str, list[Heard]] = defaultdict(list)
     for heard in model.heard:
         known = heard.frame in model.frames or heard.frame[1:] in _slashed(heard, model)
+        known = known or heard.frame in model.described
         if heard.frame and heard.is_spatial and not known:
             by_name[heard.frame].append(heard)
     for name, heards in by_name.items():
@@ -238,10 +239,12 @@ def namespace_twins(model: Model, limits: Limits) -> Iterator[Hit]:
 
 def namespaced_topic(model: Model, limits: Limits) -> Iterator[Hit]:
     """Transforms travel on /ns/tf, where default listeners do not listen."""
-    odd = sorted({t for track in model.tracks for t in track.topics} - set(_USUAL_TOPICS))
+    heard_on = {*_USUAL_TOPICS, *model.settings.tf_topics}
+    heard_on |= {f"{topic}_static" for topic in model.settings.tf_topics}
+    odd = sorted({t for track in model.tracks for t in track.topics} - heard_on)
     if not odd:
         return
-    usual = [track for track in model.tracks if set(track.topics) & set(_USUAL_TOPICS)]
+    usual = [track for track in model.tracks if set(track.topics) & heard_on]
     moving = [track for track in usual if not track.static]
     severity = Severity.WARNING
     if moving:
@@ -258,7 +261,7 @@ def namespaced_topic(model: Model, limits: Limits) -> Iterator[Hit]:
         frames=tuple(sorted(model.frames - heard)),
         topics=tuple(odd),
         severity=severity,
-        count=sum(len(t.stamps) for t in model.tracks if not set(t.topics) & set(_USUAL_TOPICS)),
+        count=sum(len(t.stamps) for t in model.tracks if not set(t.topics) & heard_on),
         facts={
             "topics": odd,
             "prefix": prefix,
@@ -269,6 +272,7 @@ def namespaced_topic(model: Model, limits: Limits) -> Iterator[Hit]:
                 "let listeners and rviz hear them:",
                 f"--ros-args -r /tf:={odd[0]} -r /tf_static:={prefix}/tf_static",
             ),
+            Fix(f"here, --tf-topic {quoted(odd[0])} looks at these alone"),
         ),
         alone=True,
     )

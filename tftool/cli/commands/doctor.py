@@ -10,15 +10,17 @@ import typer
 
 from tftool.cli.app import ExitStatus
 from tftool.cli.connection import Connection
-from tftool.cli.options import CacheTime, Json, RunFor
+from tftool.cli.options import At, CacheTime, Json, RunFor, moment
 from tftool.errors import InputError, UsageError
 from tftool.stamps import Duration, seconds
 
 if TYPE_CHECKING:
+    from tftool.cli.fleet import Job
     from tftool.diagnostics.catalogue import Check
     from tftool.diagnostics.findings import Severity
     from tftool.diagnostics.judge import Diagnosis
     from tftool.diagnostics.model import Settings
+    from tftool.diagnostics.scope import Scope
 
 
 class FailOn(StrEnum):
@@ -59,6 +61,20 @@ def doctor(
     fixed_frame: Annotated[
         str, typer.Option(metavar="FRAME", help="Where sensors are to be placed; odom, else map.")
     ] = "",
+    tf_topic: Annotated[
+        list[str] | None,
+        typer.Option(metavar="TOPIC", help="Look at these transforms alone: /robot1/tf."),
+    ] = None,
+    begin: Annotated[
+        At | None,
+        typer.Option(
+            "--from", metavar="MOMENT", parser=moment, help="Look at a recording from there on."
+        ),
+    ] = None,
+    end: Annotated[
+        At | None,
+        typer.Option("--to", metavar="MOMENT", parser=moment, help="Look at it up to there."),
+    ] = None,
     lasting: RunFor = None,
     statistics: Annotated[
         bool, typer.Option("--statistics", help="Print rate, latency and gaps of everything, too.")
@@ -107,8 +123,11 @@ def doctor(
     # Heavy imports wait until this command is the chosen one.
     import json
 
+    from tftool.cli import fleet
     from tftool.cli.printing import write
     from tftool.diagnostics.findings import Severity
+    from tftool.diagnostics.model import described_by
+    from tftool.diagnostics.scope import Scope
     from tftool.views import findings as view
 
     if listed:
@@ -119,13 +138,18 @@ def doctor(
         return ExitStatus.DONE
     if for_programs and markdown:
         raise UsageError("--json and --markdown are two ways to print it: leave one out.")
-    settings = _settings(cache_time, fixed_frame, limits or ())
+    settings = _settings(cache_time, fixed_frame, limits or (), tf_topic or ())
+    urdf = connection.robot.urdf
+    scope = Scope(None if urdf is None else described_by(urdf), settings.tf_topics, begin, end)
     fails = None if fail_on is FailOn.never else Severity(fail_on.value)
     if output is not None:
-        return _swept(places or (), output, processes, resume, settings, (select, ignore), fails)
+        job = fleet.Job(settings, tuple(_words(select or ())), tuple(_words(ignore or ())), scope)
+        return _swept(places or (), output, processes, resume, job, fails)
     if resume or processes > 1:
         raise UsageError("--jobs and --resume are for many recordings: add -o FILE.")
-    rows = _diagnosed(connection, places or [None], lasting, settings, select or (), ignore or ())
+    rows = _diagnosed(
+        connection, places or [None], lasting, settings, select or (), ignore or (), scope
+    )
     diagnoses = [found for _, found in rows if not isinstance(found, str)]
     if for_programs:
         objects = [view.as_object(one) for one in diagnoses]
@@ -159,6 +183,7 @@ def _diagnosed(
     settings: "Settings",
     select: Sequence[str],
     ignore: Sequence[str],
+    scope: "Scope",
 ) -> "list[tuple[str, Diagnosis | str]]":
     """Each source with what was found in it; of several, one that is unreadable stops none."""
     from tftool.cli.examining import material_of
@@ -170,7 +195,7 @@ def _diagnosed(
     rows: list[tuple[str, Diagnosis | str]] = []
     for word in words:
         try:
-            material = material_of(connection, word, lasting)
+            material = material_of(connection, word, lasting, scope)
         except InputError as error:
             if len(words) == 1:
                 raise
@@ -187,8 +212,7 @@ def _swept(
     path: Path,
     processes: int,
     resume: bool,
-    settings: "Settings",
-    checks: tuple[Sequence[str] | None, Sequence[str] | None],
+    job: "Job",
     fails: "Severity | None",
 ) -> ExitStatus:
     """Many recordings, a row a finding."""
@@ -198,11 +222,10 @@ def _swept(
     words = [word for word in _each(places) if word is not None]
     if not words:
         raise UsageError("Name the recordings to examine: files, folders, globs.")
-    select, ignore = (_words(one or ()) for one in checks)
-    refuse_unknown(settings, select, ignore)
+    refuse_unknown(job.settings, job.select, job.ignore)
     output = fleet.Output(path, resume=resume)
     try:
-        counts = fleet.sweep(words, output, processes, settings, select, ignore)
+        counts = fleet.sweep(words, output, processes, job)
     finally:
         output.close()
     fleet.announce(counts, len(output.done & set(words)), path)
@@ -260,7 +283,12 @@ def _words(options: Sequence[str]) -> list[str]:
     return [word.strip() for option in options for word in option.split(",") if word.strip()]
 
 
-def _settings(cache_time: Duration | None, fixed_frame: str, limits: Sequence[str]) -> "Settings":
+def _settings(
+    cache_time: Duration | None,
+    fixed_frame: str,
+    limits: Sequence[str],
+    tf_topics: Sequence[str],
+) -> "Settings":
     from tftool.diagnostics.model import Settings
 
     given: dict[str, dict[str, float]] = {}
@@ -276,4 +304,4 @@ def _settings(cache_time: Duration | None, fixed_frame: str, limits: Sequence[st
                 f"--limit {text}: write ID.NAME=VALUE with a number from 0 on, as in gap.seconds=2"
             )
         given.setdefault(check, {})[limit] = number
-    return Settings(cache_time=cache_time or seconds(10), fixed_frame=fixed_frame, limits=given)
+    return Settings(cache_time or seconds(10), fixed_frame, tuple(tf_topics), given)
