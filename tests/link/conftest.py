@@ -18,7 +18,7 @@ def session_dir(monkeypatch):
         yield Path(folder)
 
 
-async def until(condition, *, within=10.0):
+async def until(condition, *, within=60.0):
     """Wait, on the wall clock, for what other threads and processes bring about."""
     clock = WallClock()
     end = clock.now() + seconds(within)

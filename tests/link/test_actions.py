@@ -70,7 +70,7 @@ def meet(coroutine, **kwargs):
             await coroutine(stranger, world)
             stranger.server.close()
 
-    run(WallClock(), asyncio.wait_for(attached(), 30))
+    run(WallClock(), asyncio.wait_for(attached(), 120))
 
 
 @pytest.fixture(autouse=True)

@@ -16,7 +16,11 @@ from tftool.link.options import Options
 from tftool.link.seam import MIDDLEWARES
 from tftool.link.session import Link
 from tftool.messages import Pose2D, Spawn, Spawned
+from tftool.runtime.endpoints import PUBLISHER, Quality, conflict
+from tftool.wire.codec import codec
 
+TYPE = "std_msgs/msg/String"
+STRING = INTERFACES.message("std_msgs/String")
 FIBONACCI = INTERFACES.find("example_interfaces", "action", "Fibonacci")
 
 
@@ -33,6 +37,12 @@ class Pair:
     def __exit__(self, *error):
         for link in self.links:
             link.close()
+
+
+async def turns_of_the_loop(count=10):
+    """Let what is due on the loop be done, and what that leads to."""
+    left = iter(range(count))
+    await until(lambda: next(left) == count - 1)
 
 
 @pytest.fixture(autouse=True)
@@ -59,6 +69,52 @@ def test_transforms_and_topics_cross_whatever_carries_them():
             assert heard == [pose]
 
     play(cross())
+
+
+def test_a_message_that_comes_with_the_word_of_its_publisher_names_it():
+    async def send():
+        with Pair() as pair:
+            topic = pair.other.topic("chatter", STRING)
+            senders = []
+            topic.subscribe(lambda message: senders.append(topic.sender))
+            await until(lambda: pair.links[0].graph.entities("subscription", name="chatter"))
+
+            await turns_of_the_loop()
+
+            # Both are taken in one after the other, before the world is brought in line.
+            outlet = pair.links[0].middleware.publisher("talker", "chatter", TYPE, Quality(3))
+            outlet.put(codec(STRING).encode(STRING(data="first")), 1)
+            await until(lambda: senders)
+
+            (sender,) = senders
+            assert (sender.node, sender.quality, sender.is_remote) == ("talker", Quality(3), True)
+            await until(lambda: pair.other.endpoints.of("chatter", PUBLISHER))
+            assert pair.other.endpoints.of("chatter", PUBLISHER) == [sender]
+
+    play(send())
+
+
+def test_a_message_that_overtakes_the_word_of_its_publisher_is_heard_as_one_from_elsewhere():
+    async def send():
+        with Pair() as pair:
+            topic = pair.other.topic("chatter", STRING)
+            senders = []
+            topic.subscribe(lambda message: senders.append(topic.sender))
+            await until(lambda: pair.links[0].graph.entities("subscription", name="chatter"))
+
+            outlet = pair.links[0].middleware.publisher("talker", "chatter", TYPE, Quality(3))
+            outlet.hide()
+            outlet.put(codec(STRING).encode(STRING(data="first")), 1)
+            await until(lambda: senders)
+
+            (sender,) = senders
+            assert sender.node == f"publisher_{outlet.entity.gid[:4].hex()}"
+            assert (sender.topic, sender.interface, sender.is_remote) == ("chatter", TYPE, True)
+            # It is heard by all, since what it offers is not known to be too little.
+            for asked in (Quality(), Quality(is_latched=True), Quality(is_reliable=False)):
+                assert conflict(sender.quality, asked) == ""
+
+    play(send())
 
 
 def test_services_and_actions_answer_whatever_carries_them():

@@ -66,7 +66,7 @@ class Two:
 
 
 def play(coroutine):
-    return run(WallClock(), asyncio.wait_for(coroutine, 30))
+    return run(WallClock(), asyncio.wait_for(coroutine, 120))
 
 
 def texts(world):
@@ -396,8 +396,7 @@ def test_a_guest_drives_and_looks_at_the_hosts_turtle():
 
             assert answer == Spawned("turtle2")
             await until(lambda: two.there.has_service("turtle2/set_pen"))
-            (node,) = two.guest.graph.entities("node")
-            assert node.node == "sim"
+            await until(lambda: [node.node for node in two.guest.graph.entities("node")] == ["sim"])
             living.cancel()
             await asyncio.gather(living, return_exceptions=True)
 

@@ -68,6 +68,7 @@ def test_a_message_of_any_type_arrives_with_who_sent_it():
             ((found, sender),) = heard
             assert found == message
             assert (sender.node, sender.quality) == ("base", Quality(3, is_reliable=False))
+            await until(lambda: two.guest.graph.entities("publisher", name="odom"))
             (entity,) = two.guest.graph.entities("publisher", name="odom")
             assert (entity.node, entity.ros_type) == ("base", "nav_msgs/msg/Odometry")
             assert two.guest.refused == two.host.refused == 0
@@ -261,7 +262,7 @@ def test_a_service_of_any_type_is_answered_and_shown_under_its_node():
             assert asked == [SET_BOOL.Request(data=True)]
             (entity,) = two.guest.graph.entities("server", name="enable")
             assert (entity.node, entity.ros_type) == ("motors", "std_srvs/srv/SetBool")
-            assert two.host.graph.entities("client", name="enable")
+            await until(lambda: two.host.graph.entities("client", name="enable"))
 
     play(ask())
 

@@ -9,12 +9,15 @@ from tftool.errors import LinkError, MalformedMessage
 from tftool.link.graph import Graph, GraphEntity
 from tftool.link.options import Options
 from tftool.link.seam import Middleware
-from tftool.runtime.endpoints import Endpoint
+from tftool.runtime.endpoints import PUBLISHER, SUBSCRIPTION, Endpoint, Quality
 from tftool.runtime.world import World
 from tftool.stamps import Stamp
 
 NAME: Final = "link"
 """The name under which a link logs."""
+
+UNKNOWN: Final = Quality(is_latched=True)
+"""The quality of a publisher that the graph does not show: no subscription asks for more."""
 
 
 class LinkContext:
@@ -74,12 +77,31 @@ class LinkContext:
     def authority(self, gid: bytes, topic: str) -> str:
         """The node that sent a message, by the gid beside it; b"" if there was none."""
         entity = self._sender(gid, topic)
-        return f"publisher_{gid[:4].hex() or 'unknown'}" if entity is None else entity.node
+        return _unnamed(gid) if entity is None else entity.node
 
-    def endpoint(self, gid: bytes, topic: str) -> Endpoint | None:
-        """The publisher that sent a message; None when it cannot be told."""
+    def endpoint(self, gid: bytes, topic: str, ros_type: str) -> Endpoint:
+        """The publisher that sent a message.
+
+        A message can overtake the word that its publisher is there. Until that is known, the
+        publisher is named by its gid, and fits what any subscription asks for.
+        """
         entity = self._sender(gid, topic)
-        return None if entity is None else self.endpoints.get(entity)
+        if entity is None:
+            return Endpoint(PUBLISHER, _unnamed(gid), topic, ros_type, UNKNOWN, is_remote=True)
+        return self.far_endpoint(entity)
+
+    def far_endpoint(self, entity: GraphEntity) -> Endpoint:
+        """A publisher or subscription of another process, as it is entered in the world."""
+        if entity not in self.endpoints:
+            self.endpoints[entity] = Endpoint(
+                PUBLISHER if entity.kind == PUBLISHER else SUBSCRIPTION,
+                entity.node,
+                entity.name,
+                entity.ros_type,
+                entity.quality,
+                is_remote=True,
+            )
+        return self.endpoints[entity]
 
     def _sender(self, gid: bytes, topic: str) -> GraphEntity | None:
         # By topic, too: a message without a gid is taken for the only publisher's there.
@@ -100,3 +122,8 @@ class LinkContext:
         if what not in self._said and len(self._said) < 1000:
             self._said.add(what)
             self.world.log.warn(NAME, sentence)
+
+
+def _unnamed(gid: bytes) -> str:
+    """What a publisher is called whose node is not known."""
+    return f"publisher_{gid[:4].hex() or 'unknown'}"

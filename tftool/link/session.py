@@ -23,7 +23,7 @@ from tftool.link.tf import StaticBridge, TransformBridge
 from tftool.link.topics import TopicBridge
 from tftool.link.types import VALUES, action_type, service_type, topic_type
 from tftool.runtime.clock import WallClock
-from tftool.runtime.endpoints import PUBLISHER, SUBSCRIPTION, Endpoint
+from tftool.runtime.endpoints import PUBLISHER, SUBSCRIPTION
 from tftool.runtime.offers import Offer
 from tftool.runtime.world import TransformMessage, World
 
@@ -169,17 +169,10 @@ class Link(LinkContext):
         there = set(self.graph.entities(PUBLISHER, SUBSCRIPTION))
         for entity in self.endpoints.keys() - there:
             del self.endpoints[entity]
+        for entity in self._removals.keys() - there:
             self._removals.pop(entity)()
-        for entity in there - self.endpoints.keys():
-            self.endpoints[entity] = endpoint = Endpoint(
-                PUBLISHER if entity.kind == PUBLISHER else SUBSCRIPTION,
-                entity.node,
-                entity.name,
-                entity.ros_type,
-                entity.quality,
-                is_remote=True,
-            )
-            self._removals[entity] = self.world.endpoints.add(endpoint)
+        for entity in there - self._removals.keys():
+            self._removals[entity] = self.world.endpoints.add(self.far_endpoint(entity))
 
     def _name_topics(self) -> None:
         """Name others' topics, so that they are among the world's topics.

@@ -120,7 +120,7 @@ class TopicBridge:
         finally:
             self._inbound = None
 
-    def _read(self, message: Arrived) -> tuple[Any, Endpoint | None] | None:
+    def _read(self, message: Arrived) -> tuple[Any, Endpoint] | None:
         """What a message says and who sent it; None for one that is refused."""
         try:
             value = self._kind.decode(message.payload)
@@ -128,8 +128,7 @@ class TopicBridge:
             self._link.refuse(self._topic.name, refusal)
             return None
         self._link.received += 1
-        sender = message.sender
-        return value, self._link.endpoint(sender, self._topic.name) if sender else None
+        return value, self._link.endpoint(message.sender, self._topic.name, self._kind.ros_type)
 
     # Out
 

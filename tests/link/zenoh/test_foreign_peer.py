@@ -152,7 +152,7 @@ def test_a_foreign_ros_2_peer_hears_us_and_is_heard(tmp_path):
                     world.broadcast([mine], "broadcaster")
                     return foreign.check() and foreign.with_key("topic", child="ours", x=0.25)
 
-                await until(ours, within=30)
+                await until(ours)
                 await until(
                     lambda: foreign.check() and foreign.with_key("topic", child="fixed"), within=30
                 )
@@ -169,7 +169,7 @@ def test_a_foreign_ros_2_peer_hears_us_and_is_heard(tmp_path):
                 (graph,) = foreign.with_key("topics")
                 assert graph["topics"]["/turtle1/pose"] == ["turtlesim/msg/Pose"]
                 assert graph["services"]["/spawn"] == ["turtlesim/srv/Spawn"]
-                await until(lambda: foreign.check() and foreign.with_key("spawned"), within=30)
+                await until(lambda: foreign.check() and foreign.with_key("spawned"))
                 assert foreign.with_key("spawned") == [{"spawned": "sdk_turtle"}]
                 assert "sdk_turtle" in simulator.turtles
                 assert {one.node for one in link.graph.entities("publisher", name="tf")} == {
@@ -184,13 +184,13 @@ def test_a_foreign_ros_2_peer_hears_us_and_is_heard(tmp_path):
                     world.topic("chatter", STRING).publish(STRING(data="Hello ☺"))
                     return foreign.check() and heard and foreign.with_key("chatter")
 
-                await until(said, within=30)
+                await until(said)
                 assert heard[0] == STRING(data="größe")
                 assert foreign.with_key("chatter")[0] == {"chatter": "Hello ☺"}
                 assert foreign.with_key("topics")[0]["topics"]["/tf"] == ["tf2_msgs/msg/TFMessage"]
 
                 # ... and the simulator's parameters, set, refused and read.
-                await until(lambda: foreign.check() and foreign.with_key("parameters"), within=30)
+                await until(lambda: foreign.check() and foreign.with_key("parameters"))
                 accepted, refused = foreign.with_key("set")
                 assert accepted == {"set": 255, "successful": True, "reason": ""}
                 assert refused["successful"] is False
