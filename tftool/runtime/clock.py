@@ -353,6 +353,109 @@ class WallClock(Clock):
         return None
 
 
+class FollowedClock(WallClock):
+    """Real time, until it is told what time it is: then it stands still between two tellings.
+
+    What a world that shares a session lives by: while another process publishes `/clock`, as one
+    that plays a recording does, now is what that says. Who waits for a while goes on waiting for
+    as long when time falls back, or when it comes from somewhere else.
+
+    Attributes:
+        fell_back: Called with by how many nanoseconds, when what it is told lies before now.
+    """
+
+    def __init__(self, told: Stamp | None = None) -> None:
+        """Read real time, or a moment that stands still from the beginning.
+
+        Args:
+            told: That moment.
+        """
+        super().__init__(epoch=told)
+        self.fell_back: Listeners[Duration] = Listeners()
+        self._told = told
+        self._first: asyncio.Future[None] | None = None
+
+    @property
+    def is_told(self) -> bool:
+        """Whether it reads what it is told."""
+        return self._told is not None
+
+    def now(self) -> Stamp:
+        """The moment it was told last, else the moment it is."""
+        return super().now() if self._told is None else self._told
+
+    def tell(self, moment: Stamp) -> None:
+        """Say what time it is, from now on; in the loop that runs on it.
+
+        Args:
+            moment: Nanoseconds; 0 and less, which are no moment, count as 1.
+        """
+        before, is_first = self.now(), self._told is None
+        self._told = max(moment, 1)
+        change = self._told - before
+        if is_first:
+            self.epoch = self._told
+            # What holds up the loop cannot be told by real time any more.
+            self.limit(None)
+        if is_first or change < 0:
+            self._shift(change)
+        self._set_alarm()
+        if self._first is not None:
+            _set(self._first)
+        if change < 0 and not is_first:
+            self.fell_back.call(-change)
+
+    async def told_once(self, patience: Duration) -> None:
+        """Wait until it is told what time it is, for so long in real time."""
+        first = self._first = asyncio.get_running_loop().create_future()
+        if self.is_told:
+            first.set_result(None)
+        timer = self.real_timer(patience / NANOSECONDS)
+        try:
+            await asyncio.wait({first, timer}, return_when=asyncio.FIRST_COMPLETED)
+        finally:
+            timer.cancel()
+
+    def run_on(self) -> None:
+        """Go on by real time from where it stands: it is told no more."""
+        if self._told is not None:
+            self._started = time.monotonic_ns() - (self._told - self.epoch)
+            self._told = None
+            self._set_alarm()
+
+    def limit(self, until: Stamp | None) -> None:
+        """End a node that holds up the loop; only in real time is that known."""
+        super().limit(None if self.is_told else until)
+
+    def _shift(self, change: Duration) -> None:
+        """Let every waiter wait for as long as it would have."""
+        self._waiters = [(stamp + change, *rest) for stamp, *rest in self._waiters]  # type: ignore[misc]
+        heapq.heapify(self._waiters)
+
+    def _set_alarm(self) -> None:
+        if self._told is None:
+            super()._set_alarm()
+            return
+        if self._alarm is not None:
+            self._alarm.cancel()
+            self._alarm = None
+        due = self._next_due()
+        if due is not None and due <= self._told:
+            self._alarm = asyncio.get_running_loop().call_later(0, self._wake)
+
+
+def pace_of(clock: Clock) -> Clock:
+    """The clock by which to wait for what a person should see, while the world lives by `clock`.
+
+    Real time where the world's is told from outside: that may stand still, or run at any rate.
+    """
+    if not isinstance(clock, FollowedClock):
+        return clock
+    pace = WallClock()
+    pace.stopper = clock.stopper
+    return pace
+
+
 def _set(future: "asyncio.Future[None]") -> None:
     if not future.done():
         future.set_result(None)
