@@ -84,6 +84,12 @@ class Providers:
 
         return WallClock(rate, epoch=epoch, head_start=head_start)
 
+    def joined_clock(self) -> "Clock":
+        """Make a clock for a world that joins a session: real time, or what `/clock` says."""
+        from tftool.runtime.clock import FollowedClock
+
+        return FollowedClock()
+
     def link(self, options: "Options") -> "Link | None":
         """Open a link; None where every world keeps to itself.
 

@@ -46,7 +46,7 @@ from tftool.cli.options import At
 from tftool.errors import InputError, LinkError, UsageError
 from tftool.frames.sample import TransformStamped
 from tftool.geometry.rigid import Transform
-from tftool.runtime.clock import Clock, Phase, SimClock, run
+from tftool.runtime.clock import Clock, FollowedClock, Phase, SimClock, pace_of, run
 from tftool.runtime.supervisor import beside, live
 from tftool.runtime.world import World
 from tftool.sources.find import Found, Kind, find, names_a_path
@@ -79,6 +79,9 @@ LISTEN = seconds(5)
 
 LISTEN_LIVE = seconds(2)
 """How long a session that runs is listened to: enough for a rate."""
+
+TOLD = seconds(2)
+"""How long a joined world waits for the first that `/clock` says, where it is published."""
 
 AHEAD = seconds(1)
 """How long past the moment asked about a scenario is played, for what comes late."""
@@ -246,7 +249,7 @@ class Session:
         if duration is None:
             await asyncio.get_running_loop().create_future()
         else:
-            clock = self.world.clock
+            clock = pace_of(self.world.clock)
             # A node that holds up the loop would keep this from ever being over.
             clock.limit(clock.now() + duration)
             try:
@@ -258,6 +261,11 @@ class Session:
         clock = self.world.clock
         if self.head_start:
             await clock.sleep_until(clock.epoch + self.head_start, Phase.WATCH)
+        if isinstance(clock, FollowedClock) and self.link is not None:
+            from tftool.link.following import is_clock_shown
+
+            if is_clock_shown(self.link.graph):
+                await clock.told_once(TOLD)
         return await work
 
 
@@ -273,12 +281,18 @@ def shared(link: "Link | None", world: World, role: str = "host") -> Iterator[No
     if link is None:
         yield
         return
+    from tftool.link.following import ClockFollower
     from tftool.link.graph import Role
 
+    follower: ClockFollower | None = None
     try:
         link.attach(world, role=Role(role))
+        if isinstance(world.clock, FollowedClock) and role == Role.GUEST:
+            follower = ClockFollower(world, world.clock)
         yield
     finally:
+        if follower is not None:
+            follower.close()
         link.close()
 
 
@@ -340,7 +354,7 @@ def look_around(
         # --connect means what is at the other end, or comes there; turtles of our own have no
         # place among a robot's frames.
         if connection.connect or (there and (not needs_turtles or _has_host(link))):
-            world = World(connection.providers.wall_clock(), cache_time=cache_time or CACHE_TIME)
+            world = World(connection.providers.joined_clock(), cache_time=cache_time or CACHE_TIME)
             name = _name_of(connection, link)
             notice(f"Joined {name}.")
             return Company(Session(world, False, name, lived(world, link, "guest"), link=link))

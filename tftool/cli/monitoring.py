@@ -13,7 +13,7 @@ from tftool.cli.waiting import FramePair, Waiter
 from tftool.errors import TransformException
 from tftool.frames.sample import TransformStamped
 from tftool.frames.traffic import NetDelay, Traffic
-from tftool.runtime.clock import Phase
+from tftool.runtime.clock import Clock, Phase, pace_of
 from tftool.runtime.supervisor import beside
 from tftool.runtime.world import TransformMessage, World
 from tftool.stamps import Duration, as_seconds, seconds
@@ -62,13 +62,13 @@ class Monitor:
         Raises:
             TransformException: If the frames are not connected in as much time, or never will be.
         """
-        clock = self.world.clock
+        clock, pace = self.world.clock, pace_of(self.world.clock)
         if self.frames is not None:
             await self._find_chain(*self.frames, patience=duration)
         began = clock.now()
-        end = None if duration is None else began + duration
+        end = None if duration is None else pace.now() + duration
         # A node that holds up the loop would keep this from ever being over.
-        clock.limit(end)
+        pace.limit(end)
         stops = [
             self.world.tf.subscribe(lambda message: self._hear(message, False), "monitor"),
             self.world.tf_static.subscribe(lambda message: self._hear(message, True), "monitor"),
@@ -84,15 +84,16 @@ class Monitor:
                         picture = view.table(clock.now(), began, self.traffic, self.chain)
                         live.update(picture, refresh=True)
 
-                    await beside(self._report_until(end, show), self._ask())
+                    await beside(self._report_until(pace, end, show), self._ask(pace))
             else:
-                await beside(self._report_until(end, self._write), self._ask())
+                await beside(self._report_until(pace, end, self._write), self._ask(pace))
         finally:
             for stop in stops:
                 stop()
 
-    async def _report_until(self, end: int | None, report: Callable[[], None]) -> None:
-        clock = self.world.clock
+    async def _report_until(
+        self, clock: Clock, end: int | None, report: Callable[[], None]
+    ) -> None:
         due = clock.now()
         while end is None or due < end:
             due += self.period
@@ -109,13 +110,13 @@ class Monitor:
         frames = tuple(self.world.buffer.chain(target, source)) or (target,)
         self.chain = view.Chain(target, source, frames, NetDelay())
 
-    async def _ask(self) -> None:
+    async def _ask(self, pace: Clock) -> None:
         """Measure how old the latest answer is; a static one has no age."""
         clock = self.world.clock
-        due = clock.now()
+        due = pace.now()
         while self.chain is not None:
-            due = max(due + ASK_EVERY, clock.now())
-            await clock.sleep_until(due, Phase.WATCH)
+            due = max(due + ASK_EVERY, pace.now())
+            await pace.sleep_until(due, Phase.WATCH)
             try:
                 found = self.world.buffer.lookup_transform(self.chain.target, self.chain.source)
             except TransformException:

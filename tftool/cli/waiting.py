@@ -14,6 +14,7 @@ from tftool.errors import (
 )
 from tftool.frames.buffer import Buffer
 from tftool.frames.sample import TransformStamped
+from tftool.runtime.clock import pace_of
 from tftool.runtime.world import World
 from tftool.stamps import LATEST, Duration, Stamp, seconds
 from tftool.views import echo as view
@@ -117,11 +118,12 @@ class Waiter:
             TransformException: If the answer does not come in time, or never will.
         """
         clock, buffer = self.world.clock, self.world.buffer
+        pace = pace_of(clock)
         news = asyncio.Event()
         stop = buffer.listen(lambda *_: news.set())
-        timers = [clock.timer(clock.now() + SETTLED)]
+        timers = [pace.timer(pace.now() + SETTLED)]
         if self.patience is not None:
-            timers.append(clock.timer(clock.now() + self.patience))
+            timers.append(pace.timer(pace.now() + self.patience))
         for timer in timers:
             timer.add_done_callback(lambda _: news.set())
         settled, end = timers[0], timers[-1] if self.patience is not None else None

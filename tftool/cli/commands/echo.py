@@ -285,18 +285,18 @@ class Echo:
         Raises:
             TransformException: If the first does not come in time, or never will.
         """
-        from tftool.runtime.clock import Phase
+        from tftool.runtime.clock import Phase, pace_of
 
-        clock = self.world.clock
+        clock, pace = self.world.clock, pace_of(self.world.clock)
         await self.waiter.wait()
         left = self.departures()
-        due = clock.now()
+        due = pace.now()
         printed = 0
         while True:
             if self.departures() != left:
                 left = self.departures()
                 await self.waiter.wait(stale=self.pair.newest(self.world.buffer))
-                due = clock.now()
+                due = pace.now()
             now = clock.now()
             try:
                 self.printer.found(self.pair.ask(self.world.buffer, now))
@@ -306,9 +306,9 @@ class Echo:
             if printed == self.count:
                 return
             due += self.period
-            await clock.sleep_until(due, Phase.WATCH)
+            await pace.sleep_until(due, Phase.WATCH)
             # Late by more than a period: what was missed is not made up for.
-            due = max(due, clock.now() - self.period)
+            due = max(due, pace.now() - self.period)
 
 
 def _place_or_rate(place: str | None, rate: float | None) -> tuple[str | None, float | None]:

@@ -182,7 +182,7 @@ def _watch(open_session: "Callable[[], Session]", duration: Duration | None) -> 
     from rich.text import Text
 
     from tftool.cli.notices import is_news
-    from tftool.runtime.clock import Phase
+    from tftool.runtime.clock import Phase, pace_of
     from tftool.runtime.stopping import leave_screen
     from tftool.views import frame_tree
     from tftool.views.escaping import visible
@@ -205,9 +205,10 @@ def _watch(open_session: "Callable[[], Session]", duration: Duration | None) -> 
     async def draw() -> None:
         # Redrawn on the world's own ticks; rich's thread would draw half a change.
         with Live(console=console, auto_refresh=False, screen=True) as live:
-            due = world.clock.now()
+            pace = pace_of(world.clock)
+            due = pace.now()
             end = None if duration is None else due + duration
-            world.clock.limit(end)
+            pace.limit(end)
             while end is None or due <= end:
                 picture = frame_tree.render(
                     world.buffer.snapshot(world.clock.now()),
@@ -215,7 +216,7 @@ def _watch(open_session: "Callable[[], Session]", duration: Duration | None) -> 
                     ascii_only=console.options.ascii_only,
                 )
                 live.update(Group(picture, news), refresh=True)
-                due = max(due + seconds(0.5), world.clock.now())
-                await world.clock.sleep_until(due, Phase.WATCH)
+                due = max(due + seconds(0.5), pace.now())
+                await pace.sleep_until(due, Phase.WATCH)
 
     session.run(draw())

@@ -1,0 +1,72 @@
+"""`/clock` of another process is now, while it is published."""
+
+import pytest
+
+from tests.link import memory
+from tests.link.conftest import until
+from tftool.frames.sample import TransformStamped
+from tftool.geometry.rigid import Transform
+from tftool.interfaces.classes import INTERFACES
+from tftool.link.following import ClockFollower, is_clock_shown
+from tftool.link.graph import Role
+from tftool.link.options import Options
+from tftool.link.seam import MIDDLEWARES
+from tftool.link.session import Link
+from tftool.runtime.clock import FollowedClock, WallClock, run
+from tftool.runtime.endpoints import Quality
+from tftool.runtime.world import World
+from tftool.stamps import seconds
+
+CLOCK = INTERFACES.message("rosgraph_msgs/Clock")
+
+
+@pytest.fixture(autouse=True)
+def _by_memory(monkeypatch):
+    monkeypatch.setitem(MIDDLEWARES, "memory", f"{memory.__name__}:MemoryMiddleware")
+    monkeypatch.setattr(memory.MemoryMiddleware, "members", [])
+
+
+def reading(moment):
+    message = CLOCK()
+    message.clock.sec, message.clock.nanosec = divmod(moment, 10**9)
+    return message
+
+
+def test_a_world_that_has_joined_takes_now_from_the_clock_that_is_published():
+    async def follow():
+        host, guest = World(WallClock()), World(FollowedClock())
+        links = [Link(Options(name, middleware="memory")) for name in ("play", "echo")]
+        links[0].attach(host, role=Role.HOST)
+        links[1].attach(guest, role=Role.GUEST)
+        follower = ClockFollower(guest, guest.clock)
+        try:
+            assert not is_clock_shown(links[1].graph)
+            assert not guest.clock.is_told
+
+            publisher = host.publisher("player", "clock", CLOCK, Quality())
+            topic = host.topic("clock", CLOCK)
+            await until(lambda: topic.far_subscribers, within=60)
+            assert is_clock_shown(links[1].graph)
+
+            publisher.publish(reading(seconds(20)))
+            await until(lambda: guest.clock.is_told, within=60)
+            assert guest.clock.now() == seconds(20)
+
+            moved = TransformStamped(seconds(20), "a", "b", Transform())
+            guest.buffer.set_transform(moved, "node")
+            publisher.publish(reading(seconds(12)))
+            await until(lambda: guest.clock.now() == seconds(12), within=60)
+            assert [one.text for one in guest.log.records if one.level == "WARN"] == [
+                "Detected jump back in time. Clearing tf buffer."
+            ]
+            assert not guest.buffer.can_transform("a", "b", 0)
+
+            publisher.close()
+            await until(lambda: not guest.clock.is_told, within=60)
+            assert seconds(12) <= guest.clock.now() < seconds(12 + 600)
+        finally:
+            follower.close()
+            for link in links:
+                link.close()
+
+    run(WallClock(), follow())
