@@ -80,7 +80,7 @@ def test_one_option_is_spelt_alike_in_all_commands():
     from typer.main import get_command
 
     # A frequency where something is printed or drawn; where time runs, how fast.
-    other = {("demo", "--rate")}
+    other = {("demo", "--rate"), ("play", "--rate")}
     spelt = {}
     for command in get_command(app.build(COMMANDS)).commands.values():
         for param in command.params:

@@ -33,6 +33,7 @@ COMMANDS = {
     "session": "Show who shares the session that runs here.",
     "info": "Show what a recording or robot description holds.",
     "convert": "Write one rotation, or pose, in every notation.",
+    "play": "Play a recording as a live session (ros2 bag play).",
     "check": "Play scenarios on simulated time and judge what they expect.",
     "run": "Run a node written for ROS 2, unmodified, without ROS (ros2 run).",
     "launch": "Launch what a ROS 2 launch file says, without ROS (ros2 launch).",

@@ -28,6 +28,7 @@ from tftool.sources.described import description_topics, prefix_of, read_descrip
 from tftool.sources.joint_states import joint_state_topics, read_joint_states
 from tftool.sources.robot import Robot, load_urdf
 from tftool.sources.urdf import RobotJoint
+from tftool.sources.timeline import through_clock
 from tftool.stamps import NANOSECONDS, Duration, Stamp, seconds
 
 Mask = npt.NDArray[np.bool_]
@@ -750,21 +751,6 @@ class Model:
             if mask.any():
                 offsets.append(int(np.median(stream.logs[mask] - stream.stamps[mask])))
         return min(offsets, default=0)
-
-
-def through_clock(logs: Stamps, read: Stamps, received: Stamps) -> Stamps:
-    """Log times on the clock that `/clock` read when it was received, interpolated.
-
-    Before its first and after its last message it is taken to run at rate 1.
-    """
-    base_log, base = int(received[0]), int(read[0])
-    order = np.argsort(received, kind="stable")
-    at = (received[order] - base_log).astype(np.float64)
-    shown = (read[order] - base).astype(np.float64)
-    asked = (logs - base_log).astype(np.float64)
-    mapped = np.interp(asked, at, shown)
-    mapped += np.minimum(asked - at[0], 0.0) + np.maximum(asked - at[-1], 0.0)
-    return np.rint(mapped).astype(np.int64) + base
 
 
 def bounded(stamps: Stamps) -> Stamps:

@@ -43,6 +43,12 @@ DEFINITIONS = {
         "int64 sequence_number\n"
     ),
     "std_msgs/msg/String.msg": "string data\n",
+    "rosgraph_msgs/msg/Clock.msg": "builtin_interfaces/Time clock\n",
+    "sensor_msgs/msg/LaserScan.msg": (
+        "std_msgs/Header header\nfloat32 angle_min\nfloat32 angle_max\nfloat32 angle_increment\n"
+        "float32 time_increment\nfloat32 scan_time\nfloat32 range_min\nfloat32 range_max\n"
+        "float32[] ranges\nfloat32[] intensities\n"
+    ),
     "rcl_interfaces/msg/ParameterValue.msg": (
         "uint8 type\nbool bool_value\nint64 integer_value\nfloat64 double_value\n"
         "string string_value\nbyte[] byte_array_value\nbool[] bool_array_value\n"
@@ -71,10 +77,10 @@ def definitions(folder):
 class Foreign:
     """The other implementation, in a process of its own."""
 
-    def __init__(self, port, folder):
+    def __init__(self, port, folder, program="sdk_peer.py"):
         self.said = []
         self.process = subprocess.Popen(
-            [sys.executable, str(HERE / "sdk_peer.py"), str(port), str(definitions(folder))],
+            [sys.executable, str(HERE / program), str(port), str(definitions(folder))],
             stdout=subprocess.PIPE,
             stderr=subprocess.PIPE,
             text=True,
