@@ -8,7 +8,7 @@ import numpy as np
 from tftool.diagnostics.judge import Diagnosis, judge
 from tftool.diagnostics.model import Material, Settings
 from tftool.errors import DescriptionError
-from tftool.sources.contract import Edge, Headers, Publisher, Topic, Transforms
+from tftool.sources.contract import Edge, Headers, Publisher, RecordedTopic, Transforms
 from tftool.sources.robot import Robot as DescribedRobot
 from tftool.sources.urdf import parse_description
 from tftool.stamps import seconds
@@ -149,7 +149,9 @@ class Robot:
             )
         every = [*logs.tolist(), *(int(h.log_times.max()) for h in headers.values())]
         topics = tuple(
-            Topic(name, "tf2_msgs/TFMessage", transforms=True, static=name.endswith("tf_static"))
+            RecordedTopic(
+                name, "tf2_msgs/TFMessage", transforms=True, static=name.endswith("tf_static")
+            )
             for name in sorted({publisher.topic for publisher in self.publishers})
         )
         clock = np.array(self.clock, dtype=np.int64).reshape(-1, 2)

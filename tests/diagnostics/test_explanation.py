@@ -4,7 +4,14 @@ import pytest
 
 from tests.diagnostics.robots import LASTS, NO_TURN, START, Robot, robot, stands
 from tftool import Buffer, Transform, TransformStamped, diagnose, explain
-from tftool.diagnostics.explanation import Cause, Explanation, Question, Verdict, message_of, traced
+from tftool.diagnostics.explanation import (
+    Cause,
+    Explanation,
+    LinkVerdict,
+    Question,
+    message_of,
+    traced,
+)
 from tftool.diagnostics.model import Model, Settings
 from tftool.errors import InputError
 from tftool.stamps import seconds
@@ -30,7 +37,7 @@ def test_what_has_not_come_yet_is_told_with_the_wait_that_serves_it():
     assert found.because == "when /scan of that stamp arrived"
     assert found.asked == T + seconds(4.265)
     assert found.refusing == ("odom", "base_link")
-    assert [link.verdict for link in found.links] == [Verdict.ANSWERS, Verdict.FORWARD]
+    assert [link.verdict for link in found.links] == [LinkVerdict.ANSWERS, LinkVerdict.FORWARD]
     assert found.links[1].short_by == seconds(0.25)
     assert (found.cause, found.check) == (Cause.LATE, "sensor-outruns-tf")
     # The sample for 4.4 arrives at 4.65; a wait of 385 ms, 390 as tf2 asks every 10 ms.
@@ -55,7 +62,7 @@ def test_what_was_dropped_needs_a_larger_cache_and_that_much_is_enough():
 
     found = asked(made, "odom", "laser", 5.0)
 
-    assert (found.cause, found.links[1].verdict) == (Cause.CACHE, Verdict.PRUNED)
+    assert (found.cause, found.links[1].verdict) == (Cause.CACHE, LinkVerdict.PRUNED)
     least = found.remedies[0].least
     # Asked at 18.0, when the newest sample is that of 17.98. ROS 2 prunes before that comes and
     # does with a period less; ROS 1 prunes after.

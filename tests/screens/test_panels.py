@@ -10,7 +10,7 @@ from tftool.screens import panels
 from tftool.screens.journal import Journal
 from tftool.screens.look import Look, wrapped
 from tftool.screens.panels import Hint
-from tftool.screens.scene import Moment, Pair
+from tftool.screens.scene import Pair, SceneMoment
 from tftool.stamps import seconds
 from tftool.views import theme
 from tftool.views.canvas import FieldPicture
@@ -40,7 +40,7 @@ def info(frame, parent, *, static=False, samples=627, rate=62.6, root="world", a
 
 def moment(*frames, ages=None, pair=None, behind=0):
     snapshot = Snapshot(seconds(1010), 0, frames)
-    return Moment(
+    return SceneMoment(
         stamp=seconds(1010),
         behind=behind,
         elapsed=seconds(10),

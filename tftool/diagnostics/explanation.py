@@ -33,7 +33,7 @@ USUAL_WAIT = 0.1
 """Seconds that most consumers wait for a transform."""
 
 
-class Verdict(Enum):
+class LinkVerdict(Enum):
     """What a link says to a question."""
 
     ANSWERS = "answers"
@@ -79,7 +79,7 @@ CHECK_OF = {
 
 
 @dataclass(frozen=True, slots=True)
-class Link:
+class TracedLink:
     """One link of the way, as the imagined listener holds it.
 
     Attributes:
@@ -105,7 +105,7 @@ class Link:
     newest: Stamp | None
     period: Duration
     latency: Duration
-    verdict: Verdict
+    verdict: LinkVerdict
     short_by: Duration = 0
 
     @property
@@ -175,7 +175,7 @@ class Explanation:
     exception: str
     text: str
     epoch: Stamp
-    links: tuple[Link, ...]
+    links: tuple[TracedLink, ...]
     refusing: Edge | None
     answerable_from: Stamp | None
     answerable_until: Stamp | None
@@ -331,10 +331,10 @@ class _Trace:
             return max(tracks, key=lambda track: int(track.logs[-1]))
         return min(tracks, key=lambda track: int(np.abs(track.sorted_stamps - self.stamp).min()))
 
-    def link(self, track: Track) -> Link:
+    def link(self, track: Track) -> TracedLink:
         held = self.held(track)
         verdict, short_by = self._verdict(track, held)
-        return Link(
+        return TracedLink(
             track.parent,
             track.child,
             track.static,
@@ -348,21 +348,21 @@ class _Trace:
             short_by,
         )
 
-    def _verdict(self, track: Track, held: Stamps) -> tuple[Verdict, Duration]:
+    def _verdict(self, track: Track, held: Stamps) -> tuple[LinkVerdict, Duration]:
         if not len(held):
-            return Verdict.NO_DATA, 0
+            return LinkVerdict.NO_DATA, 0
         if track.static or self.stamp == LATEST:
-            return Verdict.ANSWERS, 0
+            return LinkVerdict.ANSWERS, 0
         oldest, newest = int(held[0]), int(held[-1])
         if len(held) == 1 and oldest != self.stamp and len(track.by_stamp) == 1:
-            return Verdict.NO_DATA, abs(self.stamp - oldest)
+            return LinkVerdict.NO_DATA, abs(self.stamp - oldest)
         if self.stamp > newest:
-            return Verdict.FORWARD, self.stamp - newest
+            return LinkVerdict.FORWARD, self.stamp - newest
         if self.stamp < oldest:
             came = track.stamps[self.arrived(track)]
             pruned = bool((came <= self.stamp).any())
-            return (Verdict.PRUNED if pruned else Verdict.BACKWARD), oldest - self.stamp
-        return Verdict.ANSWERS, 0
+            return (LinkVerdict.PRUNED if pruned else LinkVerdict.BACKWARD), oldest - self.stamp
+        return LinkVerdict.ANSWERS, 0
 
     def buffer(self) -> Buffer:
         """A buffer that holds what had arrived."""
@@ -444,7 +444,8 @@ def traced(model: Model, question: Question) -> Explanation:
     way = None if named is not None else trace.way()
     links = tuple(trace.link(track) for track in way or ())
     refusing = next(
-        (number for number, link in enumerate(links) if link.verdict is not Verdict.ANSWERS), None
+        (number for number, link in enumerate(links) if link.verdict is not LinkVerdict.ANSWERS),
+        None,
     )
     begin, end = trace.answerable(way) if way is not None else (None, None)
     known = _Known(trace, way, links, refusing, begin, end, available=not exception)
@@ -480,7 +481,7 @@ def traced(model: Model, question: Question) -> Explanation:
 
 
 def _misleading(
-    links: tuple[Link, ...], quoted: tuple[str | None, Stamp] | None
+    links: tuple[TracedLink, ...], quoted: tuple[str | None, Stamp] | None
 ) -> tuple[str, ...]:
     """That tf2 quotes a link off the way: above the target it raises what fails first."""
     if quoted is None or not links or quoted[0] in {link.child for link in links}:
@@ -498,7 +499,7 @@ class _Known:
 
     trace: _Trace
     way: list[Track] | None
-    links: tuple[Link, ...]
+    links: tuple[TracedLink, ...]
     refusing: int | None
     begin: Stamp | None
     end: Stamp | None
@@ -611,7 +612,7 @@ def _refused(known: _Known) -> _Told:
             (Remedy("publisher", "send it with a StaticTransformBroadcaster (on /tf_static)"),),
             ("a timeout: no second sample comes",),
         )
-    if link.verdict is Verdict.PRUNED:
+    if link.verdict is LinkVerdict.PRUNED:
         return _pruned(known, link, track)
     first, last = int(track.sorted_stamps[0]), int(track.sorted_stamps[-1])
     if trace.stamp < first:
@@ -625,7 +626,7 @@ def _is_simulated(stamp: Stamp) -> bool:
     return stamp < SIMULATED_BELOW
 
 
-def _two_clocks(link: Link, track: Track, trace: _Trace) -> _Told:
+def _two_clocks(link: TracedLink, track: Track, trace: _Trace) -> _Told:
     stamp = int(track.sorted_stamps[-1])
     clock = "the simulation's clock" if _is_simulated(stamp) else "the wall clock"
     other = "the wall clock" if _is_simulated(stamp) else "the simulation's"
@@ -641,7 +642,7 @@ def _two_clocks(link: Link, track: Track, trace: _Trace) -> _Told:
     )
 
 
-def _pruned(known: _Known, link: Link, track: Track) -> _Told:
+def _pruned(known: _Known, link: TracedLink, track: Track) -> _Told:
     trace = known.trace
     newest = int(track.stamps[trace.arrived(track)].max())
     needed = newest - trace.stamp
@@ -673,7 +674,7 @@ def _pruned(known: _Known, link: Link, track: Track) -> _Told:
     )
 
 
-def _before_start(known: _Known, link: Link, track: Track, first: Stamp) -> _Told:
+def _before_start(known: _Known, link: TracedLink, track: Track, first: Stamp) -> _Told:
     trace = known.trace
     why = [f"{link.name} begins at {moment(first)}, {span(first - trace.stamp)} after the question"]
     if track.median_latency < 0:
@@ -693,7 +694,7 @@ def _before_start(known: _Known, link: Link, track: Track, first: Stamp) -> _Tol
     )
 
 
-def _stopped(link: Link, track: Track, trace: _Trace, last: Stamp) -> _Told:
+def _stopped(link: TracedLink, track: Track, trace: _Trace, last: Stamp) -> _Told:
     return _Told(
         Cause.STOPPED,
         (
@@ -705,7 +706,7 @@ def _stopped(link: Link, track: Track, trace: _Trace, last: Stamp) -> _Told:
     )
 
 
-def _late(known: _Known, link: Link, track: Track) -> _Told:
+def _late(known: _Known, link: TracedLink, track: Track) -> _Told:
     trace = known.trace
     stamps = track.sorted_stamps
     after = int(np.searchsorted(stamps, trace.stamp, side="left"))

@@ -6,7 +6,7 @@ import numpy as np
 
 from tftool.diagnostics.model import Material
 from tftool.frames.sample import TransformStamped
-from tftool.sources.contract import Edge, Publisher, Topic, Transforms
+from tftool.sources.contract import Edge, Publisher, RecordedTopic, Transforms
 from tftool.stamps import Stamp
 
 MOST = 4_000_000
@@ -78,7 +78,7 @@ class Hearing:
         )
         counts = np.bincount(transforms.senders, minlength=len(publishers)).tolist()
         topics = tuple(
-            Topic(
+            RecordedTopic(
                 topic,
                 "tf2_msgs/TFMessage",
                 count=sum(n for p, n in zip(publishers, counts, strict=True) if p.topic == topic),

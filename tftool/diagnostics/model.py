@@ -19,9 +19,9 @@ from tftool.sources.contract import (
     Edge,
     Headers,
     Publisher,
+    RecordedTopic,
     Source,
     Stamps,
-    Topic,
     Transforms,
 )
 from tftool.sources.described import description_topics, prefix_of, read_description
@@ -86,7 +86,7 @@ class Material:
     clock: tuple[Stamps, Stamps] = field(
         default_factory=lambda: (np.zeros(0, np.int64), np.zeros(0, np.int64))
     )
-    topics: tuple[Topic, ...] = ()
+    topics: tuple[RecordedTopic, ...] = ()
     publishers: tuple[Publisher, ...] = ()
     damage: tuple[str, ...] = ()
     start: Stamp = 0

@@ -28,7 +28,7 @@ class Judged:
     found: str
 
 
-class Check(ABC):
+class AnswerCheck(ABC):
     """What an answer must be; its text follows the question in a sentence."""
 
     @abstractmethod
@@ -53,7 +53,7 @@ class Form(ABC):
     fields: Mapping[str, Key]
 
     @abstractmethod
-    def make(self, given: Mapping[str, Any], reading: Reading, place: TextPlace) -> Check:
+    def make(self, given: Mapping[str, Any], reading: Reading, place: TextPlace) -> AnswerCheck:
         """Make the check of what was given beside the question and in it."""
 
 
@@ -61,7 +61,7 @@ class Form(ABC):
 
 
 @dataclass(frozen=True, slots=True)
-class RangeCheck(Check):
+class RangeCheck(AnswerCheck):
     """A number within bounds; bounds themselves are outside, except of `between`."""
 
     unit: Unit
@@ -156,7 +156,7 @@ class FrameFacts:
 
 
 @dataclass(frozen=True, slots=True)
-class FrameCheck(Check):
+class FrameCheck(AnswerCheck):
     """A frame of which these facts hold; what is None is not looked at."""
 
     wanted: FrameFacts
@@ -197,7 +197,7 @@ class FrameForm(Form):
         "broadcaster": Key(values.name("a node"), None),
     }
 
-    def make(self, given: Mapping[str, Any], reading: Reading, place: TextPlace) -> Check:
+    def make(self, given: Mapping[str, Any], reading: Reading, place: TextPlace) -> AnswerCheck:
         """Make the check, or note what is wrong."""
         facts = FrameFacts(**{key: given[key] for key in self.fields})
         if not facts.exists and facts != FrameFacts(False):
@@ -206,7 +206,7 @@ class FrameForm(Form):
 
 
 @dataclass(frozen=True, slots=True)
-class NamesCheck(Check):
+class NamesCheck(AnswerCheck):
     """Exactly these names, in any order."""
 
     wanted: frozenset[str]
@@ -225,7 +225,7 @@ class NamesForm(Form):
 
     fields: Mapping[str, Key] = {}
 
-    def make(self, given: Mapping[str, Any], reading: Reading, place: TextPlace) -> Check:
+    def make(self, given: Mapping[str, Any], reading: Reading, place: TextPlace) -> AnswerCheck:
         """Make the check, or note what is wrong."""
         return NamesCheck(frozenset(given["names"]))
 
@@ -235,6 +235,6 @@ class CountForm(Form):
 
     fields: Mapping[str, Key] = {}
 
-    def make(self, given: Mapping[str, Any], reading: Reading, place: TextPlace) -> Check:
+    def make(self, given: Mapping[str, Any], reading: Reading, place: TextPlace) -> AnswerCheck:
         """Make the check, or note what is wrong."""
         return RangeCheck(values.NUMBER, equal=float(given["count"]), tolerance=0.0)

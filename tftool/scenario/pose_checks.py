@@ -12,7 +12,7 @@ from tftool.geometry.planar import wrap
 from tftool.geometry.rigid import Quaternion, Transform
 from tftool.messages import Pose2D
 from tftool.scenario import document, values
-from tftool.scenario.checks import NEAR, Check, Form, Judged
+from tftool.scenario.checks import NEAR, AnswerCheck, Form, Judged
 from tftool.scenario.document import Node, TextPlace
 from tftool.scenario.reading import Key, Reading, listed
 from tftool.views.escaping import visible
@@ -68,7 +68,7 @@ _REFUSALS = tuple(
 
 
 @dataclass(frozen=True, slots=True)
-class RefusalCheck(Check):
+class RefusalCheck(AnswerCheck):
     """A lookup that must be refused, by an exception of this name or below it."""
 
     raises: str
@@ -90,7 +90,7 @@ class RefusalCheck(Check):
 
 
 @dataclass(frozen=True, slots=True)
-class PoseCheck(Check):
+class PoseCheck(AnswerCheck):
     """A transform with these parts; what is None is not looked at."""
 
     x: float | None
@@ -163,7 +163,7 @@ class PoseForm(Form):
             "says": Key(values.text, None),
         }
 
-    def make(self, given: Mapping[str, Any], reading: Reading, place: TextPlace) -> Check:
+    def make(self, given: Mapping[str, Any], reading: Reading, place: TextPlace) -> AnswerCheck:
         """Make the check, or note what is wrong."""
         value = given["value"]
         if given["raises"] is not None:
@@ -202,7 +202,7 @@ def _rotation(
 
 
 @dataclass(frozen=True, slots=True)
-class TurtlePoseCheck(Check):
+class TurtlePoseCheck(AnswerCheck):
     """A turtle's published pose with these parts; what is not named is not looked at."""
 
     wanted: Mapping[str, float]
@@ -257,7 +257,7 @@ class TurtlePoseForm(Form):
             "tolerance": Key(_tolerance, Tolerance()),
         }
 
-    def make(self, given: Mapping[str, Any], reading: Reading, place: TextPlace) -> Check:
+    def make(self, given: Mapping[str, Any], reading: Reading, place: TextPlace) -> AnswerCheck:
         """Make the check, or note what is wrong."""
         wanted = {key: want for key, want in given["value"].items() if want is not None}
         if not wanted:

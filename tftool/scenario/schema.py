@@ -4,7 +4,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any
 
-from tftool.scenario.checks import Check
+from tftool.scenario.checks import AnswerCheck
 from tftool.stamps import Duration
 
 if TYPE_CHECKING:
@@ -81,7 +81,7 @@ class Expectation:
 
     when: When
     question: "Subject"
-    check: Check
+    check: AnswerCheck
     line: int
 
     def __str__(self) -> str:

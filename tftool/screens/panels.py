@@ -11,7 +11,7 @@ from tftool.frames.sample import FrameInfo, Snapshot
 from tftool.geometry.conversions import rpy_from_quaternion
 from tftool.screens.layout import BLOCK_LINES, BLOCK_WIDTH
 from tftool.screens.look import Look, wrapped
-from tftool.screens.scene import Moment
+from tftool.screens.scene import SceneMoment
 from tftool.stamps import as_seconds
 from tftool.views import echo, theme
 from tftool.views.fixed_width import fitted, padded
@@ -49,7 +49,7 @@ def rows(snapshot: Snapshot, *, ascii_only: bool = False) -> list[Row]:
 
 
 def tree(
-    moment: Moment, listed: Sequence[Row], cursor: str, width: int, height: int, look: Look
+    moment: SceneMoment, listed: Sequence[Row], cursor: str, width: int, height: int, look: Look
 ) -> list[Text]:
     """Show every link with its rate and age, fading when it goes stale.
 
@@ -132,7 +132,7 @@ def _facts(info: FrameInfo, age: float, columns: _Columns, look: Look) -> str:
     return f"{rate:>{columns.rate}}{shown:>{columns.age}}"
 
 
-def pair(moment: Moment, width: int, height: int, look: Look) -> list[Text]:
+def pair(moment: SceneMoment, width: int, height: int, look: Look) -> list[Text]:
     """Say where the source is in the target: shortly, or with room as tf2_echo does."""
     asked, dim = moment.pair, look.ink(look.palette.dim)
     text = look.ink(look.palette.text)
@@ -192,7 +192,7 @@ def _degree(look: Look) -> str:
     return "d" if look.ascii_only else "°"
 
 
-def header(title: str, moment: Moment, rate: float, width: int, look: Look) -> Text:
+def header(title: str, moment: SceneMoment, rate: float, width: int, look: Look) -> Text:
     """One line: what runs, what time it is there, and whether that is now."""
     palette = look.palette
     clock = f"{as_seconds(moment.elapsed):.1f} s"

@@ -3,14 +3,14 @@
 from dataclasses import replace
 
 from tftool.screens import panels
-from tftool.screens.scene import Moment, Scene
+from tftool.screens.scene import Scene, SceneMoment
 from tftool.stamps import Duration, Stamp, seconds
 
 PATIENCE = seconds(4.0)
 """For how long after the start the frames of the first pair are waited for."""
 
 
-class Question:
+class SceneQuestion:
     """Keeps what is asked while the user moves through frames and time.
 
     Args:
@@ -28,15 +28,15 @@ class Question:
         self.scene = scene
         self.target, self.source = pair
         self.at: Stamp | None = None
-        self.moment: Moment | None = None
+        self.moment: SceneMoment | None = None
         self._picked = False
 
-    def ask(self) -> Moment:
+    def ask(self) -> SceneMoment:
         """Look anew."""
         self.moment = self._answer()
         return self.moment
 
-    def wait(self, moment: Moment) -> Moment:
+    def wait(self, moment: SceneMoment) -> SceneMoment:
         """Let time go by before a kept moment: it lies farther behind, nothing else changes."""
         now = self.scene.world.clock.now()
         self.moment = replace(moment, behind=now - moment.stamp)
@@ -68,7 +68,7 @@ class Question:
         there = (now if self.at is None else self.at) + step
         self.at = None if there >= now else max(there, self.scene.oldest())
 
-    def _answer(self) -> Moment:
+    def _answer(self) -> SceneMoment:
         kept = self.moment
         if self.at is not None and kept is not None and kept.stamp == self.at:
             return self.scene.again(kept, self.target, self.source)
@@ -79,7 +79,7 @@ class Question:
             return self.scene.moment(self.at, *pair)
         return found
 
-    def _other_pair(self, moment: Moment) -> tuple[str, str]:
+    def _other_pair(self, moment: SceneMoment) -> tuple[str, str]:
         """The pair asked for, until its frames are overdue and no other was picked."""
         asked, snapshot = (self.target, self.source), moment.snapshot
         names = [info.frame for info in snapshot.frames if info.parent is not None]

@@ -31,7 +31,7 @@ class Pair:
 
 
 @dataclass(frozen=True, slots=True)
-class Moment:
+class SceneMoment:
     """Everything on a screen, frozen.
 
     Attributes:
@@ -158,13 +158,13 @@ class Scene:
         held = [info.oldest for info in snapshot.frames if info.oldest and not info.is_static]
         return min(max(min(held, default=now), now - self.world.buffer.cache_time), now)
 
-    def moment(self, at: Stamp | None, target: str, source: str) -> Moment:
+    def moment(self, at: Stamp | None, target: str, source: str) -> SceneMoment:
         """Everything at the moment `at`, or at present when None."""
         now = self.world.clock.now()
         stamp = now if at is None else at
         snapshot = self.world.buffer.snapshot(stamp, LATEST if at is None else at)
         ages = self._ages(snapshot, now, at)
-        return Moment(
+        return SceneMoment(
             stamp=stamp,
             behind=now - stamp,
             elapsed=stamp - self.start,
@@ -174,7 +174,7 @@ class Scene:
             pair=self._pair(target, source, LATEST if at is None else at),
         )
 
-    def again(self, moment: Moment, target: str, source: str) -> Moment:
+    def again(self, moment: SceneMoment, target: str, source: str) -> SceneMoment:
         """The same moment with another pair; it need not be in the buffer any more."""
         snapshot = moment.snapshot
         for frame in (target, source):

@@ -24,8 +24,8 @@ from tftool.screens.keyboard import tolerant
 from tftool.screens.layout import SMALLEST, arranged
 from tftool.screens.look import Look, wrapped
 from tftool.screens.panel import Panel, themes
-from tftool.screens.question import Question
-from tftool.screens.scene import Moment, Scene
+from tftool.screens.question import SceneQuestion
+from tftool.screens.scene import Scene, SceneMoment
 from tftool.screens.setting import Setting
 from tftool.stamps import Duration, seconds
 from tftool.views import canvas, theme
@@ -111,7 +111,7 @@ class TurtleApp(App[None]):
         self.ready = asyncio.Event()
         self._press = press
         self._light = self.setting.light
-        self._question = Question(scene, self.setting.pair)
+        self._question = SceneQuestion(scene, self.setting.pair)
         self._stale = True
         self._painted: object = None
         self._count = 0
@@ -254,7 +254,7 @@ class TurtleApp(App[None]):
         if panels_too:
             self._draw_panels(moment)
 
-    def _draw_field(self, moment: Moment) -> None:
+    def _draw_field(self, moment: SceneMoment) -> None:
         field = self.panel("field")
         width, height = field.size
         box = 0 if self.setting.colors else 1
@@ -275,7 +275,7 @@ class TurtleApp(App[None]):
         margin = [Segment(" " * left)] if left > 0 else []
         field.show([[] for _ in range(above)] + [[*margin, *line] for line in lines])
 
-    def _draw_panels(self, moment: Moment) -> None:
+    def _draw_panels(self, moment: SceneMoment) -> None:
         look, clock = self.look, self.scene.world.clock
         width = self.size.width
         self.panel("header").show([panels.header(self.title, moment, clock.rate, width, look)])

@@ -61,7 +61,7 @@ def offers_of(text: str) -> Offers:
 
 
 @dataclass(frozen=True, slots=True)
-class Stream:
+class MessageStream:
     """One stream of messages: a channel, a row of `topics`, a connection.
 
     Attributes:
@@ -96,7 +96,7 @@ class Container(Protocol):
     size: int
     start: Stamp
     end: Stamp
-    streams: list[Stream]
+    streams: list[MessageStream]
 
     @property
     def counts(self) -> list[int]:

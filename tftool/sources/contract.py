@@ -29,7 +29,7 @@ SIMULATED_BELOW = 10**8 * NANOSECONDS
 
 
 @dataclass(frozen=True, slots=True)
-class Topic:
+class RecordedTopic:
     """One topic of a recording.
 
     Attributes:
@@ -228,7 +228,7 @@ class Source(Protocol):
         """Log time of the last message; 0 where there is none."""
 
     @property
-    def topics(self) -> tuple[Topic, ...]:
+    def topics(self) -> tuple[RecordedTopic, ...]:
         """Every topic, by name; each name once."""
 
     @property

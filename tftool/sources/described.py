@@ -9,7 +9,7 @@ from typing import Final
 from tftool.errors import InputError
 from tftool.frames.buffer import Buffer
 from tftool.interfaces.classes import INTERFACES
-from tftool.sources.contract import Source, Topic
+from tftool.sources.contract import RecordedTopic, Source
 from tftool.sources.joint_states import RecordedJoints
 from tftool.sources.reading import short_type
 from tftool.sources.robot import Robot, set_still
@@ -38,7 +38,7 @@ class DescribedFrames:
     prefix: str = ""
 
 
-def description_topics(topics: Iterable[Topic]) -> list[Topic]:
+def description_topics(topics: Iterable[RecordedTopic]) -> list[RecordedTopic]:
     """The topics of a recording that carry a robot's description."""
     return [
         topic
@@ -50,7 +50,7 @@ def description_topics(topics: Iterable[Topic]) -> list[Topic]:
     ]
 
 
-def read_description(source: Source, topic: Topic) -> Robot:
+def read_description(source: Source, topic: RecordedTopic) -> Robot:
     """The description on a topic, the last one if there are several.
 
     Raises:

@@ -1,6 +1,6 @@
 """Which kind of source a word on the command line names: decided by content, never by suffix.
 
-Only names, sizes and the first bytes are looked at; whoever reads the source finds out more.
+Only names, sizes and the first bytes are looked at; what reads the source finds out more.
 """
 
 import glob

@@ -5,7 +5,7 @@ from collections.abc import Collection, Iterator, Sequence
 import numpy as np
 
 from tftool.sources.columns import Batch
-from tftool.sources.container import MOST_STREAMS, Container, Stream
+from tftool.sources.container import MOST_STREAMS, Container, MessageStream
 from tftool.sources.contract import Progress
 
 
@@ -27,7 +27,7 @@ class Joined:
         self.size = sum(part.size for part in containers)
         self.start = min((part.start for part in containers if part.start), default=0)
         self.end = max((part.end for part in containers), default=0)
-        numbers: dict[Stream, int] = {}
+        numbers: dict[MessageStream, int] = {}
         self._maps = []
         for part in containers:
             for stream in part.streams:

@@ -8,7 +8,7 @@ from typing import Final, TypeAlias
 import numpy as np
 import numpy.typing as npt
 
-from tftool.sources.contract import Floats, Source, Stamps, Topic
+from tftool.sources.contract import Floats, RecordedTopic, Source, Stamps
 from tftool.sources.reading import short_type
 from tftool.stamps import NANOSECONDS
 
@@ -64,7 +64,7 @@ class RecordedJoints:
     ignored: dict[str, int] = field(default_factory=dict)
 
 
-def joint_state_topics(topics: Iterable[Topic], namespace: str = "") -> tuple[str, ...]:
+def joint_state_topics(topics: Iterable[RecordedTopic], namespace: str = "") -> tuple[str, ...]:
     """The topics robot_state_publisher would listen to.
 
     Args:

@@ -15,7 +15,14 @@ import numpy as np
 from tftool.errors import InputError
 from tftool.sources.columns import Batch, words_at
 from tftool.sources.compressed import unpack, unpack_beginning
-from tftool.sources.container import LATEST_STAMP, MOST_STREAMS, File, Offers, Stream, offers_of
+from tftool.sources.container import (
+    LATEST_STAMP,
+    MOST_STREAMS,
+    File,
+    MessageStream,
+    Offers,
+    offers_of,
+)
 from tftool.sources.contract import Indexes, Progress, Stamps
 from tftool.sources.find import MCAP_MAGIC
 
@@ -101,7 +108,7 @@ class Mcap:
         self._file = File(path)
         self.size = self._file.size
         self.start = self.end = 0
-        self.streams: list[Stream] = []
+        self.streams: list[MessageStream] = []
         self.counts: list[int] = []
         self.damage: list[str] = []
         self.profile = ""
@@ -215,7 +222,7 @@ class Mcap:
         if metadata.get("latching") == "1":
             offers = Offers("transient_local", "", 1)
         self._numbers[channel] = len(self.streams)
-        self.streams.append(Stream(topic, name, encoding, definition, node, offers))
+        self.streams.append(MessageStream(topic, name, encoding, definition, node, offers))
         self.counts.append(0)
 
     def _count(self, chunk: _Chunk) -> None:

@@ -11,14 +11,14 @@ import numpy as np
 from tftool.errors import InputError
 from tftool.sources.columns import Batch, Cutter, Decoding, Table
 from tftool.sources.compressed import LARGEST, unpack_beginning
-from tftool.sources.container import TRANSIENT_LOCAL, Container, Stream
+from tftool.sources.container import TRANSIENT_LOCAL, Container, MessageStream
 from tftool.sources.contract import (
     Headers,
     Progress,
     Publisher,
     RawMessage,
+    RecordedTopic,
     Stamps,
-    Topic,
     Transforms,
 )
 from tftool.sources.find import ZSTD_MAGIC
@@ -112,9 +112,9 @@ class Recorded:
             self._notes.append(damage)
 
     @property
-    def topics(self) -> tuple[Topic, ...]:
+    def topics(self) -> tuple[RecordedTopic, ...]:
         """Every topic, by name; each name once."""
-        first: dict[str, Stream] = {}
+        first: dict[str, MessageStream] = {}
         counts: dict[str, int] = {}
         static: dict[str, bool] = {}
         for stream, count in zip(self._container.streams, self._container.counts, strict=True):
@@ -122,7 +122,7 @@ class Recorded:
             counts[stream.topic] = counts.get(stream.topic, 0) + count
             static[stream.topic] = static.get(stream.topic, False) or is_static(stream)
         return tuple(
-            Topic(
+            RecordedTopic(
                 name,
                 short_type(stream.type),
                 stream.encoding,
@@ -240,7 +240,7 @@ class Recorded:
 class _Heads:
     """One topic's headers while they are read."""
 
-    def __init__(self, stream: Stream) -> None:
+    def __init__(self, stream: MessageStream) -> None:
         self._topic = stream.topic
         self._type = short_type(stream.type)
         self._is_cdr = stream.encoding == "cdr"
@@ -316,15 +316,15 @@ def _stamp(payload: bytes, place: int, order: str = "<") -> Stamp:
     return int(sec) * NANOSECONDS + int(nanosec)
 
 
-def _is_tf(stream: Stream) -> bool:
+def _is_tf(stream: MessageStream) -> bool:
     return short_type(stream.type) in TRANSFORM_TYPES and stream.encoding in _LAYOUTS
 
 
-def _has_transforms(stream: Stream) -> bool:
+def _has_transforms(stream: MessageStream) -> bool:
     return _is_tf(stream) or is_foreign(short_type(stream.type), stream.encoding)
 
 
-def is_static(stream: Stream) -> bool:
+def is_static(stream: MessageStream) -> bool:
     """Whether transforms of a stream hold at all times: by name, not by a stamp of 0."""
     last = stream.topic.rpartition("/")[2]
     if last == "tf_static":
@@ -333,7 +333,7 @@ def is_static(stream: Stream) -> bool:
     return is_latched and (stream.encoding == "ros1" or "static" in stream.topic)
 
 
-def begins_with_header(stream: Stream) -> bool:
+def begins_with_header(stream: MessageStream) -> bool:
     """Whether messages of a stream begin with a header that we can read."""
     if stream.encoding not in _LAYOUTS:
         return False

@@ -26,9 +26,9 @@ from tftool.sources.contract import (
     Progress,
     Publisher,
     RawMessage,
+    RecordedTopic,
     Source,
     Stamps,
-    Topic,
     Transforms,
 )
 from tftool.sources.described import (
@@ -126,7 +126,7 @@ class Recording:
         return self.source.name
 
     @property
-    def topics(self) -> tuple[Topic, ...]:
+    def topics(self) -> tuple[RecordedTopic, ...]:
         """Every topic: name, type, number of messages; by name."""
         return self.source.topics
 
@@ -338,7 +338,7 @@ class Recording:
         decode = Codec(kind, layout).decode
         return ((raw.log_time, decode(raw.payload)) for raw in self.source.messages([topic]))
 
-    def _topic(self, name: str) -> Topic:
+    def _topic(self, name: str) -> RecordedTopic:
         for topic in self.topics:
             if topic.name == name:
                 return topic

@@ -19,8 +19,8 @@ from tftool.sources.container import (
     MOST_STREAMS,
     TRANSIENT_LOCAL,
     File,
+    MessageStream,
     Offers,
-    Stream,
 )
 from tftool.sources.contract import Indexes, Progress, Stamps
 from tftool.sources.find import ROS1_MAGIC
@@ -80,7 +80,7 @@ class Rosbag1:
         self._file = File(path)
         self.size = self._file.size
         self.start = self.end = 0
-        self.streams: list[Stream] = []
+        self.streams: list[MessageStream] = []
         self.counts: list[int] = []
         self.damage: list[str] = []
         self._numbers: dict[int, int] = {}  # of a connection: its stream
@@ -161,7 +161,7 @@ class Rosbag1:
         offers = Offers(TRANSIENT_LOCAL, "", 1) if text(b"latching") == "1" else Offers()
         self._numbers[connection] = len(self.streams)
         self.streams.append(
-            Stream(
+            MessageStream(
                 topic, text(b"type"), "ros1", text(b"message_definition"), text(b"callerid"), offers
             )
         )

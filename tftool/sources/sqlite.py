@@ -13,7 +13,7 @@ import numpy as np
 
 from tftool.errors import InputError
 from tftool.sources.columns import Batch
-from tftool.sources.container import MOST_STREAMS, Stream, offers_of
+from tftool.sources.container import MOST_STREAMS, MessageStream, offers_of
 from tftool.sources.contract import Progress
 
 _ROWS: Final = 2048  # fetched at a time
@@ -40,7 +40,7 @@ class Sqlite:
         self._copy: tempfile.TemporaryDirectory[str] | None = None
         self._base = self._open(path)
         self._ids: list[int] = []
-        self.streams: list[Stream] = []
+        self.streams: list[MessageStream] = []
         try:
             self._read_topics()
             self.start, self.end = self._span()
@@ -92,7 +92,7 @@ class Sqlite:
                 break
             self._ids.append(int(number))
             self.streams.append(
-                Stream(
+                MessageStream(
                     str(name),
                     str(kind),
                     str(encoding),

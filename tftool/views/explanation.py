@@ -2,7 +2,7 @@
 
 from typing import TYPE_CHECKING, Any
 
-from tftool.diagnostics.explanation import Explanation, Link, Verdict
+from tftool.diagnostics.explanation import Explanation, LinkVerdict, TracedLink
 from tftool.diagnostics.wording import dated, span
 from tftool.sources.contract import SIMULATED_BELOW
 from tftool.stamps import NANOSECONDS, Stamp
@@ -15,10 +15,10 @@ if TYPE_CHECKING:
 SCHEMA = "tftool.explain/1"
 
 _WORDS = {
-    Verdict.ANSWERS: "answers",
-    Verdict.FORWARD: "newest is {} too old",
-    Verdict.BACKWARD: "begins {} after the question",
-    Verdict.PRUNED: "the sample for it was dropped; what is left begins {} later",
+    LinkVerdict.ANSWERS: "answers",
+    LinkVerdict.FORWARD: "newest is {} too old",
+    LinkVerdict.BACKWARD: "begins {} after the question",
+    LinkVerdict.PRUNED: "the sample for it was dropped; what is left begins {} later",
 }
 
 
@@ -92,7 +92,7 @@ def _links(found: Explanation) -> "RenderableType":
         refuses = link.edge == found.refusing
         style = "bold" if refuses else ""
         says = Text("answers", "green")
-        if link.verdict is not Verdict.ANSWERS:
+        if link.verdict is not LinkVerdict.ANSWERS:
             says = Text(f"REFUSES: {_refusal(link)}", "bold red")
         table.add_row(
             Text(visible(link.name), style),
@@ -103,13 +103,13 @@ def _links(found: Explanation) -> "RenderableType":
     return table
 
 
-def _kind(link: Link) -> str:
+def _kind(link: TracedLink) -> str:
     if link.is_static:
         return "static"
     return f"{NANOSECONDS / link.period:.3g} Hz" if link.period else "once"
 
 
-def _held(link: Link, base: Stamp) -> str:
+def _held(link: TracedLink, base: Stamp) -> str:
     if link.oldest is None or link.newest is None:
         return "nothing"
     if link.is_static:
@@ -121,8 +121,8 @@ def _held(link: Link, base: Stamp) -> str:
     return f"{_since(link.oldest, base)} … {_since(link.newest, base)}, {link.count:,}"
 
 
-def _refusal(link: Link) -> str:
-    if link.verdict is Verdict.NO_DATA:
+def _refusal(link: TracedLink) -> str:
+    if link.verdict is LinkVerdict.NO_DATA:
         return "one sample answers for its own stamp only" if link.count else "nothing has come yet"
     if abs(link.short_by) > SIMULATED_BELOW:
         return f"{span(link.short_by)} apart: another clock"
