@@ -269,10 +269,10 @@ class LookupException(TransformException):
         near = difflib.get_close_matches(self.frame, known, n=3, cutoff=0.6)
         if near:
             names = " or ".join(f"'{name}'" for name in near)
-            return f"Nobody has sent '{self.frame}' yet; did you mean {names}?"
+            return f"No transform of '{self.frame}' has come yet; did you mean {names}?"
         if not known:
-            return f"Nobody has sent '{self.frame}' yet, nor any other frame."
-        return f"Nobody has sent '{self.frame}' yet; {len(known)} other frames are known."
+            return f"No transform of '{self.frame}' has come yet, nor of any other frame."
+        return f"No transform of '{self.frame}' has come yet; {len(known)} other frames are known."
 
     def _names(self) -> list[str]:
         """The names that were known when this was made."""

@@ -1,4 +1,4 @@
-"""Rotations and poses as people paste them: read from text, whoever printed it.
+"""Rotations and poses as people paste them: read from text in any program's notation.
 
 What is labelled (`x: 0 …`, `rpy="…"`, a matrix, tf2_echo's block) says itself what it is.
 Three or four bare numbers do not, and are refused unless the form is named.

@@ -7,7 +7,7 @@ looks like a coroutine.
 
 On the simulated clock the loop stands still while a fiber runs, so exactly one
 of them moves at any time, and two runs are the same run to the last bit. On the
-wall clock the loop goes on, so code that is busy holds up nobody else.
+wall clock the loop goes on, so code that is busy holds up nothing else.
 """
 
 import asyncio
@@ -389,7 +389,7 @@ def _done(future: "asyncio.Future[None]") -> None:
 
 
 def discard(awaitable: Any) -> None:
-    """Give an awaitable up that nobody will await."""
+    """Give up an awaitable that will not be awaited."""
     close = getattr(awaitable, "close", None) or getattr(awaitable, "cancel", None)
     if close is not None:
         close()

@@ -128,7 +128,7 @@ class Program(Node):
         """Run the body; what it leaves open is closed.
 
         Raises:
-            BaseException: What ended it, if it failed and nobody waits for its exit.
+            BaseException: What ended it, if it failed and its exit is not waited for.
         """
         self._loop = asyncio.get_running_loop()
         self._loop_thread = threading.get_ident()
@@ -276,7 +276,7 @@ async def _as_coroutine(request: Callable[[], Any]) -> Any:
 
 
 def let_outsiders_join(found: "Callable[[], Program | None] | None") -> None:
-    """Have `found` say whose code is running where nobody else knows; None ends that."""
+    """Have `found` say whose code is running where no fiber is; None ends that."""
     global _outsiders
     _outsiders = found
 

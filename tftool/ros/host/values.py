@@ -105,7 +105,7 @@ def unpack_transforms(value: TransformMessage) -> Any:
 
 
 def pack_request(offer: Offer[Any], request: Any) -> Any:
-    """A request or a goal, a message, as whoever answers takes it.
+    """A request or a goal, a message, as the server takes it.
 
     Raises:
         TftoolError: If it is of another type.
@@ -124,13 +124,13 @@ def unpack(value: Any, kind: type[Message]) -> Any:
 
 
 def answer(request: Any, response: Any) -> Any:
-    """A response, a message, as whoever sent the request expects it."""
+    """A response, a message, as the client that sent the request expects it."""
     copy = duplicate(response)
     return copy if isinstance(request, Message) else types.answer_to(request, copy)
 
 
 def type_of(kind: Any) -> str:
-    """The ROS type of what answers a service or takes goals; "" where nobody says."""
+    """The ROS type of what answers a service or takes goals; "" where it is not said."""
     if isinstance(kind, str):
         return kind
     if kind in types.SERVICES:

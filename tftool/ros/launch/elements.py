@@ -65,7 +65,7 @@ class Element:
         return self.children
 
     def finish(self) -> None:
-        """Refuse attributes and children nobody asked for.
+        """Refuse attributes and children that were not read.
 
         Raises:
             InputError: If there is one; the nearest that is known is told.
@@ -79,7 +79,7 @@ class Element:
                 raise child.refusal(what, child.tag, self.known)
 
     def too_deep(self) -> InputError:
-        """That nobody means so many levels."""
+        """The refusal of more levels than a file needs."""
         return InputError(f"{self.where}: more than {DEEPEST} levels of nesting are too deep")
 
     def refusal(self, what: str, word: str, known: Iterable[str]) -> InputError:

@@ -163,7 +163,7 @@ class Launch(Node):
             raise InputError(f"{where}: {error_sentence(error)}") from error
 
     def emit(self, event: Event) -> None:
-        """Tell an event to whoever waits for it, once what is being carried out is done."""
+        """Tell the handlers an event, once what is being carried out is done."""
         self._events.add(event)
 
     def _tell(self, event: Event) -> None:

@@ -18,7 +18,7 @@ class EventQueue:
     """
 
     def __init__(self, tell: Callable[[Event], object]) -> None:
-        """`tell` hands an event to whoever waits for it."""
+        """`tell` hands an event to the handlers that wait for it."""
         self._tell = tell
         self._waiting: deque[Event] = deque()
         self._is_held = False

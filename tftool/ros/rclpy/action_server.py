@@ -179,7 +179,7 @@ class ActionServer(WorkQueue):
         self.put(lambda: self._consider(handle, goal))
 
     def withdraw(self) -> None:
-        """Take no more goals; what nobody has decided about is refused."""
+        """Take no more goals; what is not decided yet is refused."""
         super().withdraw()
         self._stop()
         for goal in self._goals:
@@ -203,7 +203,7 @@ class ActionServer(WorkQueue):
         try:
             response = await _outcome(self._on_goal(handle.request))
         except Exception:
-            # As in ROS 2 it ends whoever spins; the client must not wait for ever.
+            # As in ROS 2 it ends the executor that spins; the client must not wait for ever.
             ask(lambda: self._decide(goal, False))
             raise
         accepted = ask(lambda: self._decide(goal, response == GoalResponse.ACCEPT))

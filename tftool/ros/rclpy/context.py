@@ -40,7 +40,7 @@ class Context:
         return self._valid and not self._program.interrupted
 
     def shutdown(self) -> None:
-        """End; whoever spins comes back.
+        """End; every call that spins returns.
 
         Raises:
             RuntimeError: If it was not started.

@@ -83,8 +83,8 @@ class WorkQueue(NodeEntity):
 class Requester(WorkQueue):
     """Something that asks others in the world, and gets their answers as work."""
 
-    # An answer completes a future and runs nobody's callback by itself, so whoever
-    # waits for it inside a callback gets it.
+    # An answer completes a future and calls no callback by itself, so a callback that
+    # waits for it gets it.
     passes_busy_group = True
 
     def __init__(self, seat: NodeSeat, group: Any) -> None:

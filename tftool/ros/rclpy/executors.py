@@ -96,7 +96,7 @@ class Executor:
         self._program.ask(remove)
 
     def shutdown(self, timeout_sec: float | None = None) -> bool:
-        """Serve nobody any more."""
+        """Serve no node any more."""
         self._over = True
         for seat in list(self._seats):
             self.leave(seat)
@@ -378,7 +378,7 @@ def executor_of(owner: "program.Program") -> Executor:
 
 
 def wait_for(seat: NodeSeat, future: Future, timeout_sec: float | None) -> None:
-    """Block until a future is done, serving the node meanwhile if nobody else does."""
+    """Block until a future is done, serving the node meanwhile if no executor does."""
     executor = seat.executor or executor_of(seat.program)
     added = executor.serve(seat)
     try:

@@ -90,7 +90,7 @@ class RcutilsLogger:
         return True
 
     def debug(self, message: object, **kwargs: Any) -> bool:
-        """Say something for whoever looks for a fault."""
+        """Log something that helps to find a fault."""
         return self.log(message, LoggingSeverity.DEBUG, **kwargs)
 
     def info(self, message: object, **kwargs: Any) -> bool:

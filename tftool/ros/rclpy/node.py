@@ -110,7 +110,7 @@ class Node(NodeGraph, NodeParameters):
 
     @property
     def executor(self) -> Any:
-        """Who serves it, None while nobody does."""
+        """The executor that serves it, None while none does."""
         return self._tftool.executor
 
     @executor.setter

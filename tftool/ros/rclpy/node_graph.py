@@ -194,7 +194,7 @@ class NodeGraph:
 
 
 def _listed(pairs: Iterable[tuple[str, str]]) -> NamesAndTypes:
-    """Names and their types, in order; a type nobody knows is left out."""
+    """Names and their types, in order; an unknown type is left out."""
     found: dict[str, set[str]] = {}
     for name, kind in pairs:
         found.setdefault(f"/{name}", set()).update([kind] if kind else [])

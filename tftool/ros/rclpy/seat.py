@@ -30,7 +30,7 @@ class NodeSeat:
         options: What `--ros-args` says about it.
         context: The rclpy context it lives by.
         ros_node: The node as the user holds it.
-        executor: Who serves it, None while nobody does.
+        executor: The executor that serves it, None while none does.
         was_served: Whether an executor has ever served it.
         entities: What can become ready, in the order it was made.
         authority: Who its transforms come from.
@@ -129,7 +129,7 @@ class NodeSeat:
     # On the loop's thread
 
     def wake(self) -> None:
-        """Tell whoever spins the node to look."""
+        """Wake the executor that spins the node."""
         if self.executor is not None:
             self.executor.wake()
 

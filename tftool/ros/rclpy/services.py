@@ -77,7 +77,7 @@ class Client(Requester):
 
     async def _call(self, request: Any, future: Future) -> None:
         world = self.seat.world
-        # As in ROS 2, a request nobody serves yet waits for nobody: it stays unanswered.
+        # As in ROS 2, a request that no server takes yet is not kept: it stays unanswered.
         offer = world.services().get(self.full)
         if offer is None:
             return

@@ -1,6 +1,6 @@
 """tf2_ros's listener and broadcasters.
 
-A listener's transforms go straight into its buffer, whoever spins.
+A listener's transforms go straight into its buffer, whether its node spins or not.
 """
 
 from collections.abc import Callable, Iterable

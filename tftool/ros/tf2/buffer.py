@@ -1,6 +1,6 @@
 """tf2_ros: the buffer that waits.
 
-A listener's transforms go straight into its buffer, whoever spins, so waiting in a
+A listener's transforms go straight into its buffer, whether its node spins or not, so waiting in a
 callback works; and it waits on the world's clock.
 """
 

@@ -63,7 +63,7 @@ class BufferInterface:
         """Data with a header, seen in another frame.
 
         Raises:
-            TypeException: If nobody registered how to transform such data.
+            TypeException: If it is not registered how to transform such data.
         """
         do_transform = self.registration.get(type(object_stamped))
         header = object_stamped.header

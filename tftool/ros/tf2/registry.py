@@ -15,7 +15,7 @@ _convert: dict[tuple[Any, Any], Callable[[Any], Any]] = {}
 
 
 class TypeException(TransformException):
-    """A type nobody registered."""
+    """A type that is not registered."""
 
     def __init__(self, errstr: str) -> None:
         super().__init__(errstr)
@@ -40,10 +40,10 @@ class Registration:
         _transform[key] = callback
 
     def get(self, key: Any) -> Callable[[Any, Any], Any]:
-        """Who transforms data of a type.
+        """The function that transforms data of a type.
 
         Raises:
-            TypeException: If nobody does.
+            TypeException: If none does.
         """
         return _of(_transform, key)
 
