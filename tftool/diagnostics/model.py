@@ -27,8 +27,8 @@ from tftool.sources.contract import (
 from tftool.sources.described import description_topics, prefix_of, read_description
 from tftool.sources.joint_states import joint_state_topics, read_joint_states
 from tftool.sources.robot import Robot, load_urdf
-from tftool.sources.urdf import RobotJoint
 from tftool.sources.timeline import through_clock
+from tftool.sources.urdf import RobotJoint
 from tftool.stamps import NANOSECONDS, Duration, Stamp, seconds
 
 Mask = npt.NDArray[np.bool_]

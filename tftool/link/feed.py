@@ -13,7 +13,7 @@ from tftool.link.seam import WirePublisher
 from tftool.link.session import Link, is_plain
 from tftool.runtime.endpoints import Quality
 from tftool.sources.container import TRANSIENT_LOCAL
-from tftool.sources.contract import RawMessage, Source, Topic
+from tftool.sources.contract import RawMessage, RecordedTopic, Source
 from tftool.sources.timeline import PlayClock
 from tftool.stamps import Stamp, seconds
 from tftool.wire.codec import Codec, codec
@@ -133,7 +133,7 @@ class TopicFeed:
         sender.put(payload, self._link.now())
 
 
-def _way_out(topic: Topic) -> tuple[str, Callable[[bytes], bytes] | None]:
+def _way_out(topic: RecordedTopic) -> tuple[str, Callable[[bytes], bytes] | None]:
     """A topic's type on the wire, and what makes CDR of its bytes; None where they are it.
 
     Raises:
