@@ -32,6 +32,7 @@ if TYPE_CHECKING:
     from tftool.runtime.node import Node
     from tftool.runtime.supervisor import live
     from tftool.runtime.world import World
+    from tftool.sinks.export import Exported, export
     from tftool.sources.joint_states import JointStates
     from tftool.sources.recording import Recording, open_recording
     from tftool.sources.robot import Robot, load_urdf
@@ -47,6 +48,7 @@ __all__ = [
     "Clock",
     "ConnectivityException",
     "Explanation",
+    "Exported",
     "ExtrapolationException",
     "Finding",
     "ForwardExtrapolationException",
@@ -78,6 +80,7 @@ __all__ = [
     "as_seconds",
     "diagnose",
     "explain",
+    "export",
     "live",
     "load_urdf",
     "open_recording",
@@ -118,6 +121,7 @@ _HOMES = {
     "tftool.diagnostics.asking": ("diagnose", "explain"),
     "tftool.diagnostics.explanation": ("Explanation",),
     "tftool.diagnostics.findings": ("Finding",),
+    "tftool.sinks.export": ("Exported", "export"),
     "tftool.sources.recording": ("Recording", "open_recording"),
     "tftool.sources.joint_states": ("JointStates",),
     "tftool.sources.robot": ("Robot", "load_urdf"),

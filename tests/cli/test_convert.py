@@ -33,7 +33,9 @@ def test_json_holds_all_orders_in_full(tftool):
 
 def test_a_chain_goes_on_in_the_child(tftool):
     # A metre ahead after a quarter turn to the left is a metre to the left.
-    result = tftool("convert", "--yaw", "1.5707963267948966", "--then", "--x 1", "--into", "matrix4")
+    result = tftool(
+        "convert", "--yaw", "1.5707963267948966", "--then", "--x 1", "--into", "matrix4"
+    )
 
     rows = [[float(word) for word in line.split()] for line in result.out.splitlines()]
     assert [row[3] for row in rows] == pytest.approx([0.0, 1.0, 0.0, 1.0], abs=1e-12)

@@ -32,6 +32,7 @@ COMMANDS = {
     "explain": "Say why a lookup refuses: which link, by how much.",
     "session": "Show who shares the session that runs here.",
     "info": "Show what a recording or robot description holds.",
+    "export": "Write a pair over time, or links, to files of other tools.",
     "convert": "Write one rotation, or pose, in every notation.",
     "play": "Play a recording as a live session (ros2 bag play).",
     "check": "Play scenarios on simulated time and judge what they expect.",

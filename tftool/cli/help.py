@@ -14,7 +14,7 @@ GROUPS = {
     "Learn": ("demo", "teleop", "follow", "static"),
     "Ask": ("echo", "tree", "monitor", "explain", "doctor", "convert", "ros2"),
     "Look": ("view",),
-    "Work with files": ("info", "play"),
+    "Work with files": ("info", "play", "export"),
     "Run your own nodes": ("new", "run", "launch", "session"),
     "Check": ("check",),
     "Help": ("help",),

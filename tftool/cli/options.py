@@ -216,6 +216,61 @@ AtOption = Annotated[
     ),
 ]
 
+FromOption = Annotated[
+    At | None,
+    typer.Option(
+        "--from",
+        metavar="MOMENT",
+        rich_help_panel=WHEN,
+        parser=moment,
+        help="Leave out what is before: seconds since the start of FROM, or a stamp.",
+    ),
+]
+
+ToOption = Annotated[
+    At | None,
+    typer.Option(
+        "--to",
+        metavar="MOMENT",
+        rich_help_panel=WHEN,
+        parser=moment,
+        help="Leave out what is after; likewise.",
+    ),
+]
+
+Every = Annotated[
+    Duration | None,
+    typer.Option(
+        "--every",
+        metavar="SECONDS",
+        rich_help_panel=WHEN,
+        parser=duration(positive),
+        help="Ask so often, in place of the stamps of the fastest link.",
+    ),
+]
+
+StampsOf = Annotated[
+    str | None,
+    typer.Option(
+        "--at-stamps-of",
+        metavar="TOPIC",
+        rich_help_panel=WHEN,
+        help="Ask at the stamps of a recorded topic's messages.",
+    ),
+]
+
+Rate = Annotated[
+    float | None,
+    typer.Option(
+        "--rate",
+        "-r",
+        metavar="HZ",
+        rich_help_panel=WHEN,
+        callback=within(0.001, 1000),
+        help="The same as a frequency.",
+    ),
+]
+
 CacheTime = Annotated[
     Duration | None,
     typer.Option(

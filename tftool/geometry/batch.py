@@ -9,6 +9,8 @@ from typing import TypeAlias
 import numpy as np
 import numpy.typing as npt
 
+from tftool.geometry.conversions import NOISE
+
 Floats: TypeAlias = npt.NDArray[np.float64]
 """Numbers in double precision, of any shape."""
 
@@ -100,6 +102,35 @@ def matrices(translations: Floats, rotations: Floats) -> Floats:
     result[..., :3, 3] = translations
     result[..., 3, 3] = 1.0
     return result
+
+
+def roll_pitch_yaw(quaternions: Floats) -> Floats:
+    """Radians, shape (..., 3), of unit quaternions; see `precise_rpy_from_quaternion`."""
+    x, y, z, w = np.moveaxis(quaternions, -1, 0)
+    a, b, c, d = w - y, x + z, y + w, z - x
+    near, far = np.hypot(a, b), np.hypot(c, d)
+    half_sum, half_difference = np.arctan2(b, a), np.arctan2(d, c)
+    # At a pole one of the two is told by rounding alone.
+    level = (near > NOISE) & (far > NOISE)
+    alone = np.where(near > NOISE, 2.0 * half_sum, -2.0 * half_difference)
+    angles: Floats = np.stack(
+        [
+            _wrapped(np.where(level, half_sum - half_difference, alone)),
+            2.0 * np.arctan2(far, near) - 0.5 * np.pi,
+            _wrapped(np.where(level, half_sum + half_difference, 0.0)),
+        ],
+        axis=-1,
+    )
+    angles[np.isnan(w)] = np.nan
+    return angles
+
+
+def _wrapped(angles: Floats) -> Floats:
+    """The same angles from -π to π."""
+    turned: Floats = np.where(
+        np.abs(angles) > np.pi, angles - 2.0 * np.pi * np.round(angles / (2.0 * np.pi)), angles
+    )
+    return turned
 
 
 def angles_between(first: Floats, second: Floats) -> Floats:

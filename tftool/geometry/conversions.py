@@ -26,8 +26,8 @@ AXES = tuple(
 # Nearer than this to the pole, roll and yaw turn about one axis and only their sum is told.
 _POLE = 1.0 - 1e-12
 
-# A sum of parts of a unit quaternion this small is rounding.
-_NOISE = 1e-13
+# A sum of parts of a unit quaternion this small is rounding; `batch` has the same.
+NOISE = 1e-13
 
 
 def quaternion_from_rpy(roll: float, pitch: float, yaw: float) -> Quaternion:
@@ -75,8 +75,8 @@ def precise_rpy_from_quaternion(quaternion: Iterable[float]) -> tuple[float, flo
     near, far = math.hypot(a, b), math.hypot(c, d)
     pitch = 2.0 * math.atan2(far, near) - 0.5 * math.pi
     # At a pole one of the two is told by rounding alone.
-    half_sum = math.atan2(b, a) if near > _NOISE else math.nan
-    half_difference = math.atan2(d, c) if far > _NOISE else math.nan
+    half_sum = math.atan2(b, a) if near > NOISE else math.nan
+    half_difference = math.atan2(d, c) if far > NOISE else math.nan
     if math.isnan(half_sum):
         return _wrapped(-2.0 * half_difference), pitch, 0.0
     if math.isnan(half_difference):

@@ -13,6 +13,7 @@ from tftool.geometry.conversions import (
     wxyz_from_xyzw,
 )
 from tftool.geometry.rigid import Transform
+from tftool.notation.writing import exact, publisher_words, urdf_origin
 
 TARGETS: Final = (
     "xyzw", "wxyz", "rpy", "ypr", "axis-angle", "rotvec", "matrix", "matrix4", "urdf", "static",
@@ -61,7 +62,7 @@ def alone(transform: Transform, form: str, *, degrees: bool = False) -> str:
     if form == "urdf":
         return urdf_origin(transform)
     if form == "static":
-        return static_arguments(transform)
+        return " ".join(publisher_words(transform))
     axis, angle = axis_angle_from_quaternion(turn)
     unit = math.degrees if degrees else float
     numbers: Sequence[float]
@@ -83,26 +84,6 @@ def alone(transform: Transform, form: str, *, degrees: bool = False) -> str:
         )
         numbers = [unit(one) for one in angles]
     return " ".join(map(exact, numbers))
-
-
-def exact(number: float) -> str:
-    """The shortest decimals that mean this number and no other; no minus before a zero."""
-    text = repr(float(number) + 0.0)
-    return text.removesuffix(".0")
-
-
-def urdf_origin(transform: Transform) -> str:
-    """URDF's element for it."""
-    xyz = " ".join(map(exact, transform.translation))
-    rpy = " ".join(map(exact, precise_rpy_from_quaternion(transform.rotation)))
-    return f'<origin xyz="{xyz}" rpy="{rpy}"/>'
-
-
-def static_arguments(transform: Transform) -> str:
-    """static_transform_publisher's options for it, without the names of the frames."""
-    names = ("x", "y", "z", "qx", "qy", "qz", "qw")
-    numbers = (*transform.translation, *transform.rotation)
-    return " ".join(f"--{name} {exact(one)}" for name, one in zip(names, numbers, strict=True))
 
 
 def lines(
@@ -141,7 +122,7 @@ def lines(
         ("rotation vector", angles([angle * one for one in axis])),
         *(("matrix" if number == 0 else "", row) for number, row in enumerate(rows)),
         ("URDF", urdf_origin(transform)),
-        ("static publisher", static_arguments(transform)),
+        ("static publisher", " ".join(publisher_words(transform))),
     ]
     if all_orders:
         table += [(f"Euler {axes}", angles(euler_from_quaternion(turn, axes))) for axes in AXES]

@@ -46,6 +46,8 @@ class Target:
         if os.path.lexists(path):
             if not force:
                 raise UsageError(f"'{path}' exists: --force replaces it.")
+            if path.exists() and not path.is_file() and not path.is_dir():
+                raise UsageError(f"'{path}' is a device or a pipe: name a file.")
             if path.is_dir() and not _is_recording_folder(path):
                 raise UsageError(f"'{path}' is a folder that is no recording: not replaced.")
         try:

@@ -1,0 +1,267 @@
+"""`tftool export`: frames to the files of other tools."""
+
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated
+
+import typer
+
+from tftool.cli.app import ExitStatus
+from tftool.cli.connection import Connection
+from tftool.cli.options import (
+    OUTPUT,
+    AtOption,
+    Every,
+    FromOption,
+    Rate,
+    RunFor,
+    StampsOf,
+    ToOption,
+)
+from tftool.errors import UsageError
+from tftool.sinks.formats import Format, format_of
+from tftool.stamps import LATEST, seconds
+
+if TYPE_CHECKING:
+    from tftool.cli.hosting import StoredFrames
+    from tftool.sinks.export import Exported
+    from tftool.trajectories.sampling import Moments
+
+
+def export(
+    connection: Connection,
+    words: Annotated[
+        list[str] | None,
+        typer.Argument(
+            metavar="[TARGET SOURCE] [FROM]",
+            help="A pair of frames and whose they are; one word alone is FROM, and its links are "
+            "written.",
+            show_default=False,
+        ),
+    ] = None,
+    output: Annotated[
+        Path | None,
+        typer.Option(
+            "-o",
+            "--output",
+            metavar="FILE",
+            rich_help_panel=OUTPUT,
+            help="Where to write it. Of pairs .tum .kitti .csv .npz .parquet; of links .urdf "
+            ".launch.py .launch.xml .launch.yaml .sh .mcap.",
+        ),
+    ] = None,
+    form: Annotated[
+        Format | None,
+        typer.Option(
+            "--format",
+            "-f",
+            rich_help_panel=OUTPUT,
+            help="What to write; if not said, what -o ends in. EuRoC is written where it is said.",
+        ),
+    ] = None,
+    pairs: Annotated[
+        list[str] | None,
+        typer.Option(
+            "--pair",
+            metavar="TARGET:SOURCE",
+            help="A pair; again and again for several in one .csv, .npz or .parquet.",
+        ),
+    ] = None,
+    first: FromOption = None,
+    last: ToOption = None,
+    every: Every = None,
+    rate: Rate = None,
+    stamps_of: StampsOf = None,
+    at: AtOption = None,
+    lasting: RunFor = None,
+    rpy: Annotated[
+        bool,
+        typer.Option(
+            "--rpy", rich_help_panel=OUTPUT, help="Add roll, pitch and yaw to CSV and Parquet."
+        ),
+    ] = False,
+    precision: Annotated[
+        int,
+        typer.Option(
+            "--precision",
+            "-p",
+            min=0,
+            max=17,
+            metavar="N",
+            rich_help_panel=OUTPUT,
+            help="Decimals; 17 writes each number as short as it can be read back.",
+        ),
+    ] = 9,
+    root: Annotated[
+        str | None,
+        typer.Option(metavar="FRAME", help="Of links, take what hangs below this frame."),
+    ] = None,
+    with_moving: Annotated[
+        bool,
+        typer.Option(
+            "--with-moving",
+            help="Put links that move into a URDF, as floating joints (robot_state_publisher "
+            "skips them); where they are at --at, else at last.",
+        ),
+    ] = False,
+    foxglove: Annotated[
+        bool,
+        typer.Option(
+            "--foxglove",
+            rich_help_panel=OUTPUT,
+            help="Write .mcap as foxglove.FrameTransforms, not as tf2_msgs.",
+        ),
+    ] = False,
+    force: Annotated[
+        bool, typer.Option("--force", rich_help_panel=OUTPUT, help="Replace what is there.")
+    ] = False,
+) -> ExitStatus:
+    """Write a pair over time, or links, to files of other tools.
+
+    The pose of SOURCE in TARGET is written at the stamps of the fastest link between the two;
+    what a lookup refuses is left out and counted. Of a scenario all of it is played. With FROM
+    alone, what holds at all times is written so that it can be published again, and to .mcap
+    all transforms.
+
+    tftool export map base_link run.mcap -o run.tum
+    tftool export map base_link run.mcap -o run.csv --rate 10 --rpy
+    tftool export run.mcap --pair map:base_link --pair map:laser -o run.npz
+    tftool export run.mcap -o statics.launch.py
+    tftool export robot -o frames.mcap --foxglove
+    """
+    from tftool.cli.interrupting import interruptible
+    from tftool.cli.recorded import Bar
+    from tftool.cli.stored import span, stored_frames
+    from tftool.sinks.export import (
+        Style,
+        refuse_input,
+        write_links,
+        write_trajectories,
+    )
+    from tftool.trajectories.sampling import sample
+    from tftool.views.escaping import visible
+
+    if output is None:
+        raise UsageError("Say where to write it: -o FILE.")
+    asked, place = _pairs(words or [], pairs or [])
+    chosen = form or format_of(output)
+    _refuse_misfits(chosen, asked, at is not None and not with_moving, root, stamps_of, every, rate)
+    if not force and (output.exists() or output.is_symlink()):
+        raise UsageError(f"'{output}' exists: --force replaces it.")
+    listen = seconds(10) if chosen.is_trajectory or chosen is Format.mcap else seconds(2)
+    stored = stored_frames(connection, place, lasting, listen=listen)
+    refuse_input(stored, output)
+    bar = Bar(f"Writing {visible(output.name)}")
+    time = LATEST if at is None else at.stamp(stored.start)
+    style = Style(precision, rpy, foxglove, with_moving, root, time)
+    try:
+        with interruptible():
+            if chosen.is_trajectory:
+                moments = _moments(stored, span(stored, first, last), every, rate, stamps_of)
+                found = [sample(stored.buffer, *pair, moments) for pair in asked]
+                done = write_trajectories(found, output, chosen, style, force=force, progress=bar)
+            else:
+                done = write_links(stored.buffer, output, chosen, style, force=force, progress=bar)
+    finally:
+        bar.stop()
+    _tell(done)
+    return ExitStatus.DONE
+
+
+def _pairs(words: list[str], given: list[str]) -> tuple[list[tuple[str, str]], str | None]:
+    """The pairs that were named, and FROM."""
+    if len(words) > (1 if given else 3):
+        raise UsageError(
+            "With --pair, one word at most is FROM."
+            if given
+            else f"TARGET SOURCE [FROM] are three words at most, not {len(words)}."
+        )
+    if not given:
+        return (
+            ([], words[0] if words else None)
+            if len(words) < 2
+            else (
+                [(words[0], words[1])],
+                words[2] if len(words) > 2 else None,
+            )
+        )
+    pairs = []
+    for text in given:
+        target, colon, source = text.partition(":")
+        if not (colon and target and source):
+            raise UsageError(f"--pair {text}: write TARGET:SOURCE, as in map:base_link.")
+        pairs.append((target, source))
+    return pairs, words[0] if words else None
+
+
+def _refuse_misfits(
+    form: Format,
+    pairs: list[tuple[str, str]],
+    at: bool,
+    root: str | None,
+    *moments: object,
+) -> None:
+    """Refuse options that contradict what is written.
+
+    Raises:
+        UsageError: If one does.
+    """
+    if form.is_trajectory:
+        if not pairs:
+            raise UsageError(
+                f"{form} holds pairs of frames over time: tftool export TARGET SOURCE [FROM]."
+            )
+        if at or root is not None:
+            raise UsageError("--at and --root go with links; a span has --from and --to.")
+    elif pairs:
+        raise UsageError(f"{form} holds links, and no pair: tftool export [FROM] -o FILE.")
+    elif at:
+        raise UsageError("What holds at all times has no moment: --at goes with --with-moving.")
+    chosen = sum(one is not None for one in moments)
+    if chosen > 1:
+        raise UsageError("--every, --rate and --at-stamps-of each choose the moments: give one.")
+    if chosen and not form.is_trajectory:
+        raise UsageError(f"{form} holds links, which are written once: leave out the moments.")
+
+
+def _moments(
+    stored: "StoredFrames",
+    ends: tuple[int | None, int | None],
+    every: int | None,
+    rate: float | None,
+    topic: str | None,
+) -> "Moments":
+    from tftool.sources.recording import Recording
+    from tftool.trajectories.sampling import Moments
+
+    if topic is not None:
+        if not isinstance(stored, Recording):
+            raise UsageError("--at-stamps-of goes with a recording.")
+        stamps = stored.headers(topic).stamps
+        return Moments(*ends, stamps=stamps, words=f"at the stamps of '{topic}'")
+    period = every if rate is None else seconds(1.0 / rate)
+    return Moments(*ends, period)
+
+
+def _tell(done: "Exported") -> None:
+    """Say on stderr what was written, and what was left out."""
+    from tftool.cli.notices import notice
+    from tftool.views.escaping import visible
+
+    for one in done.trajectories:
+        if one.refused:
+            reason = one.refusals[0].reason.strip()
+            notice(
+                visible(
+                    f"{one.source} in {one.target}: {one.refused} of {len(one.path)} moments "
+                    f"have no pose and are left out. The first: {reason}"
+                )
+            )
+    what = "poses" if done.format.is_trajectory else "links"
+    if done.format is Format.mcap:
+        what = "transforms"
+    moments = {one.moments for one in done.trajectories}
+    when = f", {moments.pop()}" if len(moments) == 1 else ""
+    names = " and ".join(str(path) for path in done.paths)
+    notice(visible(f"Wrote {done.count} {what} to {names}{when}."))
+    if done.format is Format.kitti:
+        notice("KITTI's own frames look along z: these are written as they are.")

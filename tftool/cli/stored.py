@@ -1,0 +1,120 @@
+"""Frames that are all there, whatever FROM names: for commands that read a span of time.
+
+A recording or a description is opened; a scenario is played on simulated time, to its end;
+a session that runs is listened to. What is heard is remembered without a limit, whatever
+the cache time of the world it comes from.
+"""
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+from tftool.cli.connection import Connection
+from tftool.cli.hosting import (
+    LISTEN,
+    NO_SESSION,
+    Session,
+    StoredFrames,
+    join_session,
+    named,
+    open_session,
+    refuse_to_share,
+)
+from tftool.cli.notices import notice
+from tftool.errors import UsageError
+from tftool.sources.find import Kind
+from tftool.stamps import Duration, Stamp, as_seconds, seconds
+
+if TYPE_CHECKING:
+    from tftool.cli.options import At
+    from tftool.frames.buffer import Buffer
+    from tftool.runtime.world import TransformMessage
+
+LISTEN_LIVE = seconds(10)
+"""How long a session that runs is listened to where nothing else is said."""
+
+
+@dataclass(frozen=True, slots=True)
+class HeardFrames:
+    """What a world broadcast while it was listened to; see `hosting.StoredFrames`."""
+
+    name: str
+    start: Stamp
+    end: Stamp
+    buffer: "Buffer"
+
+    def close(self) -> None:
+        """Nothing is left open."""
+
+
+def stored_frames(
+    connection: Connection,
+    word: str | None,
+    lasting: Duration | None = None,
+    *,
+    listen: Duration = LISTEN_LIVE,
+) -> StoredFrames:
+    """All frames that FROM names, over the whole of its time.
+
+    Args:
+        connection: What the command's options say.
+        word: What FROM names; None for the session that runs, else the turtle world.
+        lasting: How long a scenario is played or a session listened to, nanoseconds.
+        listen: How long a session is listened to where `lasting` is None.
+
+    Raises:
+        InputError: If the word names nothing, or it cannot be read.
+        LinkError: If a session was asked for and there is none.
+        UsageError: If --for is given where nothing is waited for.
+    """
+    found = None if word is None else named(word)
+    if found is not None and found.kind is not Kind.SCENARIO:
+        if lasting is not None:
+            raise UsageError("--for is for what goes on; of a recording, --to leaves out the rest.")
+        refuse_to_share(connection, word)
+        return connection.open_stored(found)
+    session = join_session(connection) if word is None else None
+    if session is not None:
+        lasting = lasting or listen
+        notice(f"Listening for {as_seconds(lasting):g} s ...")
+        return _heard(session, lasting)
+    session = open_session(connection, word, simulated=True, because=NO_SESSION)
+    return _heard(session, lasting or session.duration or LISTEN)
+
+
+def _heard(session: Session, lasting: Duration) -> HeardFrames:
+    from tftool.frames.buffer import NO_LIMIT, Buffer
+
+    world = session.world
+    buffer = Buffer(NO_LIMIT, max_frames=world.buffer.max_frames)
+
+    def hear(message: "TransformMessage", *, is_static: bool) -> None:
+        set_transform = buffer.set_transform_static if is_static else buffer.set_transform
+        for one in message.transforms:
+            set_transform(one, message.authority)
+
+    began = world.clock.epoch if session.is_hosted else world.clock.now()
+    stops = [
+        world.tf.subscribe(lambda message: hear(message, is_static=False)),
+        world.tf_static.subscribe(lambda message: hear(message, is_static=True)),
+    ]
+    try:
+        session.run(session.lasting(lasting))
+    finally:
+        for stop in stops:
+            stop()
+    return HeardFrames(session.name, began, world.clock.now(), buffer)
+
+
+def span(
+    stored: StoredFrames, first: "At | None", last: "At | None"
+) -> tuple[Stamp | None, Stamp | None]:
+    """The stamps of --from and --to in what was read.
+
+    Raises:
+        UsageError: If the one lies behind the other.
+    """
+    start = None if first is None else first.stamp(stored.start)
+    end = None if last is None else last.stamp(stored.start)
+    if start is not None and end is not None and start > end:
+        raise UsageError(f"--from {first} lies behind --to {last}.")
+    return start, end
