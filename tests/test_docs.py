@@ -1,10 +1,13 @@
-"""The pages in docs/ name what is there."""
+"""The pages in docs/ name what is there, and what they say a command prints is what it prints."""
 
 import re
 import tomllib
+import warnings
 from pathlib import Path
 
 import pytest
+
+from tests.pages import blocks, follow, said_by
 
 ROOT = Path(__file__).parents[1]
 DOCS = ROOT / "docs"
@@ -12,7 +15,61 @@ pytestmark = pytest.mark.skipif(not DOCS.exists(), reason="docs/ is not beside t
 
 
 def pages():
-    return [*DOCS.glob("*.md"), ROOT / "CHANGELOG.md"]
+    return [*DOCS.rglob("*.md"), ROOT / "CHANGELOG.md"]
+
+
+def named(page):
+    return str(page.relative_to(ROOT))
+
+
+WITH_BLOCKS = [page for page in sorted(DOCS.rglob("*.md")) if blocks(page)]
+
+
+@pytest.mark.parametrize("page", WITH_BLOCKS, ids=named)
+def test_a_page_can_be_followed_line_by_line(page, tmp_path, monkeypatch):
+    """Its commands print what it says, its programs too; files begin with their own name."""
+    monkeypatch.chdir(tmp_path)
+    monkeypatch.setenv("COLUMNS", "100")
+    monkeypatch.setenv("TFTOOL_SESSION_DIR", str(tmp_path / "sessions"))
+    previous = None
+    for kind, text in blocks(page):
+        first, _, rest = text.partition("\n")
+        if kind == "console":
+            follow(text)
+        elif kind == "text" and previous is not None:
+            assert said_by(previous) == text
+        elif re.fullmatch(r"# [\w./-]+\.(py|yaml)", first):
+            (tmp_path / first[2:]).write_text(rest, encoding="utf-8")
+        previous = text if kind == "python" else None
+
+
+def test_every_program_of_a_page_has_its_output_below_it():
+    # architecture.md shows parts of files to add; the other pages, programs.
+    for page in DOCS.glob("*/*.md"):
+        kinds = [kind for kind, _ in blocks(page)]
+        lonely = [
+            at
+            for at, kind in enumerate(kinds)
+            if kind == "python" and kinds[at + 1 :][:1] != ["text"]
+        ]
+        assert not lonely, page.name
+
+
+def test_the_site_is_built_without_a_warning(tmp_path):
+    pytest.importorskip("furo")
+    pytest.importorskip("myst_parser")
+    from sphinx.cmd.build import build_main
+
+    with warnings.catch_warnings():
+        # Warnings of the build itself are errors (-W); those of its libraries are theirs.
+        warnings.simplefilter("ignore")
+        words = ["-q", "-W", "--keep-going", "-d", str(tmp_path / "kept")]
+        status = build_main([*words, str(DOCS), str(tmp_path / "site")])
+
+    assert status == 0
+    front = (tmp_path / "site" / "index.html").read_text(encoding="utf-8")
+    # Nothing is fetched from elsewhere.
+    assert not re.findall(r"<(?:script|link|img)[^>]*(?:src|href)=\"(?:https?:)?//", front)
 
 
 def test_the_layers_shown_are_those_of_the_contract():

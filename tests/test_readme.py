@@ -1,8 +1,5 @@
-import contextlib
-import io
 import itertools
 import re
-import shlex
 import subprocess
 import sys
 from pathlib import Path
@@ -10,54 +7,52 @@ from pathlib import Path
 import pytest
 
 import tftool
+from tests.pages import blocks, follow, said_by
 from tftool.cli import app
-from tftool.cli.app import main
 from tftool.interfaces.schema import Schema
 from tftool.ros.host import import_table
 
 ROOT = Path(__file__).parents[1]
-TEXT = (ROOT / "README.md").read_text(encoding="utf-8")
-BLOCKS = re.findall(r"^```(\w+)\n(.*?)^```$", TEXT, re.MULTILINE | re.DOTALL)
-PROGRAMS = [
-    (code, printed)
-    for (kind, code), (after, printed) in itertools.pairwise(BLOCKS)
-    if kind == "python" and after == "text"
-]
-LINES = [
-    line.partition("#")[0].strip()
-    for kind, block in BLOCKS
-    if kind == "sh"
-    for line in block.splitlines()
-    if line.startswith("tftool ")
-]
+README = ROOT / "README.md"
+TEXT = README.read_text(encoding="utf-8")
+BLOCKS = blocks(README)
+DOCS = ROOT / "docs"
 
 
-@pytest.mark.parametrize(("code", "printed"), PROGRAMS)
-def test_every_program_prints_what_the_readme_says(code, printed):
-    out = io.StringIO()
-
-    with contextlib.redirect_stdout(out):
-        exec(compile(code, "README.md", "exec"), {"__name__": "readme"})
-
-    assert out.getvalue() == printed
+def test_it_is_short():
+    assert TEXT.count("\n") < 150
 
 
-def test_every_program_has_its_output_beside_it():
-    assert len(PROGRAMS) == sum(kind == "python" for kind, _ in BLOCKS) > 0
+def test_every_program_prints_what_the_readme_says():
+    programs = [
+        (code, printed)
+        for (kind, code), (after, printed) in itertools.pairwise(BLOCKS)
+        if kind == "python" and after == "text"
+    ]
+
+    assert len(programs) == sum(kind == "python" for kind, _ in BLOCKS) > 0
+    for code, printed in programs:
+        assert said_by(code) == printed
 
 
-@pytest.mark.parametrize("line", LINES)
-def test_every_line_works(line, capsys):
-    assert main(shlex.split(line)[1:]) == 0
-    assert capsys.readouterr().out
+TOUR = [text for kind, text in BLOCKS if kind == "console"]
 
 
-def test_there_are_five_lines():
-    assert len(LINES) == 5
+@pytest.mark.parametrize("text", TOUR, ids=lambda text: text.splitlines()[0])
+def test_every_line_of_the_tour_prints_what_is_below_it(text, monkeypatch):
+    monkeypatch.setenv("COLUMNS", "110")
+
+    follow(text)
+
+
+def test_the_tour_has_five_stops():
+    assert len(TOUR) == 5
 
 
 def test_the_nodes_pass_their_own_test(tmp_path, monkeypatch):
-    files = {code.split()[1]: code for kind, code in BLOCKS if kind == "py"}
+    files = {
+        code.split()[1]: code for kind, code in blocks(DOCS / "do" / "nodes.md") if kind == "py"
+    }
     for name, code in files.items():
         (tmp_path / name).write_text(code, encoding="utf-8")
     monkeypatch.setenv("PYTHONPATH", str(Path(tftool.__file__).parents[1]))
@@ -75,7 +70,8 @@ def test_the_nodes_pass_their_own_test(tmp_path, monkeypatch):
 
 
 def test_every_command_has_its_row():
-    rows = set(re.findall(r"^\| `tftool (\w+)", TEXT, re.MULTILINE))
+    table = "\n".join(line for line in TEXT.splitlines() if line.startswith("|"))
+    rows = set(re.findall(r"`tftool (\w+)", table))
 
     assert set(app.COMMANDS) <= rows
 
@@ -90,7 +86,7 @@ def test_the_two_commands_bring_their_own_environment():
 
 
 def test_what_is_covered_names_every_package_and_no_other():
-    section = TEXT.partition("### What is covered\n")[2].partition("\n###")[0]
+    section = (DOCS / "reference" / "ros.md").read_text(encoding="utf-8")
     table = "\n".join(line for line in section.splitlines() if line.startswith("| `"))
     last = next(line for line in section.splitlines() if line.startswith("| interfaces"))
     packages = {name.partition(".")[0] for name in import_table.table()}

@@ -77,8 +77,8 @@ def convert(
 
     if target is not None and target not in view.TARGETS:
         raise UsageError(
-            f"--into {visible(target)}: there is {', '.join(view.TARGETS[:10])}, and orders of "
-            "axes such as sxyz."
+            f"--into {visible(target)}: there is {', '.join(view.TARGETS[:10])}, and orders "
+            "of axes such as sxyz."
         )
     if target is not None and (for_programs or all_orders):
         raise UsageError("--into prints one form alone: leave out --json and --all.")

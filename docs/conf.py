@@ -1,0 +1,93 @@
+"""The site: `python -m sphinx -W docs SITE`, with the extra `docs`.
+
+Two directives draw from the program itself, so that a page cannot fall behind it:
+`{commands}` is the help of every command, `{tree} turtles` the picture of a scenario's frames.
+"""
+
+import contextlib
+import io
+import os
+from pathlib import Path
+
+from docutils import nodes
+from docutils.parsers.rst import Directive
+from sphinx.application import Sphinx
+
+import tftool
+from tftool.cli.app import COMMANDS, main
+
+project = "tftool"
+author = "the tftool maintainers"
+release = tftool.__version__
+
+extensions = ["myst_parser", "sphinx.ext.autodoc", "sphinx.ext.napoleon"]
+myst_enable_extensions = ["colon_fence", "deflist"]
+myst_heading_anchors = 3
+exclude_patterns = ["requirements*"]
+
+html_theme = "furo"
+html_title = "tftool"
+html_show_sphinx = False
+html_show_copyright = False
+# Nothing is fetched from elsewhere: the theme's own fonts are the system's.
+html_theme_options = {"top_of_page_buttons": []}
+pygments_style = "friendly"
+pygments_dark_style = "monokai"
+
+# Attributes of a class stand in its text; listed once more they would be there twice.
+napoleon_use_ivar = True
+autodoc_member_order = "bysource"
+autodoc_typehints = "signature"
+autodoc_typehints_format = "short"
+python_use_unqualified_type_names = True
+add_module_names = False
+# Blocks of the pages carry marks of their own for the tests; they are shown as they stand.
+highlight_language = "text"
+suppress_warnings = ["misc.highlighting_failure"]
+
+
+def _printed(*words: str) -> str:
+    """What the command prints at 80 columns, without a terminal."""
+    out = io.StringIO()
+    os.environ["COLUMNS"] = "80"
+    with contextlib.redirect_stdout(out):
+        status = main(list(words))
+    if status:
+        raise RuntimeError(f"tftool {' '.join(words)} ended with {status}")
+    return out.getvalue()
+
+
+class EveryCommand(Directive):
+    """A section for each command, in the order of `tftool --help`."""
+
+    def run(self) -> list[nodes.Node]:
+        """Give the sections."""
+        sections: list[nodes.Node] = []
+        for name in COMMANDS:
+            section = nodes.section(ids=[f"tftool-{name}"], names=[f"tftool {name}"])
+            self.state.document.note_explicit_target(section)
+            section += nodes.title("", f"tftool {name}")
+            text = _printed("help", name)
+            section += nodes.literal_block(text, text, language="text")
+            sections.append(section)
+        return sections
+
+
+class Tree(Directive):
+    """The frames of a scenario as `tftool tree SCENARIO -o` draws them."""
+
+    required_arguments = 1
+
+    def run(self) -> list[nodes.Node]:
+        """Draw the picture beside the pages, and give it."""
+        name = self.arguments[0]
+        folder = Path(self.state.document.settings.env.srcdir, "_drawn")
+        folder.mkdir(exist_ok=True)
+        _printed("tree", name, "-o", str(folder / f"{name}.svg"))
+        return [nodes.image(uri=f"/_drawn/{name}.svg", alt=f"the frames of {name}")]
+
+
+def setup(app: Sphinx) -> None:
+    """Add the directives."""
+    app.add_directive("commands", EveryCommand)
+    app.add_directive("tree", Tree)

@@ -1,0 +1,56 @@
+"""What stands between the fences of a page: lines to type, programs, and what they print."""
+
+import contextlib
+import io
+import re
+import shlex
+
+from tftool.cli.app import main
+
+
+def blocks(page):
+    """What stands between fences: (language, text), in order."""
+    text = page.read_text(encoding="utf-8")
+    return re.findall(r"^```(\w+)\n(.*?)^```$", text, re.MULTILINE | re.DOTALL)
+
+
+def printed(words):
+    """What a command prints, results and messages as a terminal mixes them, and its status."""
+    out = io.StringIO()
+    with contextlib.redirect_stdout(out), contextlib.redirect_stderr(out):
+        status = main(words)
+    return out.getvalue().splitlines(), status
+
+
+def fits(found, wanted):
+    """Whether lines are those of a page, where … stands for what is left out.
+
+    In a line it stands for the rest of it; alone, for any number of lines.
+    """
+    if not wanted:
+        return not found
+    if wanted[0] == "…":
+        return any(fits(found[at:], wanted[1:]) for at in range(len(found) + 1))
+    if not found:
+        return False
+    start, dots, _ = wanted[0].partition("…")
+    same = found[0].startswith(start) if dots else found[0].rstrip() == wanted[0].rstrip()
+    return same and fits(found[1:], wanted[1:])
+
+
+def said_by(program):
+    """What a program prints."""
+    out = io.StringIO()
+    with contextlib.redirect_stdout(out):
+        exec(compile(program, "page", "exec"), {"__name__": "page"})
+    return out.getvalue()
+
+
+def follow(text):
+    """Type the lines that begin with $: each ends and prints as the page says."""
+    for part in re.split(r"^\$ ", text, flags=re.MULTILINE)[1:]:
+        line, *wanted = part.splitlines()
+        line, _, remark = line.partition("  # exit status ")
+        found, status = printed(shlex.split(line)[1:])
+        assert (line, status) == (line, int(remark or 0)), "\n".join(found)
+        assert fits(found, wanted), f"{line}\n" + "\n".join(found)
