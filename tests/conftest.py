@@ -34,6 +34,7 @@ def own_sessions():
         before = os.environ.get("TFTOOL_SESSION_DIR")
         os.environ["TFTOOL_SESSION_DIR"] = str(Path(folder) / "s")
         os.environ.pop("ROS_DOMAIN_ID", None)
+        os.environ["XDG_CACHE_HOME"] = str(Path(folder) / "cache")
         yield
         if before is None:
             del os.environ["TFTOOL_SESSION_DIR"]

@@ -202,7 +202,7 @@ class Recording(Simulated):
     def __init__(self):
         self.opened = []
 
-    def stored(self, found, robot):
+    def stored(self, found, robot, recording):
         self.opened.append(Stored(found.name))
         return self.opened[-1]
 
@@ -324,7 +324,7 @@ def test_a_scenario_is_read_with_its_arguments():
 class Empty(Simulated):
     """Opens a recording in which nothing was recorded."""
 
-    def stored(self, found, robot):
+    def stored(self, found, robot, recording):
         stored = Stored(found.name)
         stored.start = stored.end = 0
         stored.buffer = Buffer()

@@ -67,6 +67,10 @@ RECORDED_ROBOTS = ("echo", "tree", "view", "info", "doctor")
 """Commands whose FROM may be a recording without the description of its robot."""
 
 
+RECORDED = ("demo", "echo", "tree", "monitor", "view", "explain", "info", "play")
+"""Commands whose FROM may be a recording."""
+
+
 class ExitStatus(IntEnum):
     """How a command ends, for who called it."""
 
@@ -147,7 +151,12 @@ def _load(name: str, providers: "Providers | None") -> "Callable[..., Any]":
     """A command with all its options."""
     from importlib import import_module
 
-    from tftool.cli.connection import ROBOT_OPTIONS, URDF_OPTION, with_connection
+    from tftool.cli.connection import (
+        RECORDING_OPTIONS,
+        ROBOT_OPTIONS,
+        URDF_OPTION,
+        with_connection,
+    )
 
     command: Callable[..., Any] = getattr(import_module(f"tftool.cli.commands.{name}"), name)
     if name in ALONE:
@@ -155,6 +164,7 @@ def _load(name: str, providers: "Providers | None") -> "Callable[..., Any]":
     options = {
         **(ROBOT_OPTIONS if name in DESCRIBING else {}),
         **(URDF_OPTION if name in RECORDED_ROBOTS else {}),
+        **(RECORDING_OPTIONS if name in RECORDED else {}),
     }
     return with_connection(command, providers, options)
 

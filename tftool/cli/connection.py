@@ -62,6 +62,31 @@ class RobotOptions:
             raise UsageError(f"{what}: leave out {', '.join(given)}.")
 
 
+@dataclass(frozen=True, slots=True)
+class RecordingOptions:
+    """What the command line says about how a recording is read.
+
+    Attributes:
+        no_cache: Whether its columns are read anew, and not kept.
+        with_odometry: Whether odometry and poses count as transforms.
+    """
+
+    no_cache: bool = False
+    with_odometry: bool = False
+
+    def refuse(self, what: str) -> None:
+        """Refuse what changes the answer for a FROM that is no recording.
+
+        Args:
+            what: What it is, as the beginning of a sentence.
+
+        Raises:
+            UsageError: If that was given.
+        """
+        if self.with_odometry:
+            raise UsageError(f"{what}: leave out --with-odometry.")
+
+
 class Mode(Enum):
     """What a command was told to do about the session that may run here."""
 
@@ -100,12 +125,15 @@ class Providers:
 
         return Link(options)
 
-    def stored(self, found: "Found", robot: RobotOptions) -> "StoredFrames":
+    def stored(
+        self, found: "Found", robot: RobotOptions, recording: RecordingOptions
+    ) -> "StoredFrames":
         """Open a recording or a robot description.
 
         Args:
             found: What it is.
             robot: Joint positions, and the description of a recorded robot.
+            recording: How a recording is read.
 
         Raises:
             InputError: If it cannot be read.
@@ -114,10 +142,11 @@ class Providers:
         if not found.kind.is_recording:
             from tftool.cli.described import read_at_rest
 
+            recording.refuse(f"'{found.name}' is a {found.kind.value}")
             return read_at_rest(found, robot)
         from tftool.cli.recorded import read_and_tell
 
-        return read_and_tell(found, robot)
+        return read_and_tell(found, robot, recording)
 
 
 @dataclass(frozen=True, slots=True)
@@ -136,6 +165,7 @@ class Connection:
         config: A zenoh configuration to take as it is.
         read_only: Whether to look only.
         robot: Joint positions, xacro arguments, a description for a recording.
+        recording: How a recording is read.
         providers: Where its clocks and links come from.
     """
 
@@ -148,6 +178,7 @@ class Connection:
     config: Path | None = None
     read_only: bool = False
     robot: RobotOptions = field(default_factory=RobotOptions)
+    recording: RecordingOptions = field(default_factory=RecordingOptions)
     providers: Providers = field(default_factory=Providers, compare=False, repr=False)
     _opened: "list[Link | StoredFrames]" = field(default_factory=list, compare=False, repr=False)
 
@@ -194,7 +225,7 @@ class Connection:
         Raises:
             InputError: If it cannot be read.
         """
-        stored = self.providers.stored(found, self.robot)
+        stored = self.providers.stored(found, self.robot, self.recording)
         self._opened.append(stored)
         return stored
 
@@ -216,6 +247,8 @@ class Connection:
                 "--read-only: what nodes here publish, broadcast and serve, no other process gets."
             )
 
+
+FLAGS = ("join", "host", "read_only", "with_odometry", "no_cache")
 
 SESSION_OPTIONS: dict[str, Any] = {
     "join": Annotated[
@@ -297,6 +330,29 @@ ROBOT_OPTIONS: dict[str, Any] = {
 }
 """What every command takes whose FROM may be a robot description."""
 
+RECORDING = "Recordings"
+"""Heading of the help under which their options are listed."""
+
+RECORDING_OPTIONS: dict[str, Any] = {
+    "with_odometry": Annotated[
+        bool,
+        typer.Option(
+            "--with-odometry",
+            rich_help_panel=RECORDING,
+            help="Take Odometry and PoseStamped for transforms, of frames that tf lacks.",
+        ),
+    ],
+    "no_cache": Annotated[
+        bool,
+        typer.Option(
+            "--no-cache",
+            rich_help_panel=RECORDING,
+            help="Read all of it anew, and keep no columns for the next question.",
+        ),
+    ],
+}
+"""What every command takes whose FROM may be a recording."""
+
 URDF_OPTION: dict[str, Any] = {
     "urdf": Annotated[
         Path | None,
@@ -313,23 +369,23 @@ URDF_OPTION: dict[str, Any] = {
 def with_connection(
     command: Callable[..., Any],
     providers: Providers | None = None,
-    robot_options: Mapping[str, Any] = MappingProxyType({}),
+    source_options: Mapping[str, Any] = MappingProxyType({}),
 ) -> Callable[..., Any]:
     """Give a command its connection, and its command line the options for that.
 
     Args:
         command: Takes a `Connection` first; then its own options.
         providers: Where clocks and links come from; the real ones when None.
-        robot_options: Which options about robot descriptions it takes.
+        source_options: Which options about robot descriptions and recordings it takes.
     """
-    added_options = {**robot_options, **SESSION_OPTIONS}
+    added_options = {**source_options, **SESSION_OPTIONS}
     signature = inspect.signature(command)
     _, *own = signature.parameters.values()
     added = [
         inspect.Parameter(
             name,
             inspect.Parameter.KEYWORD_ONLY,
-            default=False if name in ("join", "host", "read_only") else None,
+            default=False if name in FLAGS else None,
             annotation=annotation,
         )
         for name, annotation in added_options.items()
@@ -367,6 +423,8 @@ def _read(
     joint: list[str] | None = None,
     argument: list[str] | None = None,
     urdf: Path | None = None,
+    with_odometry: bool = False,
+    no_cache: bool = False,
 ) -> Connection:
     """Put the options together.
 
@@ -409,6 +467,7 @@ def _read(
             dict(_argument(word) for word in argument or ()),
             urdf,
         ),
+        RecordingOptions(no_cache, with_odometry),
         providers,
     )
 

@@ -51,7 +51,7 @@ def material_of(
     if found is not None and found.kind.is_recording:
         from tftool.cli import recorded
 
-        with recorded.read(found) as recording:
+        with recorded.read(found, options=connection.recording) as recording:
             return scope.material(recording)
     if scope.tf_topics or scope.begin is not None or scope.end is not None:
         raise UsageError("--tf-topic, --from and --to are for recordings.")

@@ -429,7 +429,7 @@ def open_session(
             )
         refuse_to_share(connection, word)
         return _recorded(connection, found, simulated=simulated)
-    _refuse_robot_options(connection, word)
+    _refuse_options_of_files(connection, word)
     link = None
     if simulated:
         refuse_to_share(connection, word)
@@ -520,7 +520,7 @@ def observe(
         buffer = stored.buffer if whole or not moment else _up_to(stored.buffer, moment)
         moving = stored.moving if isinstance(stored, RobotAtRest) else None
         return Observed(name, buffer, start, moment or stored.end, moment, moving)
-    _refuse_robot_options(connection, word)
+    _refuse_options_of_files(connection, word)
     if word is None and at is None:
         joined = join_session(connection, cache_time=cache_time)
         if joined is not None:
@@ -586,9 +586,10 @@ def _refuse_to_join(connection: Connection, word: str | None) -> None:
         raise UsageError(f"'{visible(word)}' is always hosted: leave out --join, or the name.")
 
 
-def _refuse_robot_options(connection: Connection, word: str | None) -> None:
+def _refuse_options_of_files(connection: Connection, word: str | None) -> None:
     what = "The session that runs" if word is None else f"'{visible(word)}'"
     connection.robot.refuse(f"{what} is no robot description and no recording")
+    connection.recording.refuse(f"{what} is no recording")
 
 
 def _checked(at: At, name: str, epoch: Stamp, duration: Duration | None) -> Stamp:

@@ -13,7 +13,7 @@ if TYPE_CHECKING:
 
     from rich.progress import Progress, TaskID
 
-    from tftool.cli.connection import RobotOptions
+    from tftool.cli.connection import RecordingOptions, RobotOptions
     from tftool.cli.hosting import StoredFrames
     from tftool.frames.sample import TransformStamped
     from tftool.sources.described import DescribedFrames
@@ -28,21 +28,35 @@ _REDRAWN = seconds(0.1)
 _MOST_NOTICES = 8
 
 
-def read(found: "Found", urdf: "RobotOptions | None" = None) -> "Recording":
+def read(
+    found: "Found",
+    urdf: "RobotOptions | None" = None,
+    options: "RecordingOptions | None" = None,
+) -> "Recording":
     """Open a recording and read its transforms.
 
     Args:
         found: The recording.
         urdf: The description of its robot, where one is given.
+        options: How it is read.
 
     Raises:
         InputError: If it cannot be read.
         UsageError: If it needs an extra that is not installed.
     """
+    from tftool.sources.cache import ColumnCache, default_folder
     from tftool.sources.recording import open_recording
 
+    with_odometry = options is not None and options.with_odometry
+    no_cache = options is not None and options.no_cache
     bar = Bar(f"Reading {visible(found.name)}")
-    recording = open_recording(found.name, progress=bar, robot=_robot(urdf))
+    recording = open_recording(
+        found.name,
+        progress=bar,
+        robot=_robot(urdf),
+        cache=None if no_cache else ColumnCache(default_folder()),
+        with_odometry=with_odometry,
+    )
     try:
         _ = recording.transforms
     except BaseException:
@@ -69,11 +83,14 @@ def _robot(options: "RobotOptions | None") -> "Robot | None":
     return robot
 
 
-def read_and_tell(found: "Found", options: "RobotOptions | None" = None) -> "Recording":
+def read_and_tell(
+    found: "Found", robot: "RobotOptions | None" = None, options: "RecordingOptions | None" = None
+) -> "Recording":
     """The same; what is damaged or odd, and what a description adds, is told on stderr."""
-    recording = read(found, options)
+    recording = read(found, robot, options)
     told = [
         *recording.damage,
+        *told_of_odometry(recording),
         *_told(recording.described),
         *(f"{text} ({count} times)." for text, count in recording.oddities.items()),
     ]
@@ -82,6 +99,21 @@ def read_and_tell(found: "Found", options: "RobotOptions | None" = None) -> "Rec
     if len(told) > _MOST_NOTICES:
         notice(f"... and {len(told) - _MOST_NOTICES} more: 'tftool info {visible(found.name)}'.")
     return recording
+
+
+def told_of_odometry(recording: "Recording") -> "Iterator[str]":
+    """What was taken for transforms, or could be, as sentences."""
+    from tftool.sources.odometry import implying
+
+    for topic in recording.odometry:
+        yield f"'{topic.name}' ({topic.type}, {topic.count} messages) is taken for transforms."
+    if not recording.edges:
+        found = [f"'{topic.name}' ({topic.type})" for topic in implying(recording.topics)]
+        if found:
+            yield (
+                "No transform was recorded; --with-odometry takes these messages for some: "
+                f"{', '.join(found[:5])}{' …' if len(found) > 5 else ''}."
+            )
 
 
 def _told(described: "DescribedFrames | None") -> "Iterator[str]":

@@ -17,6 +17,7 @@ from tftool.frames.sample import TransformStamped
 from tftool.frames.tree import stripped
 from tftool.geometry.rigid import Transform
 from tftool.interfaces.classes import Interfaces
+from tftool.sources.cache import ColumnCache, KeptColumns
 from tftool.sources.contract import (
     SIMULATED_BELOW,
     Edge,
@@ -41,6 +42,7 @@ from tftool.sources.described import (
 )
 from tftool.sources.find import find
 from tftool.sources.joint_states import RecordedJoints, joint_state_topics, read_joint_states
+from tftool.sources.odometry import implying, joined
 from tftool.sources.reading import Recorded
 from tftool.sources.robot import Robot
 from tftool.sources.rosbag2 import open_found
@@ -85,7 +87,12 @@ class Recording:
     """
 
     def __init__(
-        self, source: Source, progress: Progress | None = None, robot: Robot | None = None
+        self,
+        source: Source,
+        progress: Progress | None = None,
+        robot: Robot | None = None,
+        kept: KeptColumns | None = None,
+        with_odometry: bool = False,
     ) -> None:
         """Take a source.
 
@@ -93,8 +100,12 @@ class Recording:
             source: What is read from.
             progress: Is told how far reading has come.
             robot: What the recorded robot is, in place of a description in the recording.
+            kept: Where its columns are kept from one question to the next.
+            with_odometry: Whether odometry and poses count as transforms.
         """
         self.source = source
+        self._with_odometry = with_odometry
+        self._kept = kept
         self._robot = robot
         self._progress = progress
         self._oddities: Counter[str] = Counter()
@@ -146,7 +157,22 @@ class Recording:
     @cached_property
     def transforms(self) -> Transforms:
         """Every transform, in columns per edge."""
-        return self.source.transforms(progress=self._progress)
+        found = None if self._kept is None else self._kept.load()
+        if found is None:
+            found = self.source.transforms(progress=self._progress)
+            # What was damaged is read anew, and told again.
+            if self._kept is not None and not self.source.damage and not found.damage:
+                self._kept.store(found)
+        topics = self.odometry
+        if topics:
+            names = [topic.name for topic in topics]
+            found = joined(found, self.source.transforms(names, self._progress))
+        return found
+
+    @cached_property
+    def odometry(self) -> tuple[RecordedTopic, ...]:
+        """Topics that carry no transforms, and whose messages are taken for some as well."""
+        return implying(self.topics) if self._with_odometry else ()
 
     @property
     def edges(self) -> tuple[Edge, ...]:
@@ -415,6 +441,8 @@ def open_recording(
     *,
     progress: Progress | None = None,
     robot: Robot | None = None,
+    cache: ColumnCache | None = None,
+    with_odometry: bool = False,
 ) -> Recording:
     """Open an MCAP file, a rosbag2 recording, a ROS 1 bag, or a folder or glob of several.
 
@@ -426,6 +454,10 @@ def open_recording(
         progress: Is told how many bytes of how many are read, while they are.
         robot: What the recorded robot is, where the recording has no description of it, or
             another one; see `load_urdf`.
+        cache: Where the columns of large recordings are kept for the next time; nowhere if None.
+        with_odometry: Whether messages of type Odometry, PoseStamped and
+            PoseWithCovarianceStamped count as transforms, of frames that no transform was sent
+            of. A pose names no frame: its topic does.
 
     Raises:
         InputError: If nothing can be read.
@@ -433,6 +465,8 @@ def open_recording(
     """
     name = os.fspath(path)
     try:
-        return Recording(Recorded(name, open_found(find(name))), progress, robot)
+        found = find(name)
+        kept = None if cache is None else KeptColumns(cache, found)
+        return Recording(Recorded(name, open_found(found)), progress, robot, kept, with_odometry)
     except OSError as error:
         raise InputError(f"'{name}' cannot be read: {error.strerror or error}") from error

@@ -37,7 +37,8 @@ def info(
     tftool info robot.urdf
     """
     from tftool.cli.hosting import named
-    from tftool.cli.recorded import read
+    from tftool.cli.notices import notice
+    from tftool.cli.recorded import read, told_of_odometry
     from tftool.sources.find import Kind
     from tftool.views import info as view
     from tftool.views.escaping import visible
@@ -52,8 +53,10 @@ def info(
             f"'{word}' is a {found.kind.value} and no recording: 'tftool check {word}' plays it, "
             f"'tftool tree {word}' shows its frames."
         )
-    recording: Recording = read(found, connection.robot)
+    recording: Recording = read(found, connection.robot, connection.recording)
     with recording:
+        for sentence in told_of_odometry(recording):
+            notice(visible(sentence))
         if for_programs:
             sys.stdout.write(json.dumps(view.as_object(recording), indent=2) + "\n")
         else:

@@ -1,0 +1,271 @@
+"""Columns that were read once, kept in the user's cache folder for the next question.
+
+An entry is known by its recording's files: where they are, how long and how old they are, and
+what stands at both ends of each. What is not whole, and not what was written, is as if it were
+not there: it may be cut, be another program's, or be written by another process at the time.
+"""
+
+import contextlib
+import hashlib
+import json
+import os
+import sys
+import tempfile
+import zlib
+from collections.abc import Iterator
+from pathlib import Path
+from typing import Any, Final
+
+import numpy as np
+
+from tftool.sources.contract import Edge, Publisher, Transforms
+from tftool.sources.find import METADATA, Found
+
+FORMAT: Final = 1
+"""Is raised whenever the same recording would give other columns, or they lie otherwise."""
+
+WORTHWHILE: Final = 4 << 20
+"""Bytes of a recording from which its columns are kept; shorter ones are read as quickly."""
+
+MOST_BYTES: Final = 1 << 30
+"""Bytes of all that is kept: what was not used for longest goes first."""
+
+LARGEST: Final = MOST_BYTES // 2
+"""Bytes of what is kept of one recording."""
+
+_MAGIC: Final = b"tftool columns\n"
+_END: Final = 4096
+_SUFFIX: Final = ".columns"
+_MOST_HEAD: Final = 64 << 20
+
+
+def default_folder() -> Path:
+    """The folder for it: in `XDG_CACHE_HOME`, else where this system has such files."""
+    given = os.environ.get("XDG_CACHE_HOME", "")
+    if os.path.isabs(given):
+        return Path(given) / "tftool"
+    if sys.platform == "win32":
+        local = os.environ.get("LOCALAPPDATA")
+        return Path(local or Path.home() / "AppData" / "Local") / "tftool" / "Cache"
+    if sys.platform == "darwin":
+        return Path.home() / "Library" / "Caches" / "tftool"
+    return Path.home() / ".cache" / "tftool"
+
+
+def key_of(found: Found) -> str:
+    """What a recording's columns are kept under; "" where they are not worth it.
+
+    Raises:
+        OSError: If one of its files cannot be read.
+    """
+    told: list[tuple[object, ...]] = [(FORMAT, found.kind.value, sys.byteorder)]
+    total = 0
+    for path in _files(found):
+        with path.open("rb") as file:
+            status = os.fstat(file.fileno())
+            total += status.st_size
+            first = file.read(_END)
+            file.seek(max(0, status.st_size - _END))
+            last = file.read(_END)
+        where = os.fsencode(os.path.abspath(path)).hex()
+        told.append((where, status.st_size, status.st_mtime_ns, first.hex(), last.hex()))
+    if total < WORTHWHILE:
+        return ""
+    return hashlib.blake2b(json.dumps(told).encode(), digest_size=16).hexdigest()
+
+
+def _files(found: Found) -> Iterator[Path]:
+    for path in found.paths:
+        if path.is_dir():
+            yield from sorted(one for one in path.iterdir() if one.is_file())
+        else:
+            yield path
+            beside = path.with_name(path.name + "-wal")
+            if beside.is_file():
+                yield beside
+            metadata = path.parent / METADATA
+            if metadata.is_file():
+                yield metadata
+
+
+class ColumnCache:
+    """A folder of columns, shared by every process of the user."""
+
+    def __init__(self, folder: Path, *, most_bytes: int = MOST_BYTES) -> None:
+        """Use a folder, which is made when the first entry is.
+
+        Args:
+            folder: Where the entries are.
+            most_bytes: Bytes of all of them.
+        """
+        self.folder = folder
+        self._most_bytes = most_bytes
+
+    def load(self, key: str) -> Transforms | None:
+        """What is kept under a key; None where nothing is, or it is not as it was written."""
+        if not key:
+            return None
+        path = self.folder / f"{key}{_SUFFIX}"
+        try:
+            with path.open("rb") as file:
+                size = os.fstat(file.fileno()).st_size
+                if size > LARGEST:
+                    return None
+                data = bytearray(size)
+                if file.readinto(data) != size:
+                    return None
+            found = _unpacked(data, key)
+            # By this the oldest is told.
+            os.utime(path)
+        except (OSError, ValueError, KeyError, TypeError, AttributeError, RecursionError):
+            return None
+        return found
+
+    def store(self, key: str, transforms: Transforms) -> bool:
+        """Keep columns under a key; whether that was possible.
+
+        A full disk, or a folder that may not be written to, is no failure of the question.
+        """
+        if not key or len(transforms) * 68 > min(LARGEST, self._most_bytes):
+            return False
+        try:
+            self.folder.mkdir(parents=True, exist_ok=True, mode=0o700)
+            number, name = tempfile.mkstemp(dir=self.folder, suffix=".part")
+            try:
+                with os.fdopen(number, "wb") as file:
+                    for part in _packed(transforms, key):
+                        file.write(part)
+                os.replace(name, self.folder / f"{key}{_SUFFIX}")
+            except BaseException:
+                with contextlib.suppress(OSError):
+                    os.unlink(name)
+                raise
+            self._prune()
+        except OSError:
+            return False
+        return True
+
+    def _prune(self) -> None:
+        """Remove what was not used for longest, and what others left half written."""
+        entries = []
+        newest = 0.0
+        for path in self.folder.iterdir():
+            if path.suffix in (_SUFFIX, ".part"):
+                with contextlib.suppress(OSError):
+                    status = path.stat()
+                    entries.append((status.st_mtime, status.st_size, path))
+                    newest = max(newest, status.st_mtime)
+        total = sum(size for _, size, _ in entries)
+        for used, size, path in sorted(entries):
+            is_left = path.suffix == ".part" and newest - used > 3600
+            if not is_left and (total <= self._most_bytes or path.suffix == ".part"):
+                continue
+            # Another process may have been quicker, or hold it open.
+            with contextlib.suppress(OSError):
+                path.unlink()
+                total -= size
+
+
+def _packed(transforms: Transforms, key: str) -> Iterator[bytes | memoryview]:
+    """The bytes of an entry: a head in JSON, and each column behind it."""
+    columns: list[np.ndarray[Any, Any]] = [transforms.log_times, transforms.senders]
+    for edge in transforms.edges:
+        columns += [edge.records, edge.messages]
+    parts = [np.ascontiguousarray(one).data.cast("B") for one in columns]
+    check = 0
+    for part in parts:
+        check = zlib.crc32(part, check)
+    head = json.dumps(
+        {
+            "key": key,
+            "messages": len(transforms.log_times),
+            "edges": [
+                (edge.parent, edge.child, edge.static, edge.slashed, len(edge))
+                for edge in transforms.edges
+            ],
+            "publishers": [
+                (one.topic, one.node, one.durability, one.reliability, one.offers)
+                for one in transforms.publishers
+            ],
+            "damage": transforms.damage,
+            "check": check,
+        }
+    ).encode()
+    head += b" " * (-(len(_MAGIC) + 12 + len(head)) % 8)
+    yield _MAGIC
+    yield len(head).to_bytes(8, "little")
+    yield zlib.crc32(head).to_bytes(4, "little")
+    yield head
+    for part in parts:
+        yield part
+        yield bytes(-len(part) % 8)
+
+
+def _unpacked(data: bytearray, key: str) -> Transforms:
+    """The columns of an entry.
+
+    Raises:
+        ValueError: If they are not what was written.
+    """
+    start = len(_MAGIC) + 12
+    length = int.from_bytes(data[len(_MAGIC) : start - 4], "little")
+    if not data.startswith(_MAGIC) or not 0 < length <= min(_MOST_HEAD, len(data) - start):
+        raise ValueError("no columns")
+    raw = bytes(data[start : start + length])
+    if zlib.crc32(raw) != int.from_bytes(data[start - 4 : start], "little"):
+        raise ValueError("the head is damaged")
+    head = json.loads(raw)
+    if head["key"] != key:
+        raise ValueError("of another recording")
+    place, check = start + length, 0
+
+    def column(count: int, kind: str) -> np.ndarray[Any, Any]:
+        nonlocal place, check
+        size = count * np.dtype(kind).itemsize
+        if not 0 <= size <= len(data) - place:
+            raise ValueError("cut")
+        check = zlib.crc32(memoryview(data)[place : place + size], check)
+        found = np.frombuffer(data, dtype=kind, count=count, offset=place)
+        place += size + -size % 8
+        return found
+
+    messages = int(head["messages"])
+    log_times, senders = column(messages, "<i8"), column(messages, "<i4")
+    edges = []
+    for parent, child, static, slashed, count in head["edges"]:
+        records = column(count * 8, "<i8").reshape(count, 8)
+        edges.append(Edge(parent, child, static, slashed, records, column(count, "<i4")))
+    if check != head["check"] or place != len(data):
+        raise ValueError("damaged")
+    publishers = tuple(Publisher(*one) for one in head["publishers"])
+    return Transforms(tuple(edges), log_times, senders, publishers, tuple(head["damage"]))
+
+
+class KeptColumns:
+    """The place of one recording's columns in a cache."""
+
+    def __init__(self, cache: ColumnCache, found: Found) -> None:
+        """Note what the recording's files are now.
+
+        Args:
+            cache: Where they are kept.
+            found: The recording.
+        """
+        self._cache = cache
+        self._found = found
+        self._key = self._key_now()
+
+    def load(self) -> Transforms | None:
+        """The columns, if they are kept."""
+        return self._cache.load(self._key)
+
+    def store(self, transforms: Transforms) -> None:
+        """Keep them, unless the files have changed since."""
+        if self._key and self._key_now() == self._key:
+            self._cache.store(self._key, transforms)
+
+    def _key_now(self) -> str:
+        try:
+            return key_of(self._found)
+        except OSError:
+            return ""
