@@ -86,6 +86,50 @@ def test_what_a_killed_process_left_is_swept(home):
             assert [each.name for each in second.folder.iterdir()] == ["lock"]
 
 
+def pipe(path):
+    os.mkfifo(path)
+
+
+def endless(path):
+    path.symlink_to("/dev/zero")
+
+
+def bytes_that_are_no_text(path):
+    path.write_bytes(b"\xff\xfe\x80")
+
+
+def digits_of_another_script(path):
+    path.write_text("\N{ARABIC-INDIC DIGIT THREE}", encoding="utf-8")
+
+
+ODD_FILES = [pipe, endless, bytes_that_are_no_text, digits_of_another_script, os.mkdir]
+
+
+@unix_only
+@pytest.mark.parametrize("put", ODD_FILES)
+def test_a_port_file_that_is_none_holds_up_and_breaks_nothing(home, put):
+    with Rendezvous(0, home / "run") as first:
+        first.settle()
+        put(first.folder / "99-odd.port")
+
+        assert not has_members(0, home / "run")
+        with Rendezvous(0, home / "run") as second:
+            assert second.others == {}
+
+
+@unix_only
+@pytest.mark.parametrize("put", ODD_FILES)
+def test_a_password_file_that_is_none_is_refused_with_its_folder(home, monkeypatch, put):
+    monkeypatch.setattr(rendezvous, "HAS_UNIX_SOCKETS", False)
+    folder_ = home / "run" / "0"
+    folder_.mkdir(mode=0o700, parents=True)
+    (home / "run").chmod(0o700)
+    put(folder_ / "members")
+
+    with pytest.raises(LinkError, match="no session can meet in .*run/0"):
+        Rendezvous(0, home / "run").enter()
+
+
 @unix_only
 def test_who_leaves_takes_its_files_along(home):
     with Rendezvous(0, home / "run") as member, listening(path_of(member.endpoint)):

@@ -41,6 +41,7 @@ _LONGEST_SOCKET_PATH = 100  # 107 on Linux, 103 on macOS
 _LOCK_TRIES = 300
 _LOCK_PAUSE = 0.01
 _PROBE_TIMEOUT = 0.2
+_LONGEST_TEXT = 256
 
 
 def folder(environment: Mapping[str, str] = os.environ) -> Path:
@@ -227,8 +228,9 @@ def _holds_sockets(folder: Path) -> bool:
 def _password_in(folder: Path) -> str:
     """The password of a folder's members, made by the first of them (under the lock)."""
     file = folder / PASSWORDS
-    with contextlib.suppress(FileNotFoundError):
-        return file.read_text().strip().partition(":")[2]
+    known = _text_of(file).partition(":")[2]
+    if known:
+        return known
     password = secrets.token_hex(32)
     with open(os.open(file, os.O_WRONLY | os.O_CREAT | os.O_EXCL, 0o600), "w") as fresh:
         fresh.write(f"{USER}:{password}\n")
@@ -256,11 +258,19 @@ def _pid_of(path: Path) -> int:
 
 
 def _port_in(path: Path) -> int:
-    try:
-        text = path.read_text()[:8]
-    except OSError:
-        return 0
+    text = _text_of(path)
     return int(text) if text.isascii() and text.isdigit() and 0 < int(text) < 65536 else 0
+
+
+def _text_of(path: Path) -> str:
+    """What a small file holds; "" of what is no plain file, a pipe say, which would hold us up."""
+    flags = os.O_RDONLY | getattr(os, "O_NONBLOCK", 0) | getattr(os, "O_NOFOLLOW", 0)
+    try:
+        with open(os.open(path, flags), "rb") as file:
+            plain = stat.S_ISREG(os.fstat(file.fileno()).st_mode)
+            return file.read(_LONGEST_TEXT).decode("ascii", "replace").strip() if plain else ""
+    except OSError:
+        return ""
 
 
 def _sweep(*paths: Path) -> None:
