@@ -190,11 +190,41 @@ def test_negative_stamps_are_moments_like_others(buffer):
     assert buffer.lookup_transform("world", "turtle1").stamp == seconds(-1)
 
 
-@pytest.mark.parametrize("frame", [None, 7, b"world"])
-def test_a_name_that_is_no_string_is_a_mistake_of_the_program(buffer, frame):
+QUESTIONS = {
+    "lookup_transform": lambda buffer, name: buffer.lookup_transform("world", name),
+    "of itself": lambda buffer, name: buffer.lookup_transform(name, "world"),
+    "full": lambda buffer, name: buffer.lookup_transform_full("world", 0, "turtle1", 0, name),
+    "batch": lambda buffer, name: buffer.lookup_transforms("world", name, [seconds(1)]),
+    "can_transform": lambda buffer, name: buffer.can_transform("world", name),
+    "common time": lambda buffer, name: buffer.get_latest_common_time("world", name),
+    "parent": lambda buffer, name: buffer.parent(name),
+    "frame_exists": lambda buffer, name: buffer.frame_exists(name),
+}
+
+
+@pytest.mark.parametrize("question", QUESTIONS)
+@pytest.mark.parametrize("frame", [None, 7, b"world", [], {}])
+def test_a_name_that_is_no_string_is_a_mistake_of_the_program(buffer, question, frame):
     put(buffer, 1)
-    with pytest.raises(TypeError, match="a frame's name is a string"):
-        buffer.lookup_transform("world", frame)
+    with pytest.raises(TypeError, match="a frame's name is a string|str object expected"):
+        QUESTIONS[question](buffer, frame)
+
+
+@pytest.mark.parametrize("stamp", ["1", 1.5, None])
+def test_a_stamp_that_is_no_whole_number_is_refused_of_a_parent_as_of_a_lookup(buffer, stamp):
+    put(buffer, 1)
+    with pytest.raises(TypeError, match="stamps are whole nanoseconds|int object expected"):
+        buffer.parent("turtle1", stamp)
+    with pytest.raises(TypeError, match="stamps are whole nanoseconds|int object expected"):
+        buffer.lookup_transform("world", "turtle1", stamp)
+
+
+@pytest.mark.parametrize("place", [0, 1])
+def test_a_whole_number_beyond_all_floats_is_no_coordinate(place):
+    parts = [[0, 0, 0], [0, 0, 0, 1]]
+    parts[place][0] = 10**5000
+    with pytest.raises(ValueError, match="too large"):
+        Transform(*parts)
 
 
 def test_a_strangers_hundred_thousand_names_are_bounded(said):

@@ -332,6 +332,10 @@ class Buffer:
             path = self._solver.paths[target_frame][source_frame]
         except KeyError:
             pass
+        except TypeError:
+            # A name that cannot be looked for: the batch says the same.
+            tree.require_text(target_frame, source_frame)
+            raise
         else:
             moment = time or path.latest()
             pose = path.solve(moment)
@@ -355,6 +359,7 @@ class Buffer:
         Raises:
             TransformException: As `lookup_transform`; frames are always checked, even equal ones.
         """
+        tree.require_text(target_frame, source_frame, fixed_frame)
         paths = self._solver.paths
         if not (
             # Whose names were found good before.
@@ -447,6 +452,7 @@ class Buffer:
         Raises:
             TransformException: If a name is unknown or invalid, or nothing joins the two.
         """
+        tree.require_text(target_frame, source_frame)
         path = self._solver.paths.get(target_frame, _NO_PATHS).get(source_frame)
         if path is not None:
             return path.latest()
@@ -525,7 +531,11 @@ class Buffer:
         """Whether `lookup_transform` would answer; it never raises for a name or a time."""
         if time.__class__ is not int:
             time = whole(time)
-        path = self._solver.paths.get(target_frame, _NO_PATHS).get(source_frame)
+        try:
+            path = self._solver.paths.get(target_frame, _NO_PATHS).get(source_frame)
+        except TypeError:
+            tree.require_text(target_frame, source_frame)
+            raise
         if path is not None and path.covers(time or path.latest()):
             return True
         return self._solver.why_not(target_frame, source_frame, time) is None
@@ -644,10 +654,17 @@ class Buffer:
 
     def frame_exists(self, frame: str) -> bool:
         """Whether a name ever came up; tf2's own NO_PARENT always did."""
+        tree.require_text(frame)
         return frame in self._tree.numbers or frame == tree.NO_PARENT_NAME
 
     def parent(self, frame: str, time: Stamp = 0) -> str | None:
-        """What a frame hung from at a moment; None for a root, and where there is no data."""
+        """What a frame hung from at a moment; None for a root, and where there is no data.
+
+        Raises:
+            TypeError: If the moment is no whole number of nanoseconds, or the name no text.
+        """
+        time = whole(time)
+        tree.require_text(frame)
         number = self._tree.numbers.get(frame)
         if number is None:
             return None

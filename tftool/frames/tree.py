@@ -38,7 +38,7 @@ def stripped(name: str) -> str:
     Raises:
         TypeError: If it is not a string.
     """
-    _require_text(name)
+    require_text(name)
     return name[1:] if name.startswith("/") else name
 
 
@@ -48,7 +48,7 @@ def fault(name: str) -> str:
     Raises:
         TypeError: If it is not a string.
     """
-    _require_text(name)
+    require_text(name)
     if not name:
         return EMPTY
     if name.startswith("/"):
@@ -56,9 +56,15 @@ def fault(name: str) -> str:
     return ""
 
 
-def _require_text(name: object) -> None:
-    if not isinstance(name, str):
-        raise TypeError(f"a frame's name is a string, not {name!r}")
+def require_text(*names: object) -> None:
+    """See that names of frames are texts.
+
+    Raises:
+        TypeError: If one is not a string.
+    """
+    for name in names:
+        if not isinstance(name, str):
+            raise TypeError(f"a frame's name is a string, not {name!r}")
 
 
 class Frame:

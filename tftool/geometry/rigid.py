@@ -167,6 +167,9 @@ class Transform(_Parts):
 def _floats(numbers: Iterable[float], count: int, what: str) -> tuple[float, ...]:
     try:
         floats = tuple(float(number) for number in numbers)
+    except OverflowError as error:
+        # A whole number may have any size, and a text of it thousands of digits.
+        raise ValueError(f"a {what} is {count} numbers, and one is too large to be one") from error
     except (TypeError, ValueError) as error:
         raise ValueError(f"a {what} is {count} numbers, not {numbers!r}") from error
     if len(floats) != count:
