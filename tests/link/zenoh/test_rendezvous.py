@@ -126,7 +126,7 @@ def test_a_password_file_that_is_none_is_refused_with_its_folder(home, monkeypat
     (home / "run").chmod(0o700)
     put(folder_ / "members")
 
-    with pytest.raises(LinkError, match="no session can meet in .*run/0"):
+    with pytest.raises(LinkError, match=r"no session can meet in .*run/0"):
         Rendezvous(0, home / "run").enter()
 
 
