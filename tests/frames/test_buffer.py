@@ -227,6 +227,31 @@ def test_a_whole_number_beyond_all_floats_is_no_coordinate(place):
         Transform(*parts)
 
 
+@pytest.mark.parametrize(("parent", "child"), [("world", "é" * 2049), ("x" * 4097, "turtle1")])
+def test_a_name_of_more_bytes_than_the_limit_is_refused_and_its_sender_told(
+    buffer, said, parent, child
+):
+    put(buffer, 1)
+
+    assert not put(buffer, 2, parent=parent, child=child)
+    assert not put(buffer, 2, parent=parent, child=child, static=True)
+
+    assert buffer.frames() == ["turtle1", "world"]
+    (level, told), again = said
+    assert level == "ERROR"
+    assert again == (level, told)
+    assert "TF_LONG_NAME" in told
+    assert 'from authority "test"' in told
+    assert "a name may have 4096" in told
+    assert len(told) < 300
+
+
+def test_a_name_as_long_as_the_limit_is_taken_and_the_limit_can_be_chosen():
+    assert put(Buffer(), 1, child="é" * 2048)
+    assert put(Buffer(max_name=10**6), 1, child="x" * 10**6)
+    assert not put(Buffer(max_name=3, log=lambda level, text: None), 1, child="four")
+
+
 def test_a_strangers_hundred_thousand_names_are_bounded(said):
     buffer = Buffer(log=lambda level, text: said.append(text))
     accepted = sum(put(buffer, 1, child=f"stranger{n}") for n in range(100_000))

@@ -222,6 +222,18 @@ def test_names_beyond_the_limit_are_refused_together():
     assert len(lines) == 1
 
 
+def test_a_name_that_is_too_long_is_refused_once_for_all_its_samples():
+    lines = []
+    buffer = Buffer(log=lambda level, text: lines.append(text), max_name=6)
+
+    report = buffer.set_transforms("world", "turtle1", *line(50), "me")
+
+    assert report.reasons["TF_LONG_NAME"].tolist() == list(range(50))
+    assert len(lines) == 1
+    assert 'from authority "me"' in lines[0]
+    assert buffer.frames() == []
+
+
 def test_no_samples_change_nothing():
     buffer = Buffer()
 

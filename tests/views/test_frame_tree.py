@@ -207,3 +207,13 @@ def test_yaml_has_tf2s_facts_and_gives_every_name_back(name):
 
 def test_yaml_of_nothing_is_an_empty_mapping():
     assert yaml.safe_load(frame_tree.as_yaml(snapshot(root("world")))) == {}
+
+
+def test_one_long_name_does_not_fill_up_the_lines_of_the_others():
+    frames = (root("world"), *(moving(f"frame{n}", "world") for n in range(50)))
+    long = moving("x" * 4096, "world", authority="y" * 4096)
+
+    drawn = frame_tree.render(Snapshot(NOW, 0, (*frames, long))).plain
+
+    assert "x" * 4096 in drawn
+    assert all(len(line) < 300 for line in drawn.splitlines() if "frame" in line)

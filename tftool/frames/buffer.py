@@ -32,6 +32,9 @@ NO_LIMIT: Final[Duration] = 2**63 - 1
 MAX_FRAMES = 16_384
 """How many names a buffer takes unless `max_frames` says otherwise."""
 
+MAX_NAME = 4_096
+"""How many bytes a name may have, in UTF-8, unless `max_name` says otherwise; tf2 has no limit."""
+
 Listener: TypeAlias = Callable[[TransformStamped, bool, str], object]
 """Is called with each accepted sample, whether it is static, and its authority."""
 
@@ -66,6 +69,7 @@ class Buffer:
         *,
         log: refusals.Log | None = None,
         max_frames: int = MAX_FRAMES,
+        max_name: int = MAX_NAME,
         report: Report | None = None,
     ) -> None:
         """Make an empty buffer.
@@ -76,6 +80,7 @@ class Buffer:
             log: Is called when a sample is refused: level ("WARN", "ERROR") and sentence.
                 Without one, Python's own `logging` is.
             max_frames: How many names it takes, as names come from outside.
+            max_name: How many bytes a name may have, likewise.
             report: Takes what a listener or the callback of a request raises, and the name of
                 its owner; without one, that is an error in the log.
 
@@ -88,10 +93,11 @@ class Buffer:
             raise ValueError(f"cache_time must not be negative, but is {cache_time} ns")
         self.cache_time = cache_time
         self.max_frames = max_frames
+        self.max_name = max_name
         self._log = log or refusals.log_to_logging
         if 0 < cache_time < _LIKELY_SECONDS:
             self._log("WARN", refusals.short_cache(cache_time))
-        self._tree = FrameTree(cache_time)
+        self._tree = FrameTree(cache_time, max_name)
         self._moving = self._tree.moving
         self._solver = Solver(self._tree, cache_time)
         self._requests = Requests(self._solver.examine)
@@ -159,6 +165,8 @@ class Buffer:
         rotation = quaternions.canonical(quaternions.unit(pose.rotation))
         errors = refusals.objections(child, parent, stamp, pose.translation, rotation, authority)
         trees = self._tree
+        if too_long := refusals.long_name(child, parent, authority, trees.max_name):
+            errors = [too_long]
         if not errors and not trees.has_room(child, parent, self.max_frames):
             errors = [refusals.too_many_frames(child, authority, len(trees.frames))]
         if errors:

@@ -1,6 +1,7 @@
 """What the buffer says when it refuses, in tf2's words."""
 
 from collections.abc import Callable, Collection, Iterable
+from typing import Final
 
 from tftool.errors import (
     BackwardExtrapolationException,
@@ -16,6 +17,9 @@ from tftool.stamps import Duration, Stamp, display
 
 # Stamps are kept in 64 bits.
 _LONGEST = 2**63
+
+# How much of a name that is too long is told.
+_NAME_SHOWN: Final = 32
 
 
 def unknown(
@@ -230,6 +234,22 @@ def too_many_frames(child: str, authority: str, limit: int) -> str:
         f'"{authority}" because the buffer holds {limit} frame names, as many as it takes; '
         "Buffer(max_frames=…) raises that"
     )
+
+
+def long_name(child: str, parent: str, authority: str, limit: int) -> str:
+    """Which of the two names is longer than the buffer takes, in a sentence; empty if neither is."""
+    for name, field in ((child, "child_frame_id"), (parent, "frame_id")):
+        # In UTF-8 no character takes more than four bytes: a short name is not written out.
+        if 4 * len(name) <= limit:
+            continue
+        size = len(name.encode("utf-8", "surrogatepass"))
+        if size > limit:
+            return (
+                f'TF_LONG_NAME: Ignoring transform from authority "{authority}" because its '
+                f'{field} "{name[:_NAME_SHOWN]}…" has {size} bytes, and a name may have {limit}; '
+                "Buffer(max_name=…) raises that"
+            )
+    return ""
 
 
 def short_cache(cache_time: Duration) -> str:

@@ -146,12 +146,22 @@ class FrameTree:
         numbers: Each frame's place in that order.
         moving: By name, each frame whose link moves, and that link, for their next samples.
         authorities: Every name that a sample was sent under, in the order of their numbers.
+        max_name: How many bytes a name may have.
     """
 
-    __slots__ = ("_authority_numbers", "_limit", "authorities", "frames", "moving", "numbers")
+    __slots__ = (
+        "_authority_numbers",
+        "_limit",
+        "authorities",
+        "frames",
+        "max_name",
+        "moving",
+        "numbers",
+    )
 
-    def __init__(self, limit: Duration) -> None:
+    def __init__(self, limit: Duration, max_name: int) -> None:
         self._limit = limit
+        self.max_name = max_name
         self.frames: list[Frame] = []
         self.numbers: dict[str, int] = {}
         self.moving: dict[str, tuple[Frame, History]] = {}

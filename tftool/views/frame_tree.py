@@ -25,6 +25,10 @@ ROBOT_HEADINGS = ("", "link", "joint")
 HEADINGS = ("", "link", "broadcaster", "rate", "buffer length", "oldest", "newest", "age")
 
 
+WIDEST = 80
+"""Columns that the cells of others are filled up to; one that is longer sticks out of its line."""
+
+
 @dataclass(frozen=True, slots=True)
 class _Guides:
     """The four pieces a tree is drawn with."""
@@ -189,7 +193,7 @@ def _table(branches: list[_Branch], headings: tuple[str, ...]) -> list[Text]:
     if any(branch.facts for branch in branches):
         rows.insert(0, headings)
     widths = [
-        max(cell_len(row[column]) for row in rows if column < len(row))
+        min(WIDEST, max(cell_len(row[column]) for row in rows if column < len(row)))
         for column in range(max(map(len, rows)))
     ]
     styles = ["dim"] * (len(rows) - len(branches)) + [_style(branch.info) for branch in branches]

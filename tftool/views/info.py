@@ -173,9 +173,12 @@ def _forest(forest: Sequence[TreeFacts]) -> str:
     return f"{total} in {len(forest)} {kind}, {', '.join(words)}{more}"
 
 
+_WIDEST = 80
+
+
 def table(heads: tuple[str, ...], rows: list[tuple[str, ...]]) -> list[str]:
-    """Lines of columns, as wide as what is in them; the last one is not padded."""
-    widths = [max(map(len, column)) for column in zip(heads, *rows, strict=True)]
+    """Lines of columns, as wide as what is in them within reason; the last one is not padded."""
+    widths = [min(_WIDEST, max(map(len, column))) for column in zip(heads, *rows, strict=True)]
     return [
         "  "
         + "  ".join(cell.ljust(width) for cell, width in zip(row, widths, strict=True)).rstrip()

@@ -134,6 +134,11 @@ def insert(
     parent, child, authority = stripped(link[0]), stripped(link[1]), link[2]
     rows = CheckedRows(stamps, translations, rotations, (child, parent, authority))
     accepted, reasons = rows.validated.copy(), dict(rows.reasons)
+    long = refusals.long_name(child, parent, authority, tree.max_name)
+    if long:
+        reasons = {"TF_LONG_NAME": np.ones(len(accepted), dtype=np.bool_)}
+        accepted[:] = False
+        log("ERROR", long)
     if accepted.any() and not tree.has_room(child, parent, max_frames):
         full = refusals.too_many_frames(child, authority, len(tree.frames))
         reasons["TF_TOO_MANY_FRAMES"] = accepted.copy()
@@ -153,7 +158,7 @@ def insert(
             accepted &= ~late
         if not old.all():
             frame.note(parent, authority, origin)
-    refused = np.flatnonzero(~accepted).tolist()
+    refused = [] if long else np.flatnonzero(~accepted).tolist()
     if "TF_TOO_MANY_FRAMES" in reasons:
         refused = np.flatnonzero(~rows.validated).tolist()
     for row in refused[:MOST_LINES]:
@@ -185,6 +190,8 @@ def adopt(
     parent, child, authority = stripped(link[0]), stripped(link[1]), link[2]
     objections = refusals.objections(child, parent, 0, (0.0, 0.0, 0.0), (0.0, 0.0, 0.0, 1.0), "")
     there = tree.numbers.get(child)
+    if refusals.long_name(child, parent, link[2], tree.max_name):
+        return False
     if objections or not len(records) or not tree.has_room(child, parent, max_frames):
         return False
     if there is not None and tree.frames[there].link is not None:
