@@ -222,6 +222,17 @@ def test_names_beyond_the_limit_are_refused_together():
     assert len(lines) == 1
 
 
+def test_a_half_turn_of_the_other_sign_is_no_record_to_keep_as_it_is():
+    columns, borrowed = Buffer(), Buffer()
+    rows = [(seconds(1), Transform((0.0, 0.0, 0.0), (0.0, 0.0, -1.0, 0.0)))]
+
+    together(columns, "world", "turtle1", rows)
+    borrowed.set_records("world", "turtle1", records_of(rows), "me")
+
+    found = [one.lookup_transform("world", "turtle1").transform for one in (columns, borrowed)]
+    assert found[0].rotation == found[1].rotation == (0.0, 0.0, 1.0, 0.0)
+
+
 def test_a_name_that_is_too_long_is_refused_once_for_all_its_samples():
     lines = []
     buffer = Buffer(log=lambda level, text: lines.append(text), max_name=6)

@@ -238,7 +238,8 @@ def _is_canonical(turns: Floats) -> bool:
     square = np.einsum("ij,ij->i", turns, turns)
     if square.min() <= SHORTEST or square.max() >= LONGEST:
         return False
-    return bool(turns[:, 3].min() > 0.5 or (batch.canonical(turns)[:, 3] == turns[:, 3]).all())
+    # All four: of a half turn's w, zero, the other sign is no other number.
+    return bool(turns[:, 3].min() > 0.5 or (batch.canonical(turns) == turns).all())
 
 
 def merge(history: History, origin: int, stamps: Stamps, samples: Floats) -> Flags:
