@@ -235,6 +235,46 @@ def test_a_signal_ends_it_quietly_with_130(number):
     assert "Traceback" not in err
 
 
+def test_a_signal_that_comes_when_only_the_interpreter_has_to_end_changes_nothing():
+    code = (
+        "import os, signal, sys\n"
+        "from tftool.cli.app import main\n"
+        "sys.argv = ['tftool', '--version']\n"
+        "class Late:\n"
+        "    def __del__(self, kill=os.kill, pid=os.getpid(), number=signal.SIGINT):\n"
+        "        kill(pid, number)\n"
+        "main()\n"
+        "sys.late = Late()\n"
+        "sys.exit(130)\n"
+    )
+    done = subprocess.run(
+        [sys.executable, "-c", code], cwd=ROOT, capture_output=True, text=True, timeout=60
+    )
+
+    assert (done.returncode, done.stderr) == (130, "")
+
+
+@pytest.mark.skipif(sys.platform == "win32", reason="needs a limit of file descriptors")
+def test_too_few_file_descriptors_are_one_line():
+    import resource
+
+    def limit():
+        resource.setrlimit(resource.RLIMIT_NOFILE, (16, 16))
+
+    done = subprocess.run(
+        [sys.executable, "-m", "tftool", "view"],
+        cwd=ROOT,
+        capture_output=True,
+        text=True,
+        timeout=60,
+        preexec_fn=limit,
+    )
+
+    assert done.returncode == 3
+    assert len(done.stderr.splitlines()) == 1
+    assert "ulimit -n" in done.stderr
+
+
 def test_a_reader_that_goes_away_ends_it_quietly():
     with start("static", "--once", "--frame-id", "A", "--child-frame-id", "B") as process:
         process.stdout.close()

@@ -206,16 +206,16 @@ QUESTIONS = {
 @pytest.mark.parametrize("frame", [None, 7, b"world", [], {}])
 def test_a_name_that_is_no_string_is_a_mistake_of_the_program(buffer, question, frame):
     put(buffer, 1)
-    with pytest.raises(TypeError, match="a frame's name is a string|str object expected"):
+    with pytest.raises(TypeError, match=r"a frame's name is a string|str object expected"):
         QUESTIONS[question](buffer, frame)
 
 
 @pytest.mark.parametrize("stamp", ["1", 1.5, None])
 def test_a_stamp_that_is_no_whole_number_is_refused_of_a_parent_as_of_a_lookup(buffer, stamp):
     put(buffer, 1)
-    with pytest.raises(TypeError, match="stamps are whole nanoseconds|int object expected"):
+    with pytest.raises(TypeError, match=r"stamps are whole nanoseconds|int object expected"):
         buffer.parent("turtle1", stamp)
-    with pytest.raises(TypeError, match="stamps are whole nanoseconds|int object expected"):
+    with pytest.raises(TypeError, match=r"stamps are whole nanoseconds|int object expected"):
         buffer.lookup_transform("world", "turtle1", stamp)
 
 
@@ -500,7 +500,7 @@ def test_a_thousand_links_are_a_chain_and_one_more_is_a_loop(buffer):
 @pytest.mark.parametrize("name", [None, 5, b"world"])
 def test_a_name_that_is_no_string_is_refused_by_name(buffer, name):
     for parent, child in ((name, "turtle1"), ("world", name)):
-        with pytest.raises(TypeError, match="a frame's name is a string, not"):
+        with pytest.raises(TypeError, match=r"a frame's name is a string, not"):
             buffer.set_transform(TransformStamped(1, parent, child, Transform()), "test")
 
     assert buffer.frames() == []

@@ -1,5 +1,6 @@
 """The `tftool` command: one Typer app, and the one place where errors become exit statuses."""
 
+import errno
 import gc
 import os
 import sys
@@ -210,6 +211,7 @@ def main(argv: "Sequence[str] | None" = None, providers: "Providers | None" = No
             _leave_on_signals()
             argv = sys.argv[1:]
         _prepare_output()
+        _require_descriptors()
         status = _run(list(argv), providers)
         sys.stdout.flush()
     except KeyboardInterrupt as interrupt:
@@ -246,6 +248,34 @@ def _prepare_output() -> None:
             stream.reconfigure(errors="backslashreplace")
 
 
+DESCRIPTORS = 32
+"""Files and sockets that a command may come to need at once."""
+
+
+def _require_descriptors() -> None:
+    """See that enough files and sockets can be opened; libraries panic where one cannot.
+
+    Raises:
+        OSError: If not; it says what to do.
+    """
+    probes: list[int] = []
+    try:
+        while len(probes) < DESCRIPTORS:
+            probes.append(os.dup(2))
+    except OSError as error:
+        if error.errno == errno.EBADF:  # no stderr, so nothing to try it with
+            return
+        raise OSError(
+            error.errno,
+            f"tftool needs {DESCRIPTORS} files and sockets, and may open only {len(probes)} more; "
+            "ulimit -n 256 raises that",
+            "too few file descriptors",
+        ) from None
+    finally:
+        for probe in probes:
+            os.close(probe)
+
+
 def _forget_output() -> None:
     """Let what is still buffered for stdout go nowhere."""
     from contextlib import suppress
@@ -261,8 +291,16 @@ def _leave_on_signals() -> None:
     import may be swallowed there, or shown as a traceback. A loop brings its own
     handlers (`runtime.clock.run`), and gives these back. On Windows it has none, and
     Python's own do.
+
+    Once nothing is left but the interpreter's own end, signals are ignored: it takes
+    Python's handlers away first, and a second Ctrl-C would change a status that is known.
     """
+    import atexit
     import signal
+
+    def ignore() -> None:
+        for number in (signal.SIGINT, signal.SIGTERM):
+            signal.signal(number, signal.SIG_IGN)
 
     def leave(_number: int, _frame: "FrameType | None") -> None:
         os._exit(ExitStatus.INTERRUPTED)
@@ -270,6 +308,8 @@ def _leave_on_signals() -> None:
     if sys.platform != "win32":
         for number in (signal.SIGINT, signal.SIGTERM):
             signal.signal(number, leave)
+        # What is registered first is called last.
+        atexit.register(ignore)
 
 
 def _run(argv: list[str], providers: "Providers | None") -> int:

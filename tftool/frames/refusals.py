@@ -237,7 +237,7 @@ def too_many_frames(child: str, authority: str, limit: int) -> str:
 
 
 def long_name(child: str, parent: str, authority: str, limit: int) -> str:
-    """Which of the two names is longer than the buffer takes, in a sentence; empty if neither is."""
+    """Which of two names is longer than the buffer takes, in a sentence; empty if neither is."""
     for name, field in ((child, "child_frame_id"), (parent, "frame_id")):
         # In UTF-8 no character takes more than four bytes: a short name is not written out.
         if 4 * len(name) <= limit:

@@ -1,8 +1,10 @@
 """The page's server, talked to as a browser would, and as nobody should."""
 
 import asyncio
+import errno
 import json
 import math
+import os
 import socket
 import struct
 from http.client import HTTPConnection
@@ -506,3 +508,19 @@ def test_the_port_of_a_ros_router_is_left_alone(monkeypatch):
             await PageServer(World(clock), port=7447).__aenter__()
 
     run(clock, main())
+
+
+def test_connections_beyond_what_can_be_opened_are_told_of_once():
+    said = []
+
+    async def refuse():
+        async with PageServer(World(WallClock()), port=0, tell=said.append):
+            loop = asyncio.get_running_loop()
+            for _ in range(3):
+                full = OSError(errno.EMFILE, os.strerror(errno.EMFILE))
+                loop.call_exception_handler({"message": "accept", "exception": full})
+
+    asyncio.run(refuse())
+
+    assert len(said) == 1
+    assert "ulimit -n" in said[0]

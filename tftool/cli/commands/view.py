@@ -53,9 +53,10 @@ def view(
             raise
         raise UsageError("'view' needs an extra: pip install 'tftool-tf2[view]'") from error
     from tftool.cli.hosting import open_session
+    from tftool.cli.notices import notice
 
     session = open_session(connection, place, cache_time=cache_time)
-    page = PageServer(session.world, port=port, rate=rate)
+    page = PageServer(session.world, port=port, rate=rate, tell=notice)
     session.run(_show(session, page, run_for, open_browser))
     return ExitStatus.DONE
 

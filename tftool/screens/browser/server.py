@@ -12,9 +12,10 @@ import asyncio
 import errno
 import logging
 import math
+from collections.abc import Callable
 from http import HTTPStatus
 from types import TracebackType
-from typing import Protocol
+from typing import Any, Protocol
 
 from websockets.asyncio.server import Server, ServerConnection, serve
 from websockets.datastructures import Headers
@@ -72,15 +73,25 @@ class PageServer:
         clients: The pages that are open.
     """
 
-    def __init__(self, source: ShownWorld, *, port: int = PORT, rate: float = 30.0) -> None:
+    def __init__(
+        self,
+        source: ShownWorld,
+        *,
+        port: int = PORT,
+        rate: float = 30.0,
+        tell: Callable[[str], object] = _LOGGER.warning,
+    ) -> None:
         """Prepare to serve.
 
         Args:
             source: Whose frames to show.
             port: Where to listen; the next free one is taken instead, 0 takes any.
             rate: Pictures a second.
+            tell: Takes a sentence for the user.
         """
         self.source = source
+        self._tell = tell
+        self._is_full = False
         self.asked_port = self.port = port
         self.clients: set[PageClient] = set()
         self._period = _period(source.clock, rate)
@@ -119,6 +130,7 @@ class PageServer:
                     raise
                 continue
             self.port = next(iter(self._server.sockets)).getsockname()[1]
+            asyncio.get_running_loop().set_exception_handler(self._note)
             return self
         raise TftoolError(
             f"no port from {self.asked_port} to {self.asked_port + PORTS_TRIED - 1} is free; "
@@ -135,6 +147,15 @@ class PageServer:
         if self._server is not None:
             self._server.close()
             await self._server.wait_closed()
+
+    def _note(self, loop: asyncio.AbstractEventLoop, context: dict[str, Any]) -> None:
+        """Say once that no more connections can be taken, where asyncio says it again and again."""
+        error = context.get("exception")
+        if not isinstance(error, OSError) or error.errno not in (errno.EMFILE, errno.ENFILE):
+            loop.default_exception_handler(context)
+        elif not self._is_full:
+            self._is_full = True
+            self._tell("no more pages can be served: too few file descriptors (ulimit -n)")
 
     async def run(self) -> None:
         """Take snapshots and offer them to the pages, for ever."""
