@@ -139,6 +139,12 @@ class Providers:
             InputError: If it cannot be read.
             UsageError: If a joint position or argument does not fit the description.
         """
+        from tftool.sources.find import Kind
+
+        if found.kind is Kind.STATICS:
+            from tftool.cli.described import read_statics
+
+            return read_statics(found, robot)
         if not found.kind.is_recording:
             from tftool.cli.described import read_at_rest
 

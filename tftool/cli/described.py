@@ -13,6 +13,7 @@ if TYPE_CHECKING:
     from tftool.frames.buffer import Buffer
     from tftool.sources.find import Found
     from tftool.sources.robot import Robot
+    from tftool.sources.statics import StaticFrames
 
 
 @dataclass(frozen=True, slots=True)
@@ -66,6 +67,22 @@ def read_at_rest(found: "Found", options: "RobotOptions") -> RobotAtRest:
     tell_beyond(robot, options.joints)
     _tell_rest(robot, options.joints, found.name)
     return RobotAtRest(found.name, robot, buffer)
+
+
+def read_statics(found: "Found", options: "RobotOptions") -> "StaticFrames":
+    """Read a file that publishes static transforms; what was passed over goes to stderr.
+
+    Raises:
+        InputError: If it cannot be read, or publishes none.
+        UsageError: If there are options for a robot.
+    """
+    from tftool.sources.statics import load_statics
+
+    options.refuse(f"'{visible(found.name)}' is a {found.kind.value}, and no robot")
+    statics = load_statics(found.paths[0], found.name)
+    for note in statics.notes:
+        notice(visible(note))
+    return statics
 
 
 def tell_beyond(robot: "Robot", given: Mapping[str, float]) -> None:

@@ -61,6 +61,11 @@ def material_of(
             f"'tftool doctor RECORDING --urdf {visible(found.name)}' compares the two, "
             f"'tftool info {visible(found.name)}' reports its mistakes."
         )
+    if found is not None and found.kind is Kind.STATICS:
+        raise UsageError(
+            f"'{visible(found.name)}' holds what never changes: "
+            f"'tftool tree {visible(found.name)}' shows its frames, 'tftool diff' compares them."
+        )
     if word is None:
         session = join_session(connection)
         if session is not None:

@@ -6,7 +6,6 @@ Three or four bare numbers do not, and are refused unless the form is named.
 
 import math
 import re
-import shlex
 from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Final
@@ -130,35 +129,12 @@ def _publisher(text: str, _degrees: bool) -> Written | None:
         r"(?<!\S)--(q?[xyz]|qw|roll|pitch|yaw|(child-)?frame-id)(?=[\s=])", text
     ):
         return None
-    try:
-        words = shlex.split(text.replace("\\\n", " "), comments=True)
-    except ValueError as error:
-        raise UsageError(f"That line has a quote without its partner: {error}.") from None
-    start = next((n for n, word in enumerate(words) if "static_transform_publisher" in word), -1)
-    rest = words[start + 1 :]
-    rest = rest[: rest.index("--ros-args")] if "--ros-args" in rest else rest
-    rest = [part for word in rest for part in _parted(word)]
-    named = [word for word in rest if word.startswith("--")]
-    if not named and len(rest) in (9, 10) and _is_number(rest[-1]) and not _is_number(rest[-2]):
-        rest = rest[:-1]  # ROS 1: the period comes last
-    if named:
-        for option in ("--frame-id", "--child-frame-id"):
-            rest += [] if option in rest else [option, "frame"]
-    said = static_arguments.parse(rest)
+    said = static_arguments.of_line(text, frames=("parent", "child"))
     if said is None:
         raise UsageError("That line asks static_transform_publisher for its help.")
     written = _quaternion(said.transform.rotation, "static_transform_publisher's words")
     pose = Transform(said.transform.translation, written.transform.rotation)
     return Written(pose, True, written.form, written.notes)
-
-
-def _parted(word: str) -> list[str]:
-    option, equals, value = word.partition("=")
-    return [option, value] if equals and option in static_arguments.OPTIONS else [word]
-
-
-def _is_number(word: str) -> bool:
-    return re.fullmatch(_NUMBER, word) is not None
 
 
 def _echoed(text: str, _degrees: bool) -> Written | None:

@@ -2,6 +2,7 @@
 
 import math
 import re
+import shlex
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from difflib import get_close_matches
@@ -103,6 +104,48 @@ def parse(argv: Sequence[str]) -> StaticArguments | None:
         "euler" if euler else "none",
         (roll, pitch, yaw),
     )
+
+
+def of_line(line: str, *, frames: Sequence[str] = ()) -> StaticArguments | None:
+    """Read a whole line of a shell, of ROS 1's publisher as well.
+
+    Args:
+        line: What stands behind "static_transform_publisher" is read; all of it, if that is
+            not there.
+        frames: Parent and child where options leave them out.
+
+    Returns:
+        What it says; None where it asks for help.
+
+    Raises:
+        UsageError: If it cannot be read.
+    """
+    try:
+        words = shlex.split(line.replace("\\\n", " "), comments=True)
+    except ValueError as error:
+        raise UsageError(f"That line has a quote without its partner: {error}.") from None
+    start = next((n for n, word in enumerate(words) if "static_transform_publisher" in word), -1)
+    rest = words[start + 1 :]
+    # Where the line goes on with something else.
+    for end in ("--ros-args", "&", "&&", ";", "|", ">"):
+        rest = rest[: rest.index(end)] if end in rest else rest
+    rest = [part for word in rest for part in _parted(word.removesuffix(";"))]
+    named = any(word in OPTIONS for word in rest)
+    if not named and len(rest) in (9, 10) and _is_number(rest[-1]) and not _is_number(rest[-2]):
+        rest = rest[:-1]  # ROS 1: the period comes last
+    if named and frames:
+        for option, frame in zip(("--frame-id", "--child-frame-id"), frames, strict=True):
+            rest += [] if option in rest else [option, frame]
+    return parse(rest)
+
+
+def _parted(word: str) -> list[str]:
+    option, equals, value = word.partition("=")
+    return [option, value] if equals and option in OPTIONS else [word]
+
+
+def _is_number(word: str) -> bool:
+    return _NUMBER.fullmatch(word) is not None
 
 
 def _split(argv: Sequence[str]) -> tuple[list[str], dict[str, str], bool]:

@@ -5,6 +5,7 @@ Only names, sizes and the first bytes are looked at; what reads the source finds
 
 import glob
 import os
+import re
 import stat
 from dataclasses import dataclass
 from enum import Enum
@@ -44,6 +45,7 @@ class Kind(Enum):
 
     SCENARIO = "scenario"
     DESCRIPTION = "robot description"
+    STATICS = "file of static transforms"
     MCAP = "MCAP"
     SQLITE = "rosbag2 (sqlite3)"
     ROS1 = "ROS 1 bag"
@@ -54,7 +56,7 @@ class Kind(Enum):
     @property
     def is_recording(self) -> bool:
         """Whether `open_recording` reads it."""
-        return self not in (Kind.SCENARIO, Kind.DESCRIPTION)
+        return self not in (Kind.SCENARIO, Kind.DESCRIPTION, Kind.STATICS)
 
 
 _RECORDINGS = (Kind.MCAP, Kind.SQLITE, Kind.ROS1, Kind.ZSTD)
@@ -167,7 +169,13 @@ def _kind_of_text(path: Path, head: bytes) -> Kind:
             "description (URDF, xacro), nor a scenario (YAML)."
         )
     start = text.removeprefix(b"\xef\xbb\xbf").lstrip()
-    return Kind.DESCRIPTION if start.startswith(b"<") else Kind.SCENARIO
+    if start.startswith(b"<"):
+        root = re.search(rb"<([A-Za-z_][\w.:-]*)", start)
+        return Kind.STATICS if root is not None and root[1] == b"launch" else Kind.DESCRIPTION
+    is_launched = re.search(rb"^(launch\s*:|def generate_launch_description)", start, re.MULTILINE)
+    is_scenario = re.search(rb"^(nodes|about|expect)\s*:", start, re.MULTILINE)
+    is_script = b"static_transform_publisher" in start and not is_scenario
+    return Kind.STATICS if is_launched or is_script else Kind.SCENARIO
 
 
 def _is_metadata(path: Path) -> bool:

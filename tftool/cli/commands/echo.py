@@ -175,7 +175,8 @@ def echo(
             printer.found(answer)
         return ExitStatus.DONE
     # Where nothing changes, once is enough.
-    once = once or (found is not None and found.kind is Kind.DESCRIPTION and count is None)
+    still = found is not None and found.kind in (Kind.DESCRIPTION, Kind.STATICS)
+    once = once or (still and count is None)
     session = open_session(
         connection,
         place,

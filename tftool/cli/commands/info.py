@@ -49,8 +49,9 @@ def info(
         return ExitStatus.DONE
     if not found.kind.is_recording:
         word = visible(place)
+        plays = f"'tftool check {word}' plays it, " if found.kind is Kind.SCENARIO else ""
         raise UsageError(
-            f"'{word}' is a {found.kind.value} and no recording: 'tftool check {word}' plays it, "
+            f"'{word}' is a {found.kind.value} and no recording: {plays}"
             f"'tftool tree {word}' shows its frames."
         )
     recording: Recording = read(found, connection.robot, connection.recording)
