@@ -31,6 +31,7 @@ COMMANDS = {
     "view": "Show the frames in 3-D, in a browser (rviz2 with its TF display).",
     "doctor": "Say what is wrong with the frames, and what mends it.",
     "explain": "Say why a lookup refuses: which link, by how much.",
+    "robot": "Bring a robot description alive (robot_state_publisher).",
     "session": "Show who shares the session that runs here.",
     "info": "Show what a recording or robot description holds.",
     "export": "Write a pair over time, or links, to files of other tools.",
@@ -60,7 +61,7 @@ ALONE = ("check", "convert", "help", "new")
 """Commands that share no session."""
 
 
-DESCRIBING = ("echo", "tree", "view", "info")
+DESCRIBING = ("echo", "tree", "view", "info", "robot")
 """Commands whose FROM may be a robot description."""
 
 

@@ -123,11 +123,12 @@ def scenario_named(word: str, arguments: Mapping[str, str] | None = None) -> "Sc
 
     found = named(word)
     if found.kind is not Kind.SCENARIO:
-        raise UsageError(f"'{visible(word)}' is {_kind_words(found)}: a scenario is needed here.")
+        raise UsageError(f"'{visible(word)}' is {kind_in_words(found)}: a scenario is needed here.")
     return load(found.paths[0], arguments or {})
 
 
-def _kind_words(found: Found) -> str:
+def kind_in_words(found: Found) -> str:
+    """What FROM names, with its article."""
     if found.kind is Kind.SEVERAL:
         return "several recordings"
     article = "an" if found.kind is Kind.MCAP else "a"
@@ -424,8 +425,8 @@ def open_session(
     if found is not None and found.kind is not Kind.SCENARIO:
         if needs_messages:
             raise UsageError(
-                f"'{visible(found.name)}' is {_kind_words(found)}, from which no message arrives: "
-                f"'tftool tree {visible(found.name)}' shows its frames."
+                f"'{visible(found.name)}' is {kind_in_words(found)}, from which no message "
+                f"arrives: 'tftool tree {visible(found.name)}' shows its frames."
             )
         refuse_to_share(connection, word)
         return _recorded(connection, found, simulated=simulated)

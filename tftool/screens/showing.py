@@ -3,14 +3,43 @@
 import asyncio
 import os
 from collections.abc import Coroutine
-from typing import Any
+from typing import Any, Protocol
 
 from tftool.errors import TftoolError
 from tftool.runtime.stopping import leave_screen
-from tftool.screens.terminal import TurtleApp
+from tftool.runtime.world import World
+from tftool.stamps import Stamp
 
 
-async def show(app: TurtleApp, life: Coroutine[Any, Any, None], *, headless: bool = False) -> None:
+class Screen(Protocol):
+    """A textual app that shows a world.
+
+    Attributes:
+        world: The world.
+        ready: Set once it shows.
+        failure: What it failed by.
+        interrupted: Whether Ctrl-C ended it.
+    """
+
+    ready: asyncio.Event
+    failure: Exception | None
+    interrupted: bool
+
+    @property
+    def world(self) -> World:
+        """The world."""
+
+    def begin(self, stamp: Stamp) -> None:
+        """The world begins to live now."""
+
+    def exit(self) -> None:
+        """End."""
+
+    async def run_async(self, *, headless: bool = False) -> object:
+        """Take the terminal until `exit`."""
+
+
+async def show(app: Screen, life: Coroutine[Any, Any, None], *, headless: bool = False) -> None:
     """Put the app on the terminal while its world lives, until one of them ends.
 
     Whatever ends it, the terminal is restored before this returns or raises.
@@ -27,13 +56,13 @@ async def show(app: TurtleApp, life: Coroutine[Any, Any, None], *, headless: boo
     """
     # Ctrl-C as a signal, not as a key: the loop, which reads keys, may be held up by a node.
     os.environ.setdefault("TEXTUAL_ALLOW_SIGNALS", "1")
-    undo = app.scene.world.clock.when_killed.add(leave_screen, "screen")
+    undo = app.world.clock.when_killed.add(leave_screen, "screen")
     screen = asyncio.ensure_future(app.run_async(headless=headless))
 
     async def lived() -> None:
         # Making the panels takes a while in which no node would get its turn.
         await app.ready.wait()
-        app.scene.start = app.scene.world.clock.now()
+        app.begin(app.world.clock.now())
         await life
 
     living = asyncio.ensure_future(lived())

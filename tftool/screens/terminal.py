@@ -18,6 +18,7 @@ from textual.containers import Container
 from textual.driver import Driver
 
 from tftool.errors import TftoolError
+from tftool.runtime.world import World
 from tftool.screens import keys, panels
 from tftool.screens.journal import Journal
 from tftool.screens.keyboard import tolerant
@@ -27,7 +28,7 @@ from tftool.screens.panel import Panel, themes
 from tftool.screens.question import SceneQuestion
 from tftool.screens.scene import Scene, SceneMoment
 from tftool.screens.setting import Setting
-from tftool.stamps import Duration, seconds
+from tftool.stamps import Duration, Stamp, seconds
 from tftool.views import canvas, theme
 
 LOOKS_PER_SECOND = 20
@@ -120,6 +121,15 @@ class TurtleApp(App[None]):
         self._canvas = canvas.Canvas(0, 0)
         self._journal = Journal(scene.world.log.records)
         self._unlisten = scene.world.log.listen(self._journal.add, "screen")
+
+    @property
+    def world(self) -> World:
+        """What it looks at."""
+        return self.scene.world
+
+    def begin(self, stamp: Stamp) -> None:
+        """Count time from now on: the world begins to live."""
+        self.scene.start = stamp
 
     # Building
 

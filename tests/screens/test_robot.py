@@ -1,0 +1,186 @@
+import asyncio
+
+import pytest
+from rich.cells import cell_len
+
+from tests.nodes.harness import new_world
+from tests.sources.test_robot import TEXT
+from tftool.screens.robot import RobotApp
+from tftool.screens.setting import Setting
+from tftool.screens.sliders import Sliders, tip_of
+from tftool.sources.robot import Robot
+from tftool.sources.urdf import parse_description
+
+
+class Mover:
+    """Joints that go where they are put, as JointStatePublisher's do."""
+
+    def __init__(self, robot):
+        self.robot = robot
+        self.given = {}
+
+    @property
+    def positions(self):
+        return self.robot.positions(self.given)
+
+    def move(self, joint, position):
+        self.robot.positions({joint: position})
+        self.given[joint] = position
+
+
+@pytest.fixture
+def robot():
+    return Robot(parse_description(TEXT))
+
+
+@pytest.fixture
+def mover(robot):
+    return Mover(robot)
+
+
+@pytest.fixture
+def shown(robot, mover):
+    """The screen after some keys."""
+
+    def show(*keys, size=(80, 24), mover=mover, heard=None, **setting):
+        world = new_world()
+        for one in robot.transforms({"turn": 0.5}, stamp=1):
+            world.broadcast([one], "me", static=True)
+        sliders = Sliders(robot, mover, seed=1)
+        sliders.hear(heard or {})
+        app = RobotApp(world, sliders, setting=Setting(title="tftool robot", **setting))
+        lines = []
+
+        async def main():
+            async with app.run_test(size=size) as pilot:
+                await pilot.pause()
+                await pilot.press(*keys)
+                await pilot.pause()
+                app.redraw()
+                await pilot.pause()
+                strips = app.screen._compositor.render_strips(app.size)
+                lines.extend(strip.text for strip in strips)
+
+        asyncio.run(main())
+        assert app.failure is None
+        return lines
+
+    return show
+
+
+def row(lines, name):
+    (found,) = [line for line in lines if f" {name} " in line and "rad" in line + "rad"][:1]
+    return found
+
+
+def test_every_joint_is_a_slider_and_the_tip_has_its_pose(shown):
+    lines = shown()
+
+    text = "\n".join(lines)
+    assert "▸ turn" in text
+    assert "no limits" in row(lines, "turn")
+    assert "3.0000 m" in row(lines, "reach")
+    assert "1 … 5" in row(lines, "reach")
+    assert "follows reach" in row(lines, "grip")
+    assert "eye in base" in text
+    assert [cell_len(line) for line in lines] == [80] * 24
+
+
+@pytest.mark.parametrize("size", [(40, 8), (60, 20), (200, 60), (20, 5)])
+def test_it_fits_into_any_terminal(shown, size):
+    assert [cell_len(line) for line in shown(size=size)] == [size[0]] * size[1]
+
+
+def test_arrows_slide_the_chosen_joint_between_its_limits(shown, mover):
+    shown("down", "right", "right", "left")
+    assert mover.given == {"reach": pytest.approx(3.0 + 4.0 / 50)}
+
+    shown("down", *["right"] * 60)
+    assert mover.given["reach"] == 5.0
+
+
+def test_small_steps_are_a_tenth(shown, mover):
+    shown("down", ".", ".", ",")
+
+    assert mover.given["reach"] == pytest.approx(3.0 + 4.0 / 500)
+
+
+def test_a_number_is_typed_and_taken_by_enter(shown, mover):
+    assert "1.5_" in row(shown("1", ".", "5"), "turn")
+    assert mover.given == {}
+
+    shown("minus", "1", ".", "7", "5", "backspace", "enter")
+    assert mover.given == {"turn": -1.7}
+
+
+@pytest.mark.parametrize(
+    ("keys", "told"),
+    [
+        (("down", "9", "enter"), "9 is beyond the limits, 1 to 5"),
+        (("1", "minus", "enter"), "'1-' is no number"),
+        (("1", "e", "9", "9", "9", "enter"), "inf"),
+    ],
+)
+def test_what_is_no_position_is_said_and_moves_nothing(shown, mover, keys, told):
+    lines = shown(*keys)
+
+    assert told in lines[-1]
+    assert mover.given == {}
+
+
+def test_escape_types_nothing_after_all(shown, mover):
+    shown("1", "escape", "enter")
+
+    assert mover.given == {}
+
+
+def test_all_joints_go_to_zero_to_the_centre_or_anywhere(shown, mover):
+    shown("down", "right", "z")
+    assert mover.given == {"turn": 0.0, "reach": 1.0}
+
+    shown("c")
+    assert mover.given == {"turn": 0.0, "reach": 3.0}
+
+    shown("r")
+    assert -3.15 < mover.given["turn"] < 3.15
+    assert 1.0 <= mover.given["reach"] <= 5.0
+    assert mover.given["reach"] != 3.0
+
+
+def test_capitals_mean_the_chosen_joint_alone(shown, mover):
+    shown("down", "Z")
+
+    assert mover.given == {"reach": 1.0}
+
+
+def test_joints_that_follow_are_passed_over(shown):
+    assert "▸ turn" in "\n".join(shown("down", "down"))
+    assert "▸ reach" in "\n".join(shown("up"))
+
+
+def test_tab_shows_the_pose_of_another_link(shown):
+    assert "base in base" in "\n".join(shown("tab"))
+    assert "claw in base" in "\n".join(shown("shift+tab"))
+
+
+def test_without_a_mover_others_move_the_joints(shown):
+    lines = shown("right", mover=None, heard={"turn": 0.25, "nothing": 1.0})
+
+    assert "0.2500 rad" in row(lines, "turn")
+    assert "?" in row(lines, "reach")
+    assert "slide" not in lines[-1]
+
+
+def test_plain_characters_are_enough(shown):
+    assert "\n".join(shown("question_mark", ascii_only=True)).isascii()
+
+
+def test_a_robot_without_moving_joints_says_so():
+    robot = Robot(parse_description('<robot name="stone"><link name="stone"/></robot>'))
+    sliders = Sliders(robot, Mover(robot))
+    sliders.step(1)
+    sliders.zero()
+    sliders.choose(1)
+
+    assert sliders.sliders == []
+    assert tip_of(robot) == "stone"

@@ -1,0 +1,164 @@
+"""`tftool robot`: a robot description alive, its joints moved by keys."""
+
+import sys
+from typing import TYPE_CHECKING, Annotated, Any
+
+import typer
+
+from tftool.cli.app import ExitStatus
+from tftool.cli.connection import Connection
+from tftool.cli.options import Ascii, Light, RunFor, within
+from tftool.errors import UsageError
+from tftool.stamps import Duration
+
+if TYPE_CHECKING:
+    from tftool.cli.hosting import Session
+    from tftool.nodes.joints import JointStatePublisher
+    from tftool.screens.setting import Setting
+    from tftool.sources.robot import Robot
+
+
+def robot(
+    connection: Connection,
+    place: Annotated[
+        str, typer.Argument(metavar="FILE", help="A robot description: URDF or xacro.")
+    ],
+    link: Annotated[
+        str | None,
+        typer.Option(
+            "--link", metavar="LINK", help="Link whose pose is shown; the farthest if not said."
+        ),
+    ] = None,
+    follow: Annotated[
+        bool, typer.Option("--follow", help="Move no joint; follow the /joint_states of others.")
+    ] = False,
+    no_screen: Annotated[
+        bool, typer.Option("--no-screen", help="Publish until stopped, without sliders.")
+    ] = False,
+    rate: Annotated[
+        float,
+        typer.Option(
+            "--rate",
+            "-r",
+            metavar="HZ",
+            callback=within(0.1, 1000),
+            help="How often frames are broadcast, and joint states published.",
+        ),
+    ] = 20.0,
+    frame_prefix: Annotated[
+        str, typer.Option(metavar="PREFIX", help="What to put before every link: left/.")
+    ] = "",
+    run_for: RunFor = None,
+    ascii_only: Ascii = False,
+    light: Light = False,
+) -> ExitStatus:
+    """Bring a robot description alive (robot_state_publisher).
+
+    Fixed joints go to /tf_static, the others to /tf, the description to /robot_description.
+    Arrow keys slide a joint between its limits; digits type a position; z, c and r put all at
+    zero, in the middle, anywhere. Another terminal sees it: tftool tree, tftool view.
+
+    tftool robot arm.urdf
+    tftool robot arm.urdf.xacro size:=large --joint elbow=30deg
+    tftool robot arm.urdf --follow --no-screen
+    """
+    from tftool.cli.described import load_described, tell_beyond
+    from tftool.cli.hosting import kind_in_words, named, open_empty_session
+    from tftool.cli.onscreen import has_terminal
+    from tftool.nodes.joints import JointStatePublisher, RobotStatePublisher
+    from tftool.sources.find import Kind
+    from tftool.views.escaping import visible
+
+    connection.refuse_read_only("publish")
+    found = named(place)
+    if found.kind is not Kind.DESCRIPTION:
+        raise UsageError(
+            f"'{visible(place)}' is {kind_in_words(found)}: a robot description is needed here."
+        )
+    if follow and connection.robot.joints:
+        raise UsageError("--follow leaves the joints to others: leave out --joint.")
+    if not no_screen and not has_terminal():
+        raise UsageError("The sliders need a terminal, and there is none here: add --no-screen.")
+    described = load_described(found, connection.robot)
+    if link is not None and link not in described.links:
+        raise UsageError(_no_link(described, link))
+    described.positions(connection.robot.joints)
+    tell_beyond(described, connection.robot.joints)
+
+    session = open_empty_session(connection)
+    world = session.world
+    RobotStatePublisher(
+        world,
+        robot=described,
+        frame_prefix=frame_prefix,
+        publish_frequency=0.0 if not follow else rate,
+    )
+    mover = (
+        None
+        if follow
+        else JointStatePublisher(
+            world, robot=described, positions=connection.robot.joints, rate=rate
+        )
+    )
+    if no_screen:
+        _tell(described, follow)
+        session.run(session.lasting(run_for))
+        return ExitStatus.DONE
+
+    from tftool.screens.setting import Setting
+
+    setting = Setting(title="tftool robot", ascii_only=ascii_only, light=light)
+    _show(session, described, mover, (link, frame_prefix), setting, run_for)
+    return ExitStatus.DONE
+
+
+def _no_link(described: "Robot", link: str) -> str:
+    import difflib
+
+    near = difflib.get_close_matches(link, list(described.links), n=1)
+    hint = f"; did you mean '{near[0]}'?" if near else ""
+    return f"robot '{described.name}' has no link '{link}'{hint}"
+
+
+def _tell(described: "Robot", follow: bool) -> None:
+    from tftool.views.escaping import visible
+
+    moving = sum(joint.moves for joint in described.joints.values())
+    how = "as the /joint_states of others say" if follow else "where they are put"
+    sys.stdout.write(
+        f"Publishing robot '{visible(described.name)}': {len(described.links)} links, "
+        f"{moving} joints that move {how}.\n"
+    )
+    sys.stdout.flush()
+
+
+def _show(
+    session: "Session",
+    described: "Robot",
+    mover: "JointStatePublisher | None",
+    shown: tuple[str | None, str],
+    setting: "Setting",
+    run_for: Duration | None,
+) -> None:
+    """Show the sliders while the session lives."""
+    import os
+
+    from tftool.nodes.joints import JOINT_STATES, joint_state_type
+    from tftool.runtime.clock import run
+    from tftool.screens.robot import RobotApp
+    from tftool.screens.setting import setting_from
+    from tftool.screens.showing import show
+    from tftool.screens.sliders import Sliders
+
+    world = session.world
+    sliders = Sliders(described, mover, seed=world.clock.now())
+    if mover is None:
+
+        def hear(message: Any) -> None:
+            sliders.hear(dict(zip(message.name, message.position, strict=False)))
+
+        world.subscribe("sliders", JOINT_STATES, joint_state_type(), hear)
+    setting = setting_from(os.environ, sys.stdout.encoding or "ascii", setting)
+    link, prefix = shown
+    app = RobotApp(world, sliders, link=link, prefix=prefix, setting=setting)
+    run(world.clock, show(app, session.along(session.lasting(run_for))))
