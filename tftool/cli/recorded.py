@@ -1,7 +1,7 @@
 """A recording as FROM: opened with a bar where reading takes time, its damage told once."""
 
 import sys
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from tftool.cli.notices import notice
 from tftool.runtime.clock import WallClock
@@ -9,7 +9,8 @@ from tftool.stamps import seconds
 from tftool.views.escaping import visible
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator
+    from collections.abc import Callable, Iterator
+    from types import FrameType
 
     from rich.progress import Progress, TaskID
 
@@ -26,6 +27,7 @@ PATIENCE = seconds(0.5)
 
 _REDRAWN = seconds(0.1)
 _MOST_NOTICES = 8
+_LONGEST_NAME = 24
 
 
 def read(
@@ -49,7 +51,9 @@ def read(
 
     with_odometry = options is not None and options.with_odometry
     no_cache = options is not None and options.no_cache
-    bar = Bar(f"Reading {visible(found.name)}")
+    # The end of a path is what tells files apart, and all of it would not fit beside the bar.
+    short = found.name.rstrip("/").rpartition("/")[2][-_LONGEST_NAME:]
+    bar = Bar(f"Reading {visible(short)}")
     recording = open_recording(
         found.name,
         progress=bar,
@@ -148,6 +152,7 @@ class Bar:
         self._since = self._drawn = self._clock.now()
         self._progress: Progress | None = None
         self._task: TaskID | None = None
+        self._handlers: dict[int, Any] = {}
 
     def __call__(self, done: int, total: int) -> None:
         """Show how far it has come: bytes, rate, time left."""
@@ -183,12 +188,46 @@ class Bar:
             console=Console(stderr=True),
             transient=True,
             auto_refresh=False,
+            # Nothing else is printed meanwhile.
+            redirect_stdout=False,
+            redirect_stderr=False,
         )
         self._task = self._progress.add_task("", total=total)
         self._progress.start()
+        # A signal ends the process at once: what it leaves behind must be as it was.
+        self._progress.console.show_cursor(True)
+        self._erase_when_killed()
+
+    def _erase_when_killed(self) -> None:
+        """Take the bar away first when a signal ends the process."""
+        import signal
+        import threading
+
+        if threading.current_thread() is not threading.main_thread():
+            return
+        for number in (signal.SIGINT, signal.SIGTERM):
+            before = signal.getsignal(number)
+            if not callable(before):
+                continue
+
+            def leave(
+                number: int,
+                frame: "FrameType | None",
+                before: "Callable[[int, FrameType | None], object]" = before,
+            ) -> None:
+                sys.stderr.write("\r\x1b[2K")
+                sys.stderr.flush()
+                before(number, frame)
+
+            signal.signal(number, leave)
+            self._handlers[number] = before
 
     def stop(self) -> None:
         """Take the bar away."""
+        import signal
+
+        while self._handlers:
+            signal.signal(*self._handlers.popitem())
         if self._progress is not None:
             self._progress.stop()
             self._progress = None
