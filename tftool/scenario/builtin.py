@@ -30,7 +30,7 @@ def shipped(name: str, mark: str) -> Path:
     for place in (_PACKAGE / name, _PACKAGE.parent / name):
         if (place / mark).exists():
             return place
-    raise InputError(f"the folder '{name}' is missing beside {_PACKAGE}; install tftool again")
+    raise InputError(f"the built-in {name} are missing beside {_PACKAGE}; install tftool again")
 
 
 def names() -> list[str]:

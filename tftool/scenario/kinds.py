@@ -16,6 +16,7 @@ from tftool.messages import Color, Spawn
 from tftool.motion.pid import Gains
 from tftool.nodes.broadcasters import Broadcaster, DynamicCarrot, FixedCarrot, StaticBroadcaster
 from tftool.nodes.follower import Follower
+from tftool.nodes.noise import Noise
 from tftool.nodes.points import MessageBroadcaster, PointDrawer
 from tftool.nodes.robot import LaserPoint, MapCorrection, RobotOdometry
 from tftool.nodes.squares import DrawSquare, Mimic
@@ -243,6 +244,20 @@ KINDS: Mapping[str, NodeKind] = MappingProxyType(
                 "base": values.frame,
                 "laser": values.frame,
                 "child": values.frame,
+                "period": values.period,
+            },
+        ),
+        "noise": NodeKind(
+            Noise,
+            {
+                "parent": values.frame,
+                "child": values.frame,
+                "offset": _triple(0.0, 0.0, "z", 0.0),
+                "position": values.distance,
+                "angle": values.quantity(values.ANGLE, least=0.0),
+                "drift": values.distance,
+                "turn_drift": values.quantity(values.ANGLE, least=0.0),
+                "seed": values.whole(0, 2**32 - 1),
                 "period": values.period,
             },
         ),
