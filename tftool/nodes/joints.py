@@ -2,7 +2,7 @@
 
 import math
 from collections.abc import Mapping, Sequence
-from typing import Any, ClassVar, Final, Literal
+from typing import TYPE_CHECKING, Any, ClassVar, Final, Literal
 
 from tftool.errors import InputError, UsageError
 from tftool.frames.sample import TransformStamped
@@ -12,10 +12,12 @@ from tftool.runtime.clock import Phase
 from tftool.runtime.endpoints import Quality
 from tftool.runtime.node import Node
 from tftool.runtime.world import World
-from tftool.sources.joint_states import JointStates
-from tftool.sources.robot import Robot
 from tftool.sources.urdf import RobotJoint, parse_description
 from tftool.stamps import NANOSECONDS, Duration, Stamp, as_seconds, seconds
+
+if TYPE_CHECKING:
+    from tftool.sources.joint_states import JointStates
+    from tftool.sources.robot import Robot
 
 JOINT_STATES: Final = "joint_states"
 DESCRIPTION: Final = "robot_description"
@@ -27,6 +29,13 @@ FASTEST: Final = 1000.0
 """The highest publish frequency robot_state_publisher takes, hertz."""
 
 Motion = Literal["still", "sine", "steps", "recorded"]
+
+
+def _described(text: str) -> "Robot":
+    """The robot of a description; imported here, as it brings numpy with it."""
+    from tftool.sources.robot import Robot
+
+    return Robot(parse_description(text))
 
 
 def joint_state_type() -> type[Any]:
@@ -63,7 +72,7 @@ class RobotStatePublisher(Node):
         world: World,
         name: str = "robot_state_publisher",
         *,
-        robot: Robot,
+        robot: "Robot",
         frame_prefix: str = "",
         publish_frequency: float = 20.0,
         ignore_timestamp: bool = False,
@@ -138,7 +147,7 @@ class RobotStatePublisher(Node):
     def _on_parameter(self, name: str, value: object) -> None:
         if name == "robot_description":
             try:
-                self.robot = Robot(parse_description(str(value)))
+                self.robot = _described(str(value))
             except InputError as error:
                 self.error(f"the new robot_description is not taken: {error}")
                 return
@@ -196,7 +205,7 @@ class JointStatePublisher(Node):
         world: World,
         name: str = "joint_state_publisher",
         *,
-        robot: Robot | None = None,
+        robot: "Robot | None" = None,
         positions: Mapping[str, float] | None = None,
         rate: float = 10.0,
         sources: Sequence[str] = (),
@@ -257,7 +266,7 @@ class JointStatePublisher(Node):
 
     def _on_description(self, message: Any) -> None:
         try:
-            robot = Robot(parse_description(message.data))
+            robot = _described(message.data)
         except InputError as error:
             self.error(f"the description on '{self.topics[1]}' cannot be read: {error}")
             return
@@ -281,10 +290,10 @@ class MovingRobot(RobotStatePublisher):
         world: World,
         name: str = "robot",
         *,
-        file: Robot,
+        file: "Robot",
         joints: Mapping[str, float] | None = None,
         motion: Motion = "still",
-        recording: Sequence[JointStates] = (),
+        recording: "Sequence[JointStates]" = (),
         cycle: Duration = seconds(4),
         period: Duration = seconds(0.05),
         frame_prefix: str = "",
