@@ -1,7 +1,7 @@
 """A recording as a node: what was recorded is broadcast again, at its own pace or another."""
 
 from collections.abc import Callable
-from typing import ClassVar, Final, Protocol
+from typing import TYPE_CHECKING, ClassVar, Final, Protocol
 
 from tftool.frames.jumps import FELL_BACK, LEAST_FALL
 from tftool.frames.sample import TransformStamped
@@ -10,8 +10,10 @@ from tftool.runtime.clock import Clock, FollowedClock, Phase
 from tftool.runtime.endpoints import Quality
 from tftool.runtime.node import Node
 from tftool.runtime.world import World
-from tftool.sources.timeline import Due, Timeline
 from tftool.stamps import NANOSECONDS, Duration, Stamp, seconds
+
+if TYPE_CHECKING:
+    from tftool.sources.timeline import Due, Timeline
 
 CLOCK_QUALITY: Final = Quality(depth=10)
 
@@ -56,7 +58,7 @@ class Player(Node):
         world: World,
         name: str,
         *,
-        timeline: Timeline,
+        timeline: "Timeline",
         pace: Clock,
         span: tuple[Stamp, Stamp] | None = None,
         rate: float = 1.0,
@@ -217,7 +219,7 @@ class Player(Node):
         for due in self._timeline.message(place):
             self._broadcast(due)
 
-    def _broadcast(self, due: Due) -> None:
+    def _broadcast(self, due: "Due") -> None:
         transforms = due.transforms
         if self._is_restamped:
             later = self._shift(due.moment)
