@@ -313,3 +313,13 @@ def test_records_leave_what_columns_leave(drawn):
         assert report if same is None else report.accepted.tolist() == same.accepted.tolist()
         assert remembered(borrowed, child) == remembered(columns, child)
     assert sorted(borrowed.frames()) == sorted(columns.frames())
+
+
+def test_a_recorded_half_turn_is_given_its_sign_though_w_is_zero():
+    pose = Transform((0.0, 0.0, 0.0), (0.0, 0.0, -1.0, 0.0))
+    buffer = Buffer()
+
+    buffer.set_records("world", "turtle1", records_of([(1, pose)]), "me")
+
+    assert buffer.lookup_transform("world", "turtle1").transform.rotation == (0, 0, 1, 0)
+    assert buffer.samples("turtle1").rotations.tolist() == [[0, 0, 1, 0]]

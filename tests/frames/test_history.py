@@ -285,3 +285,12 @@ def test_infinite_places_are_remembered_as_they_are():
 
     assert history.at(1)[0] == math.inf
     assert Vector3(*history.at(0)[:3]).x == math.inf
+
+
+def test_samples_decades_apart_are_interpolated_at_the_first_question():
+    history = History(2**63 - 1)
+    for stamp, x in ((1, 0.0), (10**18, 1.0), (3 * 10**18, 5.0)):
+        history.insert(stamp, 1, (x, 0.0, 0.0, *NO_TURN))
+
+    assert history.at(2 * 10**18)[0] == 3.0
+    assert history.at(5 * 10**17)[0] == pytest.approx(0.5)

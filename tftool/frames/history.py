@@ -231,7 +231,7 @@ class History:
             try:
                 guess = self.start + (time - self.oldest_stamp) // self.period
                 pair = _unpack_pair(self.records, RECORD * guess)
-            except struct.error:
+            except (struct.error, OverflowError):
                 # Beyond the newest one.
                 pair = _unpack_pair(self.records, RECORD * self.index(time))
             if not pair[0] <= time < pair[8]:
