@@ -1,6 +1,5 @@
 import errno
 import gc
-import inspect
 import io
 import os
 import signal
@@ -20,7 +19,7 @@ from tftool.errors import (
     TftoolError,
     UsageError,
 )
-from tftool.frames import path
+from tftool.frames.native import BUILD, IS_NATIVE
 
 ROOT = Path(__file__).parents[2]
 COMMANDS = app.COMMANDS
@@ -112,9 +111,22 @@ def test_the_list_says_of_a_command_what_its_own_help_begins_with(tftool, comman
 
 
 def test_the_version_says_which_build_runs(tftool):
-    build = "interpreted" if inspect.isfunction(path.chain) else "compiled"
+    assert ("native" if IS_NATIVE else "pure Python") == BUILD
+    assert tftool("--version").out == f"tftool {package.__version__} ({BUILD})\n"
 
-    assert tftool("--version").out == f"tftool {package.__version__} ({build})\n"
+
+def test_the_plain_path_can_be_asked_for():
+    told = subprocess.run(
+        [sys.executable, "-m", "tftool", "--version"],
+        env={**os.environ, "TFTOOL_PURE": "1"},
+        cwd=ROOT,
+        capture_output=True,
+        text=True,
+        check=True,
+        timeout=60,
+    )
+
+    assert told.stdout == f"tftool {package.__version__} (pure Python)\n"
 
 
 def test_a_near_miss_is_told_what_was_meant(tftool):

@@ -131,8 +131,9 @@ def build(
         """
         if version:
             from tftool import __version__
+            from tftool.frames.native import BUILD
 
-            sys.stdout.write(f"tftool {__version__} ({_build()})\n")
+            sys.stdout.write(f"tftool {__version__} ({BUILD})\n")
             raise typer.Exit
         if context.invoked_subcommand is None:
             sys.stdout.write(context.get_help() + "\n")
@@ -173,15 +174,6 @@ def _load(name: str, providers: "Providers | None") -> "Callable[..., Any]":
 
 def _unasked() -> None:
     """Stand for a command that is only listed."""
-
-
-def _build() -> str:
-    """Which of the two builds this is: its source is the same."""
-    from importlib.util import find_spec
-
-    spec = find_spec("tftool.frames.path")
-    source = "" if spec is None else spec.origin or ""
-    return "interpreted" if source.endswith(".py") else "compiled"
 
 
 def _laid_out(command: "Callable[..., Any]") -> str:

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Final, Literal, TypeAlias
 from tftool.errors import TransformException
 from tftool.frames import refusals, snapshot, tree, velocity
 from tftool.frames.history import NEEDS_CHECK, PARENT_CHANGED, STORED, TOO_OLD, Sample
+from tftool.frames.native import IS_NATIVE
 from tftool.frames.path import Path
 from tftool.frames.requests import NEVER, Callback, Requests
 from tftool.frames.sample import FrameInfo, Snapshot, TransformStamped
@@ -16,6 +17,9 @@ from tftool.geometry import poses, quaternions, rigid
 from tftool.geometry.rigid import Transform
 from tftool.listeners import Listeners, Report, listener_text
 from tftool.stamps import Duration, Stamp, seconds, whole
+
+if IS_NATIVE:
+    from tftool.frames import _kernel
 
 if TYPE_CHECKING:
     import numpy as np
@@ -98,7 +102,7 @@ class Buffer:
         if 0 < cache_time < _LIKELY_SECONDS:
             self._log("WARN", refusals.short_cache(cache_time))
         self._tree = FrameTree(cache_time, max_name)
-        self._moving = self._tree.moving
+        self._senders = self._tree.senders
         self._solver = Solver(self._tree, cache_time)
         self._requests = Requests(self._solver.examine)
         self._pending = self._requests.pending
@@ -123,12 +127,15 @@ class Buffer:
         """
         try:
             stamp, parent, child, pose = transform
-            frame, history = self._moving[child]
-            outcome = NEEDS_CHECK
-            if parent == frame.parent_name and authority == frame.authority:
-                # (*translation, *rotation) would take a tenth longer.
-                numbers = _joined(pose.translation, pose.rotation)
-                outcome = history.insert(stamp, frame.origin, numbers)
+            if IS_NATIVE and _kernel.insert(self._senders, transform, authority):
+                outcome = STORED
+            else:
+                known_parent, known_authority, origin, history = self._senders[child]
+                outcome = NEEDS_CHECK
+                if parent == known_parent and authority == known_authority:
+                    # (*translation, *rotation) would take a tenth longer.
+                    numbers = _joined(pose.translation, pose.rotation)
+                    outcome = history.insert(stamp, origin, numbers)
         except _NOT_PLAIN:
             return self._set_slowly(transform, authority, False)
         if outcome != STORED:
@@ -186,7 +193,7 @@ class Buffer:
             self._log("WARN", refusals.old_data(child, stamp, authority))
             self._tell((), static, authority, named)
             return False
-        frame.note(parent, authority, origin)
+        trees.note(frame, parent, authority, origin)
         if fresh or outcome == PARENT_CHANGED:
             self._solver.drop_paths()
         if self._listeners.registered or self._pending:
@@ -333,6 +340,10 @@ class Buffer:
             ExtrapolationException: If a link has no data for that moment.
             TypeError: If `time` is not a whole number.
         """
+        if IS_NATIVE:
+            found = _kernel.lookup(self._solver.paths, target_frame, source_frame, time)
+            if found is not None:
+                return found
         if time.__class__ is not int:
             time = whole(time)
         pose: Transform | None = None

@@ -5,7 +5,10 @@ How a moving link's samples lie in memory, which the batch path and `Buffer.samp
 - `records` is one flat array of 64-bit words, oldest sample first, WORDS words for each: its
   stamp in nanoseconds, then x, y, z and the quaternion's x, y, z, w, doubles bit by bit. One
   place to look at for a stamp and its pose: long histories do not fit a processor's cache.
-- Records before `start` are pruned, or free: what is pruned is removed in bulk later.
+- Records before `start` are pruned, or free: what is pruned is removed in bulk later. Those from
+  `count` on are room for samples to come.
+- While a batch reads the records no array may grow: what would have it grow is done to a copy
+  (`_resizable`), and what was read stays as it was.
 - An *origin* is a sample's parent and authority in one word: the parent's number in the low 32
   bits, the authority's above them. As long as all samples have the same origin, `origin` is
   all there is; from the first other one on, `origins` holds one word for each record.
@@ -16,25 +19,25 @@ How a moving link's samples lie in memory, which the batch path and `Buffer.samp
 import struct
 from array import array
 from math import inf, nan
-from typing import Any, Final, Literal, TypeAlias
+from typing import TYPE_CHECKING, Any, Final, Literal, TypeAlias
 
+from tftool.frames.native import IS_NATIVE
 from tftool.geometry import poses, quaternions
 from tftool.stamps import Duration, Stamp
 
 Sample: TypeAlias = tuple[float, float, float, float, float, float, float]
 """A pose: x, y, z in metres and a unit quaternion x, y, z, w of tf2's sign."""
 
-# Not Final: compiled, a tuple that is takes itself for missing in other modules.
 IDENTITY: Sample = (0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 1.0)
 
 NO_POSE: Sample = (nan, nan, nan, nan, nan, nan, nan)
-"""In place of a pose: none. A tuple of floats like any other, so compiled code need not box it."""
+"""In place of a pose: none; NaN throughout, as is what it is chained with."""
 
 Refusal: TypeAlias = tuple[int, Stamp]
 """Why a link has no pose at a moment: NO_DATA, FORWARD or BACKWARD, and the stamp it does have."""
 
-Columns: TypeAlias = "tuple[array[int], array[int] | None, int]"
-"""Records, oldest first; an origin for each, or None where there is but one; the newest origin."""
+Columns: TypeAlias = "tuple[memoryview[int], array[int] | None, int]"
+"""A view of the records, oldest first; an origin for each (None: all alike); the newest origin."""
 
 NO_PARENT: Final = -1
 """In place of a parent's number or an origin: none."""
@@ -63,7 +66,10 @@ STORED: Final = 2
 PARENT_CHANGED: Final = 3
 NEEDS_CHECK: Final = 4
 
+_LATEST_STAMP: Final = 2**63 - 1
+
 _pack: Final = struct.Struct("q7d").pack
+_pack_into: Final = struct.Struct("q7d").pack_into
 _unpack_pose: Final = struct.Struct("7d").unpack_from
 _unpack_pair: Final = struct.Struct("q7dq7d").unpack_from
 
@@ -72,12 +78,44 @@ _unpack_pair: Final = struct.Struct("q7dq7d").unpack_from
 _SLACK: Final = 4
 _LEAST_SLACK: Final = 32
 
+# Room for samples to come, one part in thirty-two: as often as not `array` has that at hand.
+_ROOM: Final = 5
+_LEAST_ROOM: Final = 4
+
 # A quaternion whose square lies between these is of length one but for rounding.
 SHORTEST: Final = 1.0 - 8e-16
 LONGEST: Final = 1.0 + 8e-16
 
 
-class StaticLink:
+if TYPE_CHECKING or not IS_NATIVE:
+
+    class Fields:
+        """What either kind of link keeps; natively the same, where C code can read it."""
+
+        __slots__ = (
+            "_borrowed",
+            "_compact_at",
+            "_newest_pair",
+            "_prune_after",
+            "count",
+            "is_static",
+            "limit",
+            "mixed",
+            "newest",
+            "newest_stamp",
+            "oldest_stamp",
+            "origin",
+            "origins",
+            "parent",
+            "records",
+            "start",
+        )
+
+else:
+    from tftool.frames._kernel import Fields
+
+
+class StaticLink(Fields):
     """A link that holds at all times: one sample, overwritten.
 
     Attributes:
@@ -90,15 +128,7 @@ class StaticLink:
         mixed: False: it has one parent.
     """
 
-    __slots__ = (
-        "is_static",
-        "mixed",
-        "newest",
-        "newest_stamp",
-        "oldest_stamp",
-        "origin",
-        "parent",
-    )
+    __slots__ = ()
 
     def __init__(self, newest: Sample | None = None) -> None:
         self.is_static: Literal[True] = True
@@ -134,7 +164,7 @@ class StaticLink:
         return [] if self.newest is None else [(0, self.parent, self.newest)]
 
 
-class History:
+class History(Fields):
     """A link that moves: its samples of the last `limit` nanoseconds, as tf2 keeps them.
 
     Pruning is lazy: only an insert prunes, and before it adds. Among equal stamps the last
@@ -152,33 +182,17 @@ class History:
         mixed: Whether samples with different parents are remembered.
         records: See the head of this module.
         start: Number of the first record that is not pruned.
+        count: How many records there are, pruned ones included.
         period: Nanoseconds from sample to sample, as last measured; where to look is guessed
             from it.
     """
 
-    __slots__ = (
-        "_borrowed",
-        "_compact_at",
-        "_newest_pair",
-        "_newest_parent_start",
-        "_prune_after",
-        "is_static",
-        "limit",
-        "mixed",
-        "newest",
-        "newest_stamp",
-        "oldest_stamp",
-        "origin",
-        "origins",
-        "parent",
-        "period",
-        "records",
-        "start",
-    )
+    __slots__ = ("_newest_parent_start", "period")
 
     def __init__(self, limit: Duration) -> None:
         self.is_static: Literal[False] = False
-        self.limit: Duration = limit
+        # More than any two stamps can be apart.
+        self.limit: Duration = min(limit, _LATEST_STAMP)
         self.period: Duration = 1
         self.clear()
 
@@ -186,6 +200,7 @@ class History:
         """Forget everything; afterwards any stamp is taken again."""
         self.records: array[int] = array("q")
         self.start: int = 0
+        self.count: int = 0
         self.newest_stamp: Stamp = 0
         self.oldest_stamp: Stamp = 0
         self.newest: Sample | None = None
@@ -205,7 +220,7 @@ class History:
         self._newest_parent_start: int = 0
 
     def __len__(self) -> int:
-        return len(self.records) // WORDS - self.start
+        return self.count - self.start
 
     # Asking
 
@@ -225,14 +240,14 @@ class History:
         # lookups are an eighth slower.
         pair = self._newest_pair
         if pair is None:
-            pair = self._newest_pair = _unpack_pair(self.records, RECORD * (self._count() - 2))
+            pair = self._newest_pair = _unpack_pair(self.records, RECORD * (self.count - 2))
         if time < pair[0]:
             # Samples come almost periodically: guess first, search if that is wrong.
             try:
                 guess = self.start + (time - self.oldest_stamp) // self.period
                 pair = _unpack_pair(self.records, RECORD * guess)
             except (struct.error, OverflowError):
-                # Beyond the newest one.
+                # Beyond the last record; there may be room behind it, whose stamps are 0.
                 pair = _unpack_pair(self.records, RECORD * self.index(time))
             if not pair[0] <= time < pair[8]:
                 pair = _unpack_pair(self.records, RECORD * self.index(time))
@@ -273,27 +288,30 @@ class History:
         """Every sample remembered, newest first: stamp, parent's number, pose."""
         return [
             (self._stamp(index), self._parent(index), self._sample(index))
-            for index in range(self._count() - 1, self.start - 1, -1)
+            for index in range(self.count - 1, self.start - 1, -1)
         ]
 
     def columns(self) -> "Columns":
-        """Records and origins, oldest first: copies; see `Columns`.
+        """Records and origins, oldest first; see `Columns`.
 
-        They are of one moment, even if another thread inserts or prunes meanwhile: what
-        was copied is held against what is remembered, and copied again where they differ.
+        The records are not copied, and do not change while that view of them is held: what
+        would have the array grow is done to a copy. They are of one moment, even if another
+        thread inserts or prunes meanwhile: what was read is compared again once they are held.
         """
         while True:
-            start, newest = self.start, self.newest_stamp
-            origins, origin = self.origins, self.origin
-            records = self.records[WORDS * start :]
+            records, start, count = self.records, self.start, self.count
+            newest, origins, origin = self.newest_stamp, self.origins, self.origin
+            view = memoryview(records)[WORDS * start : WORDS * count]
             if origins is not None:
                 origins = origins[start:]
             if (
-                (origins is None or WORDS * len(origins) == len(records))
-                and (start, newest, origin) == (self.start, self.newest_stamp, self.origin)
-                and (not records or (records[0], records[-WORDS]) == (self.oldest_stamp, newest))
+                (origins is None or len(origins) == count - start)
+                and records is self.records
+                and (start, count, newest, origin)
+                == (self.start, self.count, self.newest_stamp, self.origin)
+                and (not view or (view[0], view[-WORDS]) == (self.oldest_stamp, newest))
             ):
-                return records, origins, origin
+                return view, origins, origin
 
     def parents(self) -> set[int]:
         """The number of every parent that a remembered sample has."""
@@ -305,10 +323,6 @@ class History:
         """Whether the two samples that enclose a moment have different parents."""
         index = self.index(time)
         return self._parent(index) != self._parent(index + 1)
-
-    def _count(self) -> int:
-        """How many records there are, pruned ones included."""
-        return len(self.records) // WORDS
 
     def _stamp(self, index: int) -> Stamp:
         return self.records[WORDS * index]
@@ -326,7 +340,7 @@ class History:
             return self.start
         if time < self.newest_stamp:
             return self.index(time) + 1
-        return self._count()
+        return self.count
 
     def index(self, time: Stamp) -> int:
         """Where the last sample at or before `time` lies; oldest <= time < newest.
@@ -335,7 +349,7 @@ class History:
         """
         records = self.records
         # The sample at `low` is not later than the moment, the one at `high` is.
-        low, high = self.start, self._count() - 1
+        low, high = self.start, self.count - 1
         self.period = period = max(1, (self.newest_stamp - self.oldest_stamp) // (high - low))
         guess = low + (time - self.oldest_stamp) // period
         for _ in range(2):
@@ -383,7 +397,7 @@ class History:
         if not validated:
             # NaN is not below anything; nor is a place so far off that it cannot be told from it.
             if not (
-                isinstance(stamp, int)
+                stamp.__class__ is int
                 and SHORTEST < qx * qx + qy * qy + qz * qz + qw * qw < LONGEST
                 and x + y + z < inf
             ):
@@ -395,10 +409,15 @@ class History:
                 qw *= -1.0
                 sample = (x, y, z, qx, qy, qz, qw)
         newest = self.newest_stamp
-        record = _pack(stamp, x, y, z, qx, qy, qz, qw)
         if stamp <= newest:
+            record = array("q", _pack(stamp, x, y, z, qx, qy, qz, qw))
             return self._insert_late(stamp, origin, sample, record)
-        records = self.records
+        records = self._own() if self._borrowed else self.records
+        try:
+            _pack_into(records, RECORD * self.count, stamp, x, y, z, qx, qy, qz, qw)
+        except struct.error:
+            records = self._make_room_behind()
+            _pack_into(records, RECORD * self.count, stamp, x, y, z, qx, qy, qz, qw)
         if newest > self._prune_after:
             # As a rule every sample that comes prunes one.
             start = self.start + 1
@@ -409,10 +428,8 @@ class History:
             else:
                 self.start = start
                 self.oldest_stamp = oldest
-                self._prune_after = prune_after
-        if self._borrowed:
-            records = self._own()
-        records.frombytes(record)
+                self._prune_after = min(prune_after, _LATEST_STAMP)
+        self.count += 1
         self.newest_stamp = stamp
         self.newest = sample
         self._newest_pair = None
@@ -430,7 +447,7 @@ class History:
 
     def _append_origin(self, origin: int) -> int:
         """Note the origin of the sample just appended."""
-        count = self._count()
+        count = self.count
         parent = origin & PARENT_MASK
         if self.parent == NO_PARENT:
             self.parent = parent
@@ -454,13 +471,13 @@ class History:
             origins = self.origins = array("q", [self.origin]) * count
         return origins
 
-    def _insert_late(self, stamp: Stamp, origin: int, sample: Any, record: bytes) -> int:
+    def _insert_late(self, stamp: Stamp, origin: int, sample: Any, record: "array[int]") -> int:
         """Insert the first sample, or one that is not newer than all others."""
-        records = self._own() if self._borrowed else self.records
         newest = self.newest_stamp
         parent = origin & PARENT_MASK
         if self.newest is None:
-            records.frombytes(record)
+            self.records = record
+            self.count = 1
             self._begin(0)
             self.newest_stamp = stamp
             self.newest = sample
@@ -473,7 +490,7 @@ class History:
             return TOO_OLD
         place = self._after(stamp)
         behind = place - 1
-        while behind >= self.start and records[WORDS * behind] == stamp:
+        while behind >= self.start and self._stamp(behind) == stamp:
             if self._sample(behind) == sample and self._parent(behind) == parent:
                 return KNOWN
             behind -= 1
@@ -481,24 +498,25 @@ class History:
         changes = parent != self.parent
         origins = self.origins
         if origin != self.origin:
-            origins = self._note_origins(self._count())
+            origins = self._note_origins(self.count)
         if changes and not self.mixed:
             self.mixed = True
             self._newest_parent_start = self.start
         if place == self.start:
             place = self._make_room_in_front()
-            records[WORDS * place : WORDS * (place + 1)] = array("q", record)
+            self.records[WORDS * place : WORDS * (place + 1)] = record
             if origins is not None:
                 origins[place] = origin
             self._begin(place)
         else:
-            records[WORDS * place : WORDS * place] = array("q", record)
+            self._splice(place, place, record)
+            self.count += 1
             if origins is not None:
                 origins.insert(place, origin)
             if place < self._newest_parent_start:
                 self._newest_parent_start += 1
         self._newest_pair = None
-        if place == self._count() - 1:
+        if place == self.count - 1:
             # Equal to the newest stamp: the one that came last is in front.
             self.newest = sample
             self.origin = origin
@@ -509,16 +527,51 @@ class History:
             self._newest_parent_start = place + 1
         return PARENT_CHANGED if changes else STORED
 
+    def _make_room_behind(self) -> "array[int]":
+        """Have room for more samples behind the newest one."""
+        room = max(_LEAST_ROOM, self.count >> _ROOM)
+        self._splice(self.count, self.count, array("q", bytes(RECORD * room)))
+        return self.records
+
     def _make_room_in_front(self) -> int:
         """The free place before the oldest sample; samples that arrive backwards go there."""
         if self.start == 0:
-            room = max(_LEAST_SLACK, self._count() >> _SLACK)
-            self.records[0:0] = array("q", bytes(RECORD * room))
+            room = max(_LEAST_SLACK, self.count >> _SLACK)
+            self._splice(0, 0, array("q", bytes(RECORD * room)))
             if self.origins is not None:
                 self.origins[0:0] = array("q", [self.origin]) * room
             self.start = room
+            self.count += room
             self._newest_parent_start += room
+        elif self._borrowed or self._is_read():
+            # That place may hold a sample which was pruned after the batch began.
+            self._own()
         return self.start - 1
+
+    def _splice(self, start: int, stop: int, words: "array[int]") -> None:
+        """Put records in place of those from `start` up to, but not including, `stop`."""
+        where = slice(WORDS * start, WORDS * stop)
+        if not self._borrowed:
+            try:
+                self.records[where] = words
+            except BufferError:
+                # A batch reads them, which keeps the array as it is.
+                pass
+            else:
+                return
+        records = self.records[:]
+        records[where] = words
+        self.records = records
+        self._borrowed = False
+
+    def _is_read(self) -> bool:
+        """Whether a batch reads the records right now."""
+        try:
+            self.records.append(0)
+            self.records.pop()
+        except BufferError:
+            return True
+        return False
 
     # Many at once
 
@@ -531,9 +584,9 @@ class History:
         if self.newest_stamp < oldest_kept:
             self.replace(records, array("q", [self.origin]) * (len(records) // WORDS))
             return
-        if self._borrowed:
-            self._own()
-        self.records.extend(records)
+        # In place of the room behind the newest one.
+        self._splice(self.count, len(self.records) // WORDS, records)
+        self.count += len(records) // WORDS
         self._note_newest()
         if self.oldest_stamp < oldest_kept:
             self._prune(oldest_kept)
@@ -541,8 +594,9 @@ class History:
     def replace(self, records: "array[int]", origins: "array[int]") -> None:
         """Remember these instead: not none, oldest first, of equal stamps the newest last."""
         self.records = records
+        self.count = len(records) // WORDS
         self._borrowed = False
-        self._compact_at = max(_LEAST_SLACK, len(origins) >> _SLACK)
+        self._compact_at = max(_LEAST_SLACK, self.count >> _SLACK)
         self._begin(0)
         self._note_newest()
         self.origin = origins[-1]
@@ -557,7 +611,6 @@ class History:
         They are copied only when something is inserted or pruned.
         """
         self.replace(records, array("q", [origin]))
-        self._compact_at = max(_LEAST_SLACK, self._count() >> _SLACK)
         self._borrowed = True
 
     def _own(self) -> "array[int]":
@@ -570,14 +623,14 @@ class History:
         """Where the newest samples that share a parent begin."""
         if self.origins is None:
             return self.start
-        first = self._count() - 1
+        first = self.count - 1
         while first > self.start and self._parent(first - 1) == self.parent:
             first -= 1
         return first
 
     def _note_newest(self) -> None:
         """Keep the newest sample at hand."""
-        last = self._count() - 1
+        last = self.count - 1
         self.newest_stamp, self.newest = self._stamp(last), self._sample(last)
         self._newest_pair = None
 
@@ -585,8 +638,6 @@ class History:
 
     def _prune(self, oldest_kept: Stamp) -> None:
         """Let go of samples before that stamp; the newest is not one of them."""
-        if self._borrowed:
-            self._own()
         start = self.start + 1
         if self._stamp(start) < oldest_kept:
             # Where equal stamps are the oldest, all of them stay.
@@ -594,21 +645,22 @@ class History:
         if self.mixed and start >= self._newest_parent_start:
             self.mixed = False
         if start >= self._compact_at:
-            del self.records[: WORDS * start]
+            self._splice(0, start, array("q"))
+            self.count -= start
             if self.origins is not None:
                 del self.origins[:start]
                 if self.origins.count(self.origin) == len(self.origins):
                     self.origins = None
             self._newest_parent_start -= start
             start = 0
-            self._compact_at = max(_LEAST_SLACK, self._count() >> _SLACK)
+            self._compact_at = max(_LEAST_SLACK, self.count >> _SLACK)
         self._begin(start)
 
     def _begin(self, start: int) -> None:
         """Have the samples begin at a record."""
         self.start = start
         self.oldest_stamp = oldest = self._stamp(start)
-        self._prune_after = oldest + self.limit
+        self._prune_after = min(oldest + self.limit, _LATEST_STAMP)
 
 
 Link: TypeAlias = StaticLink | History

@@ -5,7 +5,7 @@ path answers nothing: the tree's walk then says why, or finds a way that a path 
 """
 
 from collections.abc import Iterable
-from typing import Final
+from typing import Final, NamedTuple
 
 from tftool.frames.history import IDENTITY, History, Link, Sample, StaticLink
 from tftool.frames.tree import FrameTree, Walk
@@ -16,8 +16,10 @@ from tftool.stamps import Stamp
 _new: Final = tuple.__new__
 
 
-class Path:
+class Path(NamedTuple):
     """The links from source up to where the two sides meet, and from target up to there.
+
+    A plain tuple, which the native kernel reads as well: see `native`.
 
     Attributes:
         up: Links from the source upward.
@@ -25,14 +27,9 @@ class Path:
         moving: Those of them that are not static.
     """
 
-    __slots__ = ("down", "moving", "up")
-
-    def __init__(self, up: Iterable[Link], down: Iterable[Link]) -> None:
-        self.up = folded(up)
-        self.down = folded(down)
-        self.moving: tuple[History, ...] = tuple(
-            [link for link in self.up + self.down if isinstance(link, History)]
-        )
+    up: tuple[Link, ...]
+    down: tuple[Link, ...]
+    moving: tuple[History, ...]
 
     def latest(self) -> Stamp:
         """The newest moment for which every link has data; 0 if none of them moves."""
@@ -104,8 +101,6 @@ def _folded_run(run: list[Link]) -> list[Link]:
 def path_of(tree: FrameTree, walk: Walk) -> Path:
     """The path of a walk that arrived."""
     frames = tree.frames
-    up = [frames[number].link for number in walk.up]
-    down = [frames[number].link for number in walk.down]
-    return Path(
-        [link for link in up if link is not None], [link for link in down if link is not None]
-    )
+    up = folded(link for number in walk.up if (link := frames[number].link) is not None)
+    down = folded(link for number in walk.down if (link := frames[number].link) is not None)
+    return Path(up, down, tuple([link for link in up + down if isinstance(link, History)]))

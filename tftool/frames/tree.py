@@ -8,6 +8,7 @@ which accepts old publishers and points the mistake out to the program that asks
 """
 
 from collections.abc import Iterable
+from typing import NamedTuple
 
 from tftool.frames.history import AUTHORITY_SHIFT, NO_PARENT, History, Link, StaticLink
 from tftool.stamps import Duration, Stamp
@@ -75,25 +76,33 @@ class Frame:
         number: Its place in the order of first registration.
         link: What it hangs by; None if no sample of it was ever set.
         authority: Who sent its newest sample; None if no sample of it was ever set.
-        parent_name: The parent that sample was sent with.
-        origin: That parent's number and that of `authority`, as `history` packs them.
     """
 
-    __slots__ = ("authority", "link", "name", "number", "origin", "parent_name")
+    __slots__ = ("authority", "link", "name", "number")
 
     def __init__(self, name: str, number: int) -> None:
         self.name = name
         self.number = number
         self.link: Link | None = None
         self.authority: str | None = None
-        self.parent_name: str = ""
-        self.origin: int = NO_PARENT
 
-    def note(self, parent_name: str, authority: str, origin: int) -> None:
-        """Note where an accepted sample came from."""
-        self.parent_name = parent_name
-        self.authority = authority
-        self.origin = origin
+
+class Sender(NamedTuple):
+    """Where the newest sample of a link that moves came from, and the link; for the next one.
+
+    A plain tuple, which the native kernel reads as well: see `native`.
+
+    Attributes:
+        parent_name: The parent it was sent with.
+        authority: Who sent it.
+        origin: That parent's number and that of `authority`, as `history` packs them.
+        link: What the child hangs by.
+    """
+
+    parent_name: str
+    authority: str | None
+    origin: int
+    link: History
 
 
 class Walk:
@@ -144,7 +153,7 @@ class FrameTree:
     Attributes:
         frames: In the order in which they were first registered.
         numbers: Each frame's place in that order.
-        moving: By name, each frame whose link moves, and that link, for their next samples.
+        senders: By name, each frame whose link moves: for their next samples.
         authorities: Every name that a sample was sent under, in the order of their numbers.
         max_name: How many bytes a name may have.
     """
@@ -155,8 +164,8 @@ class FrameTree:
         "authorities",
         "frames",
         "max_name",
-        "moving",
         "numbers",
+        "senders",
     )
 
     def __init__(self, limit: Duration, max_name: int) -> None:
@@ -164,7 +173,7 @@ class FrameTree:
         self.max_name = max_name
         self.frames: list[Frame] = []
         self.numbers: dict[str, int] = {}
-        self.moving: dict[str, tuple[Frame, History]] = {}
+        self.senders: dict[str, Sender] = {}
         self.authorities: list[str] = [""]
         self._authority_numbers: dict[str, int] = {"": 0}
 
@@ -199,13 +208,19 @@ class FrameTree:
         if link is None or fresh:
             if static:
                 link = StaticLink()
-                self.moving.pop(child, None)
+                self.senders.pop(child, None)
             else:
                 link = History(self._limit)
-                self.moving[child] = frame, link
+                self.senders[child] = Sender("", None, NO_PARENT, link)
             frame.link = link
         self.register(parent)
         return frame, link, fresh
+
+    def note(self, frame: Frame, parent: str, authority: str, origin: int) -> None:
+        """Note where an accepted sample of a frame came from."""
+        frame.authority = authority
+        if isinstance(frame.link, History):
+            self.senders[frame.name] = Sender(parent, authority, origin, frame.link)
 
     def origin(self, parent: str, authority: str) -> int:
         """A registered parent's and an authority's number in one word; see `history`."""

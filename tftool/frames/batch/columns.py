@@ -23,8 +23,11 @@ _MOST_STEPS = 3
 class Column:
     """What a moving link remembered when it was asked: its samples, oldest first.
 
+    As long as it lives, the records it was made of stay as they are; see `History.columns`.
+
     Attributes:
-        stamps: Nanoseconds, shape (k,).
+        records: As they lie in memory, shape (k, 8); see `history`.
+        stamps: Nanoseconds, shape (k,); a copy, made when first asked for, like `samples`.
         samples: x, y, z and a unit quaternion x, y, z, w, shape (k, 7).
         origin: The newest sample's parent and authority in one word; see `history`.
         origins: A parent's and an authority's number in one word for each sample; see `history`.
@@ -32,13 +35,13 @@ class Column:
         parents: A parent's number for each sample; None where all have the same one.
     """
 
-    __slots__ = ("origin", "origins", "parents", "samples", "stamps")
+    __slots__ = ("_samples", "_stamps", "origin", "origins", "parents", "records")
 
     def __init__(self, history: History) -> None:
         flat, origins, self.origin = history.columns()
-        records = np.frombuffer(flat, dtype=np.int64).reshape(-1, WORDS)
-        self.stamps: Stamps = np.ascontiguousarray(records[:, 0])
-        self.samples: Floats = np.ascontiguousarray(records.view(np.float64)[:, 1:])
+        self.records: npt.NDArray[np.int64] = np.frombuffer(flat, dtype=np.int64).reshape(-1, WORDS)
+        self._stamps: Stamps | None = None
+        self._samples: Floats | None = None
         self.origins = None if origins is None else np.frombuffer(origins, dtype=np.int64)
         self.parents: npt.NDArray[np.int32] | None = None
         if self.origins is not None:
@@ -46,15 +49,32 @@ class Column:
             if len(parents) and (parents != parents[-1]).any():
                 self.parents = parents
 
+    def __len__(self) -> int:
+        return len(self.records)
+
+    @property
+    def stamps(self) -> Stamps:
+        """See above."""
+        if self._stamps is None:
+            self._stamps = np.ascontiguousarray(self.records[:, 0])
+        return self._stamps
+
+    @property
+    def samples(self) -> Floats:
+        """See above."""
+        if self._samples is None:
+            self._samples = np.ascontiguousarray(self.records.view(np.float64)[:, 1:])
+        return self._samples
+
     @property
     def oldest(self) -> int:
         """The first stamp; later than every stamp when there is none."""
-        return int(self.stamps[0]) if len(self.stamps) else 2**63 - 1
+        return int(self.records[0, 0]) if len(self.records) else 2**63 - 1
 
     @property
     def newest(self) -> int:
         """The last stamp; earlier than every stamp when there is none."""
-        return int(self.stamps[-1]) if len(self.stamps) else -(2**63)
+        return int(self.records[-1, 0]) if len(self.records) else -(2**63)
 
     def changes(self) -> Stamps:
         """Where the parent may be another one than before: both ends, and each change."""

@@ -157,7 +157,7 @@ def insert(
             reasons["TF_OLD_DATA"] = late
             accepted &= ~late
         if not old.all():
-            frame.note(parent, authority, origin)
+            tree.note(frame, parent, authority, origin)
     refused = [] if long else np.flatnonzero(~accepted).tolist()
     if "TF_TOO_MANY_FRAMES" in reasons:
         refused = np.flatnonzero(~rows.validated).tolist()
@@ -219,7 +219,7 @@ def adopt(
     assert isinstance(history, History)
     origin = tree.origin(parent, authority)
     history.borrow(words, origin)
-    frame.note(parent, authority, origin)
+    tree.note(frame, parent, authority, origin)
     return True
 
 

@@ -136,7 +136,7 @@ class _Batch:
             assert isinstance(column, Column)
             self.first = max(self.first, column.oldest)
             self.last = min(self.last, column.newest)
-            if len(column.stamps) > kernel.MOST_INTERVALS:
+            if len(column) > kernel.MOST_INTERVALS:
                 self.sorts = True
         self.rows_at_once = SECTION if self.sorts else CHUNK
         # There the intervals are worked out anew for each block, which takes room as well.

@@ -1,0 +1,131 @@
+"""The build hook: the native kernel, where there is a C compiler and Python's headers.
+
+Without either, on a Python that is not CPython or runs without a GIL, or with `TFTOOL_PURE=1`,
+the package is plain Python and means the same; `tftool --version` says which one runs. One build
+serves every CPython from 3.11 on. An editable install gets the kernel next to the sources.
+"""
+
+import os
+import shlex
+import shutil
+import subprocess
+import sys
+import sysconfig
+import tempfile
+from pathlib import Path
+from typing import Any
+
+from hatchling.builders.hooks.plugin.interface import BuildHookInterface
+
+SOURCE = "tftool/frames/_kernel.c"
+
+# The same operations in the same order as in Python: nothing fused, nothing reordered.
+EXACT = ("-O3", "-std=c11", "-ffp-contract=off", "-fno-math-errno", "-fno-trapping-math")
+
+WINDOWS = sys.platform == "win32"
+SUFFIX = ".pyd" if WINDOWS else ".abi3.so"
+
+# MSVC is found by setuptools, which knows where Visual Studio puts it.
+SETUP = """
+import sys
+from setuptools import Extension, setup
+
+source, folder = sys.argv[1:]
+kernel = Extension(
+    "_kernel", [source], py_limited_api=True, extra_compile_args=["/O2", "/fp:precise"]
+)
+sys.argv[1:] = ["build_ext", "--build-lib", folder, "--build-temp", folder]
+setup(name="kernel", packages=[], py_modules=[], ext_modules=[kernel])
+"""
+
+
+class KernelBuild(BuildHookInterface):  # type: ignore[misc]
+    """Build the kernel if that is possible here."""
+
+    PLUGIN_NAME = "custom"
+
+    def dependencies(self) -> list[str]:
+        """What is needed to build, beyond hatchling."""
+        return ["setuptools>=65"] if WINDOWS else []
+
+    def initialize(self, version: str, build_data: dict[str, Any]) -> None:
+        """Build it and put it into the wheel, or say why not."""
+        if self.target_name != "wheel":
+            return
+        if reason := unfit():
+            self.app.display_info(f"plain Python: {reason}")
+            return
+        root = Path(self.root)
+        self.folder = Path(tempfile.mkdtemp(prefix="tftool-kernel-"))
+        built = self.folder / f"_kernel{SUFFIX}"
+        if reason := build(root / SOURCE, built):
+            self.app.display_warning(f"plain Python, the native kernel does not build: {reason}")
+            return
+        place = Path(SOURCE).with_name(built.name)
+        if version == "editable":
+            # A new file under the name: a program that runs keeps the one it has loaded.
+            copy = root / f"{place}.new"
+            shutil.copy(built, copy)
+            copy.replace(root / place)
+        else:
+            build_data["force_include"][str(built)] = place.as_posix()
+        build_data["pure_python"] = False
+        build_data["tag"] = f"cp311-abi3-{platform()}"
+
+    def finalize(self, version: str, build_data: dict[str, Any], artifact_path: str) -> None:
+        """Leave nothing behind."""
+        if hasattr(self, "folder"):
+            shutil.rmtree(self.folder)
+
+
+def unfit() -> str:
+    """Why no kernel is built on this Python; empty if it can be."""
+    if os.environ.get("TFTOOL_PURE", "") not in ("", "0"):
+        return "TFTOOL_PURE asks for it"
+    if sys.implementation.name != "cpython":
+        return f"the native kernel is for CPython, and this is {sys.implementation.name}"
+    if sysconfig.get_config_var("Py_GIL_DISABLED"):
+        return "the native kernel needs a GIL, and this Python runs without"
+    if not Path(sysconfig.get_path("include"), "Python.h").exists():
+        return "there is no Python.h (Debian's is in python3-dev)"
+    return ""
+
+
+def build(source: Path, target: Path) -> str:
+    """Compile; why that failed, or an empty text."""
+    try:
+        done = subprocess.run(
+            command(source, target), capture_output=True, text=True, check=False, cwd=target.parent
+        )
+    except OSError as missing:
+        return f"no compiler: {missing}"
+    if done.returncode:
+        return f"{done.stdout}{done.stderr}".strip()
+    if not target.exists():
+        target.with_name(next(path.name for path in target.parent.glob("_kernel*.pyd"))).replace(
+            target
+        )
+    return ""
+
+
+def command(source: Path, target: Path) -> list[str]:
+    """What compiles it. `CC`, `CFLAGS`, `LDFLAGS` and `ARCHFLAGS` are kept to, as is the custom."""
+    if WINDOWS:
+        return [sys.executable, "-c", SETUP, str(source), str(target.parent)]
+    told = {name: shlex.split(os.environ.get(name, "")) for name in ("CC", "CFLAGS", "LDFLAGS")}
+    compiler = told["CC"] or shlex.split(sysconfig.get_config_var("CC") or "cc")[:1]
+    if shutil.which(compiler[0]) is None:
+        # Python may have been built elsewhere, by a compiler that is not here.
+        compiler = ["cc"]
+    kind = ["-shared"]
+    if sys.platform == "darwin":
+        kind = ["-bundle", "-undefined", "dynamic_lookup"]
+        kind += shlex.split(os.environ.get("ARCHFLAGS", ""))
+    include = f"-I{sysconfig.get_path('include')}"
+    options = [*EXACT, "-fPIC", "-fvisibility=hidden", include, *told["CFLAGS"], *kind]
+    return [*compiler, *options, str(source), "-o", str(target), *told["LDFLAGS"], "-lm"]
+
+
+def platform() -> str:
+    """The wheel's platform, as this Python has it."""
+    return sysconfig.get_platform().replace("-", "_").replace(".", "_")

@@ -1,0 +1,264 @@
+"""The native kernel against the plain path: one meaning, to the last bit."""
+
+import math
+import struct
+from array import array
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from tests.strategies import transforms
+from tests.twins import REASON, Twins, is_native
+from tftool.frames.buffer import Buffer
+from tftool.frames.sample import TransformStamped
+from tftool.geometry.rigid import Quaternion, Transform, Vector3
+from tftool.stamps import seconds
+
+pytestmark = pytest.mark.skipif(not is_native(), reason=REASON)
+
+FRAMES = ("a", "b", "c", "d")
+
+unusual = st.sampled_from(
+    [
+        Transform((1, 2, 3)),
+        Transform((math.inf, 0.0, 0.0)),
+        Transform((-math.inf, 0.0, -0.0)),
+        Transform((0.0, 0.0, 0.0), (0.0, 0.0, 0.0, -3.0)),
+        Transform((0.0, 0.0, 0.0), (1e-9, 0.0, 0.0, 1.0)),
+        tuple.__new__(Transform, (Vector3(math.nan, 0.0, 0.0), Quaternion(0.0, 0.0, 0.0, 1.0))),
+        tuple.__new__(Transform, (Vector3(0.0, 0.0, 0.0), Quaternion(0.0, 0.0, 0.0, 0.0))),
+        tuple.__new__(Transform, ((0.0, 1.0, 0.0), (0.0, 0.0, 0.0, 1.0))),
+        tuple.__new__(Transform, ((0.0, 1.0), (0.0, 0.0, 0.0, 1.0))),
+    ]
+)
+stamps = st.one_of(
+    st.integers(1, 40).map(lambda number: number * 10**8),
+    st.sampled_from([0, -5, 7, True, 10**17, 2**62, 2**63 - 1, -(2**63), 2**63, 10**30, 1.5]),
+)
+samples = st.tuples(
+    st.just("set_transform"),
+    st.builds(
+        TransformStamped,
+        stamps,
+        st.sampled_from(FRAMES),
+        st.sampled_from((*FRAMES, "/b", "")),
+        st.one_of(transforms, unusual),
+    ),
+    st.sampled_from(["", "me", "you"]),
+)
+statics = st.tuples(
+    st.just("set_transform_static"),
+    st.builds(TransformStamped, stamps, st.just("b"), st.just("c"), transforms),
+    st.just("me"),
+)
+lookups = st.tuples(
+    st.just("lookup_transform"),
+    st.sampled_from((*FRAMES, "/a", "nowhere")),
+    st.sampled_from(FRAMES),
+    st.one_of(stamps, st.integers(1, 4 * 10**9)),
+)
+others = st.sampled_from([("clear",), ("snapshot", 10**10), ("snapshot", 10**10, 10**9)])
+
+
+def bits(value):
+    """A value as text that tells -0.0 from 0.0 and one NaN from none."""
+    if isinstance(value, float):
+        return struct.pack("d", value) if value == value else "nan"
+    if isinstance(value, dict):
+        return {key: bits(each) for key, each in value.items()}
+    if isinstance(value, tuple | list):
+        return type(value).__name__, [bits(each) for each in value]
+    return repr(value)
+
+
+@given(st.lists(st.one_of(samples, samples, lookups, lookups, statics, others), max_size=25))
+@settings(max_examples=300)
+def test_whatever_is_set_and_asked_both_answer_alike(calls):
+    twins = Twins(seconds(2))
+
+    for call in calls:
+        ours, plain = twins.ask(*call)
+        assert bits(ours) == bits(plain)
+    assert twins.logs[0] == twins.logs[1]
+
+
+@given(st.lists(transforms, min_size=2, max_size=8), st.lists(st.integers(1, 9 * 10**8)))
+def test_between_samples_both_give_the_same_bits(poses, moments):
+    twins = Twins(seconds(100))
+    for number, pose in enumerate(poses):
+        for parent, child in (("a", "b"), ("c", "b"), ("c", "d")):
+            stamp = 10**8 * (number + 1) + 10**6 * len(child + parent) * (number % 3)
+            # b hangs from a; c has children of its own.
+            if (parent, child) != ("c", "b"):
+                twins.ask("set_transform", TransformStamped(stamp, parent, child, pose))
+        twins.ask("set_transform", TransformStamped(10**8 * (number + 1), "a", "c", pose))
+
+    for moment in [0, *moments, *(10**8 * (number + 1) for number in range(len(poses)))]:
+        for target, source in (("a", "b"), ("d", "b"), ("b", "d"), ("c", "d")):
+            ours, plain = twins.ask("lookup_transform", target, source, moment)
+            assert bits(ours) == bits(plain)
+
+
+def test_a_history_of_many_sizes_keeps_the_same_samples():
+    twins = Twins(seconds(1))
+    pose = Transform((1.0, 2.0, 3.0), (0.0, 0.0, 0.6, -0.8))
+    for number in range(1, 400):
+        late = -17 * 10**7 if number % 7 == 0 else 0
+        stamp = 10**9 + number * 10**7 + late
+        ours, plain = twins.ask("set_transform", TransformStamped(stamp, "a", "b", pose), "me")
+        assert ours == plain
+        ours, plain = twins.ask("samples", "b")
+        assert ours.stamps.tolist() == plain.stamps.tolist()
+        assert ours.poses.tobytes() == plain.poses.tobytes()
+
+
+def test_answers_are_of_the_types_they_always_were():
+    buffer = Buffer()
+    buffer.set_transform(TransformStamped(5, "a", "b", Transform((1.0, 2.0, 3.0))))
+    buffer.lookup_transform("a", "b")
+
+    found = buffer.lookup_transform("a", "b")
+
+    assert found == TransformStamped(5, "a", "b", Transform((1.0, 2.0, 3.0)))
+    assert [type(part) for part in (found, found.transform, *found.transform)] == [
+        TransformStamped,
+        Transform,
+        Vector3,
+        Quaternion,
+    ]
+    assert hash(found) == hash(TransformStamped(5, "a", "b", Transform((1.0, 2.0, 3.0))))
+
+
+# What no code of ours hands over, and the kernel must survive.
+
+LENGTHS = st.sampled_from([0, 1, 7, 8, 9, 63, 64, 65, 128, 256, 1000])
+NUMBERS = st.one_of(
+    st.integers(-3, 40), st.sampled_from([-(2**63), 2**63 - 1, 2**62, 2**58, -(2**58), 10**17])
+)
+BYTES = st.builds(bytearray, LENGTHS)
+
+
+@st.composite
+def hostile_buffers(draw):
+    content = draw(st.sampled_from([b"", bytes(64), bytes(range(256)) * 4, b"\xff" * 640]))
+    kind = draw(st.sampled_from(["array", "bytes", "bytearray", "view", "none", "list", "odd"]))
+    words = array("q")
+    words.frombytes(content[: len(content) // 8 * 8])
+    return {
+        "array": words,
+        "bytes": content,
+        "bytearray": bytearray(content),
+        "view": memoryview(words)[: draw(st.integers(0, 30))],
+        "none": None,
+        "list": [1, 2],
+        "odd": memoryview(bytearray(content + b"123"))[1:],
+    }[kind]
+
+
+@given(st.data())
+@settings(max_examples=300)
+def test_fields_that_no_history_has_are_survived(data):
+    from tftool.frames import _kernel
+    from tftool.frames.history import History
+
+    link = History(10**9)
+    for stamp in (1, 2, 3):
+        link.insert(stamp * 10**9, 5, (0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 1.0))
+    for name in data.draw(
+        st.lists(st.sampled_from(["start", "count", "newest_stamp", "oldest_stamp", "limit"]))
+    ):
+        setattr(link, name, data.draw(NUMBERS))
+    for name in ("_prune_after", "_compact_at"):
+        if data.draw(st.booleans()):
+            setattr(link, name, data.draw(NUMBERS))
+    if data.draw(st.booleans()):
+        link.records = data.draw(hostile_buffers())
+    path = ((link,), (link,) * data.draw(st.integers(0, 2)), (link,))
+    moment = data.draw(NUMBERS)
+
+    assert _kernel.at(link, moment) is None or len(_kernel.at(link, moment)) == 7
+    found = _kernel.lookup({"a": {"b": path}}, "a", "b", moment)
+    assert found is None or isinstance(found, TransformStamped)
+    sample = TransformStamped(moment, "a", "b", Transform())
+    done = _kernel.insert({"b": ("a", "", 5, link)}, sample, "")
+    assert done in (True, False)
+
+
+@given(st.data())
+@settings(max_examples=300)
+def test_lengths_that_no_batch_has_are_survived(data):
+    from tftool.frames import _kernel
+
+    anything = st.one_of(
+        hostile_buffers(),
+        st.just((0.0,) * 7),
+        st.just((0,) * 7),
+        st.tuples(hostile_buffers(), hostile_buffers()),
+        st.tuples(hostile_buffers(), st.none()),
+    )
+    up = tuple(data.draw(st.lists(anything, max_size=3)))
+    down = tuple(data.draw(st.lists(anything, max_size=3)))
+    n = data.draw(st.integers(0, 4))
+    sizes = [8, 24, 32, 1]
+    wrong = data.draw(st.integers(-1, 6))
+    if 0 <= wrong < 4:
+        sizes[wrong] += 1
+    arrays = [bytearray(size * n) for size in sizes]
+
+    try:
+        missing = _kernel.solve(up, down, *arrays)
+    except (TypeError, ValueError, BufferError):
+        return
+    assert 0 <= missing <= n
+
+
+@pytest.mark.parametrize("arguments", [(), (1,), (1, 2, 3, 4), ({}, 1, 2, 3, 4, 5, 6)])
+@pytest.mark.parametrize("name", ["lookup", "at", "insert", "solve"])
+def test_wrong_arguments_are_told(name, arguments):
+    from tftool.frames import _kernel
+
+    if (name, len(arguments)) == ("lookup", 4):
+        arguments = (1,)
+    with pytest.raises(TypeError, match="takes"):
+        getattr(_kernel, name)(*arguments)
+
+
+@pytest.mark.parametrize(
+    "sender",
+    [None, (), (1, 2, 3, 4), ("a", None, 5, None), ("a", "", "five", None), ("a", "", 5, "link")],
+)
+def test_a_sender_that_is_none_is_left_to_the_plain_path(sender):
+    from tftool.frames import _kernel
+
+    sample = TransformStamped(1, "a", "b", Transform())
+
+    assert not _kernel.insert({"b": sender}, sample, "")
+
+
+@pytest.mark.parametrize("path", [None, (), (1, 2, 3), ((1,), (), ()), ((), (), (1,))])
+def test_a_path_that_is_none_is_left_to_the_plain_path(path):
+    from tftool.frames import _kernel
+
+    assert _kernel.lookup({"a": {"b": path}}, "a", "b", 0) is None
+
+
+def test_a_batch_and_inserts_go_together():
+    # What a batch reads cannot grow; the insert takes a copy, and the batch keeps what it has.
+    from tftool.frames.batch.columns import Column
+
+    buffer = Buffer(seconds(1))
+    pose = Transform((1.0, 0.0, 0.0))
+    for number in range(1, 200):
+        buffer.set_transform(TransformStamped(number * 10**7, "a", "b", pose))
+    column = Column(buffer._tree.frames[0].link)
+    before = column.records.copy()
+
+    for number in range(200, 600):
+        stamp = number * 10**7 - (3 * 10**7 if number % 5 == 0 else 0)
+        assert buffer.set_transform(TransformStamped(stamp, "a", "b", pose))
+        assert buffer.set_transform(TransformStamped(stamp - 9 * 10**8, "a", "b", pose))
+
+    assert np.array_equal(column.records, before)
+    assert buffer.lookup_transform("a", "b").stamp == 599 * 10**7
