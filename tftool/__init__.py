@@ -5,6 +5,8 @@
 TYPE_CHECKING = False
 
 if TYPE_CHECKING:
+    from tftool.comparing.asking import diff
+    from tftool.comparing.compare import Differences
     from tftool.diagnostics.asking import diagnose, explain
     from tftool.diagnostics.explanation import Explanation
     from tftool.diagnostics.findings import Finding
@@ -47,6 +49,7 @@ __all__ = [
     "Buffer",
     "Clock",
     "ConnectivityException",
+    "Differences",
     "Explanation",
     "Exported",
     "ExtrapolationException",
@@ -79,6 +82,7 @@ __all__ = [
     "World",
     "as_seconds",
     "diagnose",
+    "diff",
     "explain",
     "export",
     "live",
@@ -118,6 +122,8 @@ _HOMES = {
     "tftool.runtime.node": ("Node",),
     "tftool.runtime.supervisor": ("live",),
     "tftool.runtime.world": ("World",),
+    "tftool.comparing.asking": ("diff",),
+    "tftool.comparing.compare": ("Differences",),
     "tftool.diagnostics.asking": ("diagnose", "explain"),
     "tftool.diagnostics.explanation": ("Explanation",),
     "tftool.diagnostics.findings": ("Finding",),

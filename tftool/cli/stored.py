@@ -20,7 +20,7 @@ from tftool.cli.hosting import (
     refuse_to_share,
 )
 from tftool.cli.notices import notice
-from tftool.errors import UsageError
+from tftool.errors import LinkError, UsageError
 from tftool.sources.find import Kind
 from tftool.stamps import Duration, Stamp, as_seconds, seconds
 
@@ -52,6 +52,7 @@ def stored_frames(
     lasting: Duration | None = None,
     *,
     listen: Duration = LISTEN_LIVE,
+    is_one_of_several: bool = False,
 ) -> StoredFrames:
     """All frames that FROM names, over the whole of its time.
 
@@ -60,6 +61,7 @@ def stored_frames(
         word: What FROM names; None for the session that runs, else the turtle world.
         lasting: How long a scenario is played or a session listened to, nanoseconds.
         listen: How long a session is listened to where `lasting` is None.
+        is_one_of_several: Whether `lasting` may be meant for another of several sources.
 
     Raises:
         InputError: If the word names nothing, or it cannot be read.
@@ -68,17 +70,33 @@ def stored_frames(
     """
     found = None if word is None else named(word)
     if found is not None and found.kind is not Kind.SCENARIO:
-        if lasting is not None:
+        if lasting is not None and not is_one_of_several:
             raise UsageError("--for is for what goes on; of a recording, --to leaves out the rest.")
-        refuse_to_share(connection, word)
+        if not is_one_of_several:
+            refuse_to_share(connection, word)
         return connection.open_stored(found)
     session = join_session(connection) if word is None else None
     if session is not None:
-        lasting = lasting or listen
-        notice(f"Listening for {as_seconds(lasting):g} s ...")
-        return _heard(session, lasting)
+        return _listened(session, lasting or listen)
     session = open_session(connection, word, simulated=True, because=NO_SESSION)
     return _heard(session, lasting or session.duration or LISTEN)
+
+
+def session_frames(connection: Connection, lasting: Duration) -> HeardFrames:
+    """What the session that runs broadcasts.
+
+    Raises:
+        LinkError: If none runs.
+    """
+    session = join_session(connection)
+    if session is None:
+        raise LinkError("No session is running here: start one with 'tftool demo'.")
+    return _listened(session, lasting)
+
+
+def _listened(session: Session, lasting: Duration) -> HeardFrames:
+    notice(f"Listening for {as_seconds(lasting):g} s ...")
+    return _heard(session, lasting)
 
 
 def _heard(session: Session, lasting: Duration) -> HeardFrames:
