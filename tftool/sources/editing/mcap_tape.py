@@ -18,6 +18,7 @@ from tftool.stamps import Stamp
 
 _U16, _U32, _U64 = struct.Struct("<H"), struct.Struct("<I"), struct.Struct("<Q")
 _FOOTER_SIZE: Final = 37
+_DATA_END_SIZE: Final = 13
 _LARGEST_SUMMARY: Final = 1 << 30
 _LATEST: Final = 2**63 - 1
 
@@ -44,6 +45,7 @@ class McapTape:
         self.channels: dict[int, Channel] = {}
         self.schemas: dict[int, tuple[str, str, bytes]] = {}
         self.schema_of: dict[int, int] = {}
+        self.is_indexed = False
         self.extras = Extras()
         self.damage: list[str] = []
         self.style: dict[str, Any] = {
@@ -58,6 +60,7 @@ class McapTape:
         if self._file.up_to(0, len(MCAP_MAGIC)) != MCAP_MAGIC:
             self.close()
             raise InputError(f"'{path}' is no MCAP file.")
+        self._read_style()
         try:
             self.is_indexed = self._read_summary()
         except (InputError, struct.error) as error:
@@ -67,6 +70,25 @@ class McapTape:
     def close(self) -> None:
         """Close the file."""
         self._file.close()
+
+    def _read_style(self) -> None:
+        """Find out by its first records how it is written."""
+        position = len(MCAP_MAGIC)
+        try:
+            while position + 9 <= self.size:
+                code, length = format.RECORD.unpack(self._file.at(position, 9))
+                if code == format.HEADER:
+                    head = self._file.at(position + 9, length)
+                    self.style["profile"], place = _text(head, 0)
+                    self.style["library"], _ = _text(head, place)
+                elif code == format.CHUNK:
+                    McapChunk(self, position, min(position + 9 + length, self.size), False)
+                    return
+                elif code in (0, format.MESSAGE, format.DATA_END, format.FOOTER):
+                    return
+                position += 9 + length
+        except (InputError, struct.error):
+            return
 
     def _read_summary(self) -> bool:
         size = self.size
@@ -88,6 +110,9 @@ class McapTape:
             raise InputError("its CRC is wrong")
         for code, first, last in _records(summary):
             self.learn(code, summary[first:last])
+        data_end = self._file.at(begin - _DATA_END_SIZE, _DATA_END_SIZE)
+        if data_end[0] == format.DATA_END:
+            self.style["with_crc"] = data_end[9:] != bytes(4)
         return True
 
     def learn(self, code: int, body: bytes) -> None:
@@ -113,20 +138,16 @@ class McapTape:
 
     # From front to back
 
-    def blocks(self) -> "Iterator[_Chunk | _Loose]":
+    def blocks(self) -> "Iterator[McapChunk | _Loose]":
         """Its chunks, and the messages between them."""
         position, size = len(MCAP_MAGIC), self.size
         loose: list[Taken] = []
         ended = False
-        crc_told = 0
         while position + 9 <= size:
             code, length = format.RECORD.unpack(self._file.at(position, 9))
             body, end = position + 9, position + 9 + length
             if code in (format.DATA_END, format.FOOTER):
                 ended = True
-                if code == format.DATA_END and length == 4:
-                    (crc_told,) = _U32.unpack(self._file.at(body, 4))
-                    self.style["with_crc"] = crc_told != 0
                 break
             if code == 0 or (end > size and code != format.CHUNK):
                 break
@@ -135,7 +156,7 @@ class McapTape:
                     if loose:
                         yield _Loose(loose)
                         loose = []
-                    chunk = _Chunk(self, position, min(end, size), end > size)
+                    chunk = McapChunk(self, position, min(end, size), end > size)
                     position = chunk.behind
                     yield chunk
                     continue
@@ -146,10 +167,6 @@ class McapTape:
                         loose = []
                 elif code in (format.SCHEMA, format.CHANNEL):
                     self.learn(code, self._file.at(body, length))
-                elif code == format.HEADER:
-                    head = self._file.at(body, length)
-                    self.style["profile"], place = _text(head, 0)
-                    self.style["library"], _ = _text(head, place)
                 elif code == format.ATTACHMENT:
                     self._attachment(self._file.at(body, length), position)
                 elif code == format.METADATA:
@@ -192,30 +209,36 @@ class _Loose:
         self.end = max(one.log_time for one in messages)
         self.channels: Mapping[int, int] | None = None
 
+    def sound(self) -> bool:
+        """Whether it is; there is no proof of that."""
+        return True
+
     def messages(self) -> list[Taken]:
         """Its messages."""
         return self._messages
 
 
-class _Chunk:
+class McapChunk:
     """One chunk with its message indexes; see `Block`.
 
     Attributes:
+        position: Where its record begins.
+        method: How it is compressed.
         behind: Where the record behind its message indexes begins.
-        damaged: Whether what it holds is not what was written.
     """
 
     def __init__(self, tape: McapTape, position: int, end: int, cut: bool) -> None:
         self._tape = tape
-        self._position = position
+        self.position = position
         self._end = end
         self._cut = cut
         self._found: list[Taken] | None = None
         head = tape.bytes_at(position, min(end - position, 256))
+        self._crc: int
         start, stop, self._size, self._crc, length = struct.unpack_from("<QQQII", head, 9)
         if length > 64:
             raise InputError(f"a compression's name announces {length} bytes")
-        self._method = head[41 : 41 + length].decode("utf-8", "backslashreplace")
+        self.method = head[41 : 41 + length].decode("utf-8", "backslashreplace")
         (packed,) = _U64.unpack_from(head, 41 + length)
         self._data = position + 49 + length
         self._packed = min(packed, end - self._data)
@@ -224,7 +247,7 @@ class _Chunk:
         self.start: Stamp = min(start, _LATEST)
         self.end: Stamp = min(stop, _LATEST)
         tape.style["chunked"] = True
-        tape.style["compression"] = self._method or "none"
+        tape.style["compression"] = self.method or "none"
         tape.style["with_chunk_crc"] = bool(self._crc)
         tape.style["chunk_size"] = max(tape.style["chunk_size"], self._size)
         self._offsets: dict[int, int] = {}
@@ -257,23 +280,28 @@ class _Chunk:
             self.channels = counts
 
     @property
+    def has_crc(self) -> bool:
+        """Whether it carries a CRC."""
+        return bool(self._crc)
+
+    @property
     def entry(self) -> ChunkEntry:
         """What the summary says of it."""
         return ChunkEntry(
             self.start,
             self.end,
-            self._position,
-            self._end - self._position,
+            self.position,
+            self._end - self.position,
             self._offsets,
             self.behind - self._end,
-            self._method,
+            self.method,
             self._packed,
             self._size,
         )
 
     def raw(self) -> bytes:
         """Its record and those of its message indexes."""
-        return self._tape.bytes_at(self._position, self.behind - self._position)
+        return self._tape.bytes_at(self.position, self.behind - self.position)
 
     def messages(self) -> list[Taken]:
         """Its messages, those up to the damage where there is any."""
@@ -288,7 +316,7 @@ class _Chunk:
                 else:
                     tape.learn(code, data[first:last])
         except (InputError, struct.error) as error:
-            tape.note(f"The chunk at byte {self._position} is damaged ({_reason(error)}).")
+            tape.note(f"The chunk at byte {self.position} is damaged ({_reason(error)}).")
             self.whole = False
         self._found = found
         counts: dict[int, int] = {}
@@ -299,19 +327,25 @@ class _Chunk:
         self.channels = counts
         return found
 
+    def sound(self) -> bool:
+        """Whether what it holds is what was written, as far as it carries proof of that."""
+        if self._found is None and (self.method or self._crc):
+            self._unpacked()
+        return self.whole
+
     def _unpacked(self) -> bytes:
         packed = self._tape.bytes_at(self._data, self._packed)
         if self._cut:
-            return unpack_beginning(self._method, packed, self._size)
+            return unpack_beginning(self.method, packed, self._size)
         try:
-            data = unpack(self._method, packed, self._size)
+            data = unpack(self.method, packed, self._size)
         except InputError as error:
-            self._tape.note(f"The chunk at byte {self._position} is damaged ({error}).")
+            self._tape.note(f"The chunk at byte {self.position} is damaged ({error}).")
             self.whole = False
-            return unpack_beginning(self._method, packed, self._size)
+            return unpack_beginning(self.method, packed, self._size)
         if self._crc and zlib.crc32(data) != self._crc:
             self._tape.note(
-                f"The CRC of the chunk at byte {self._position} is wrong: its messages are "
+                f"The CRC of the chunk at byte {self.position} is wrong: its messages are "
                 "copied as they are, and may not be what was recorded."
             )
             self.whole = False

@@ -77,6 +77,11 @@ class Rosbag1Tape:
                 pairs = struct.iter_unpack("<II", data[first : first + (last - first) // 8 * 8])
                 times = _time(header[b"start_time"]), _time(header[b"end_time"])
                 self._infos[position] = (*times, dict(pairs))
+        if self._infos:
+            # How it is written shows in its first chunk.
+            position = min(self._infos)
+            header, place, size = self._record_head(position)
+            Rosbag1Chunk(self, position, header, place, min(place + size, self.size))
 
     def learn(self, header: Mapping[bytes, bytes], data: bytes) -> None:
         """Take what a record tells of a connection."""
@@ -111,7 +116,7 @@ class Rosbag1Tape:
         (size,) = _U32.unpack_from(block, 4 + length)
         return _fields(block[4 : 4 + length]), position + 8 + length, size
 
-    def blocks(self) -> "Iterator[_Chunk]":
+    def blocks(self) -> "Iterator[Rosbag1Chunk]":
         """Its chunks."""
         position, ended = len(ROS1_MAGIC), False
         while position < self.size:
@@ -123,7 +128,7 @@ class Rosbag1Tape:
             end = data + length
             if code == format.CHUNK:
                 try:
-                    chunk = _Chunk(self, position, header, data, min(end, self.size))
+                    chunk = Rosbag1Chunk(self, position, header, data, min(end, self.size))
                 except (InputError, struct.error, KeyError) as error:
                     self.note(f"A chunk at byte {position} cannot be read ({_reason(error)}).")
                     break
@@ -144,7 +149,7 @@ class Rosbag1Tape:
         if position != self.size and not (ended and position > self.size):
             self.note(f"The recording breaks off at byte {position} of {self.size}.")
 
-    def _behind_index(self, chunk: "_Chunk", position: int) -> int:
+    def _behind_index(self, chunk: "Rosbag1Chunk", position: int) -> int:
         """Step over the index behind a chunk; where it ends."""
         counts: dict[int, int] = {}
         while position < self.size:
@@ -175,7 +180,7 @@ class Rosbag1Tape:
         return self._file.at(place, count)
 
 
-class _Chunk:
+class Rosbag1Chunk:
     """One chunk with its index; see `Block`."""
 
     def __init__(
@@ -228,6 +233,12 @@ class _Chunk:
         self.start = min((one.log_time for one in found), default=0)
         self.end = max((one.log_time for one in found), default=0)
         return found
+
+    def sound(self) -> bool:
+        """Whether it can be unpacked."""
+        if self._found is None and self._method != "none":
+            self._unpacked()
+        return self.whole
 
     def _unpacked(self) -> bytes:
         packed = self._tape.bytes_at(self._data, self._packed)

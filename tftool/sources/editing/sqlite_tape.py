@@ -81,6 +81,10 @@ class _Rows:
         self.end = int(batch.log_times.max())
         self.channels: Mapping[int, int] | None = None
 
+    def sound(self) -> bool:
+        """Whether it is; there is no proof of that."""
+        return True
+
     def messages(self) -> list[Taken]:
         """Its messages."""
         batch = self._batch

@@ -46,6 +46,9 @@ class Block(Protocol):
     channels: Mapping[int, int] | None
     whole: bool
 
+    def sound(self) -> bool:
+        """Whether what it holds is what was written, as far as it carries proof of that."""
+
     def messages(self) -> list[Taken]:
         """Its messages, in their order; those up to the damage, where there is any."""
 
@@ -71,7 +74,6 @@ class Tape(Protocol):
         size: Bytes of it.
         channels: Its channels by their numbers; more may come up while it is read.
         extras: What it holds beside messages; complete once it is read.
-        damage: What is wrong with it, as sentences; reading may add to them.
         style: How its container is written, for a writer of the same kind.
     """
 
@@ -79,8 +81,11 @@ class Tape(Protocol):
     size: int
     channels: dict[int, Channel]
     extras: Extras
-    damage: list[str]
     style: dict[str, Any]
+
+    @property
+    def damage(self) -> list[str]:
+        """What is wrong with it, as sentences; reading may add to them."""
 
     def blocks(self) -> Iterator[Block]:
         """Its pieces, in their order."""

@@ -48,6 +48,7 @@ MESSAGE_HEAD: Final = struct.Struct("<BQHIQQ")
 """A message's record up to its payload: code and length, channel, sequence, both times."""
 
 _U16, _U32, _U64 = struct.Struct("<H"), struct.Struct("<I"), struct.Struct("<Q")
+_UNCHUNKED: Final = 1 << 16  # bytes that are written at a time where there are no chunks
 _NOTHING_YET: Final = 2**64 - 1
 
 
@@ -131,7 +132,8 @@ class McapWriter:
         self.method = "" if compression == "none" else compression
         self._pack: Callable[[bytes], bytes] = compressor(self.method)
         self._chunk_size = chunk_size
-        self._with_crc = with_crc
+        self._limit = chunk_size or _UNCHUNKED
+        self._with_crc = self._with_chunk_crc = with_crc
         self._schemas: dict[tuple[str, str, bytes], int] = {}
         self._schema_records: dict[int, bytes] = {}
         self._channel_records: dict[int, bytes] = {}
@@ -167,12 +169,15 @@ class McapWriter:
 
     # What is known
 
-    def channel(self, channel: Channel, number: int | None = None) -> int:
+    def channel(
+        self, channel: Channel, number: int | None = None, schema: int | None = None
+    ) -> int:
         """Make a stream known; the number by which `write` takes its messages.
 
         Args:
             channel: The stream; one that is known already has its number.
             number: The number it should have, where it matters.
+            schema: The number of its schema, known already; likewise.
 
         Raises:
             InputError: If there are too many.
@@ -180,8 +185,9 @@ class McapWriter:
         known = self._known.get(channel)
         if known is not None and number in (None, known):
             return known
-        schema = 0
-        if channel.type or channel.schema_encoding:
+        if schema is None:
+            schema = 0
+        if not schema and (channel.type or channel.schema_encoding) and number is None:
             schema = self.schema(channel.type, channel.schema_encoding, channel.definition)
         number = self._free(self._channel_records, number)
         self._known[channel] = number
@@ -201,6 +207,14 @@ class McapWriter:
             SCHEMA, _U16.pack(number) + text(name) + text(encoding) + _U32.pack(len(data)) + data
         )
         return number
+
+    def agrees(self, schemas: Mapping[int, tuple[str, str, bytes]]) -> bool:
+        """Whether the numbers of schemas are free here, or mean the same."""
+        here = {number: key for key, number in self._schemas.items()}
+        return all(
+            here[number] == schema if number in here else number not in self._schema_records
+            for number, schema in schemas.items()
+        )
 
     def add_channel(
         self, number: int, schema: int, topic: str, encoding: str, metadata: bytes
@@ -265,7 +279,7 @@ class McapWriter:
             self._chunk_low = log_time
         if log_time > self._chunk_high:
             self._chunk_high = log_time
-        if self._length >= self._chunk_size:
+        if self._length >= self._limit:
             self.flush()
 
     def _keep(self, piece: bytes) -> None:
@@ -287,7 +301,7 @@ class McapWriter:
             self._put(records)
             return
         packed = self._pack(records)
-        crc = zlib.crc32(records) if self._with_crc else 0
+        crc = zlib.crc32(records) if self._with_chunk_crc else 0
         head = (
             CHUNK_HEAD.pack(low, high, len(records), crc)
             + text(self.method)
@@ -315,6 +329,17 @@ class McapWriter:
                 len(records),
             )
         )
+
+    def flush_as(self, compression: str, *, with_crc: bool) -> None:
+        """The same, packed in a way of its own; chunks after it are packed as before."""
+        before = self.method, self._pack, self._with_chunk_crc
+        try:
+            if compression != self.method:
+                self.method, self._pack = compression, compressor(compression)
+            self._with_chunk_crc = with_crc
+            self.flush()
+        finally:
+            self.method, self._pack, self._with_chunk_crc = before
 
     def _count(self, channel: int, count: int, low: int, high: int) -> None:
         self.counts[channel] = self.counts.get(channel, 0) + count
