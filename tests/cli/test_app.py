@@ -80,6 +80,8 @@ def test_one_option_is_spelt_alike_in_all_commands():
 
     # A frequency where something is printed or drawn; where time runs, how fast.
     other = {("demo", "--rate"), ("play", "--rate")}
+    # A value of a node, and the pose of a link; the present, and what a recording knows.
+    other |= {("edit", "--set"), ("edit", "--restamp")}
     spelt = {}
     for command in get_command(app.build(COMMANDS)).commands.values():
         for param in command.params:

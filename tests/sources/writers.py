@@ -175,7 +175,23 @@ def write_mcap(path: Path, sent: Sequence[Sent], chunk_size: int = 4096, **optio
             text = ROS2.generate_msgdef(one.type, ros_version=2)[0]
             schema = writer.register_schema(one.type, "ros2msg", text.encode())
             durability = "transient_local" if "static" in one.topic else "volatile"
-            offers = f"- history: keep_last\n  reliability: reliable\n  durability: {durability}\n"
+            never = {"sec": 9223372036, "nsec": 854775807}
+            offers = yaml.safe_dump(
+                [
+                    {
+                        "history": "keep_last",
+                        "depth": 1,
+                        "reliability": "reliable",
+                        "durability": durability,
+                        "deadline": dict(never),
+                        "lifespan": dict(never),
+                        "liveliness": "automatic",
+                        "liveliness_lease_duration": dict(never),
+                        "avoid_ros_namespace_conventions": False,
+                    }
+                ],
+                sort_keys=False,
+            )
             channels[one.topic] = writer.register_channel(
                 one.topic, "cdr", schema, {"offered_qos_profiles": offers}
             )

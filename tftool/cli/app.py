@@ -38,6 +38,7 @@ COMMANDS = {
     "diff": "Say what differs between two sets of frames, link by link.",
     "convert": "Write one rotation, or pose, in every notation.",
     "play": "Play a recording as a live session (ros2 bag play).",
+    "edit": "Change the frames of a recording; repair, join, cut or convert it.",
     "check": "Play scenarios on simulated time and judge what they expect.",
     "run": "Run a node written for ROS 2, unmodified, without ROS (ros2 run).",
     "launch": "Launch what a ROS 2 launch file says, without ROS (ros2 launch).",
@@ -58,7 +59,7 @@ SETTINGS = {
     "ros2": {"allow_interspersed_args": False},
 }
 
-ALONE = ("check", "convert", "help", "new")
+ALONE = ("check", "convert", "edit", "help", "new")
 """Commands that share no session."""
 
 

@@ -14,7 +14,7 @@ GROUPS = {
     "Learn": ("demo", "teleop", "follow", "static"),
     "Ask": ("echo", "tree", "monitor", "explain", "doctor", "convert", "ros2"),
     "Look": ("view", "robot"),
-    "Work with files": ("info", "play", "export", "diff"),
+    "Work with files": ("info", "play", "export", "diff", "edit"),
     "Run your own nodes": ("new", "run", "launch", "session"),
     "Check": ("check",),
     "Help": ("help",),

@@ -12,7 +12,7 @@ from tftool.frames.tree import stripped
 from tftool.geometry.rigid import Transform
 from tftool.interfaces.classes import Interfaces, Message
 from tftool.interfaces.schema import PRIMITIVES, full_name
-from tftool.sources.container import Stream, offers_of
+from tftool.sources.container import MessageStream, offers_of
 from tftool.sources.editing.tape import Taken
 from tftool.sources.reading import TRANSFORM_TYPES, begins_with_header, is_static, short_type
 from tftool.sources.writing.channel import Channel
@@ -108,7 +108,7 @@ def fits(link: LinkName, wanted: LinkName) -> bool:
     return all(word in ("*", name) for name, word in zip(link, wanted, strict=True))
 
 
-def stream_of(channel: Channel) -> Stream:
+def stream_of(channel: Channel) -> MessageStream:
     """A channel as readers know it."""
     offers = offers_of(channel.extra("offered_qos_profiles"))
     if channel.extra("latching") == "1":
@@ -116,7 +116,7 @@ def stream_of(channel: Channel) -> Stream:
     definition = channel.definition.decode("utf-8", "backslashreplace")
     if channel.schema_encoding not in ("ros1msg", "ros2msg"):
         definition = ""
-    return Stream(
+    return MessageStream(
         channel.topic,
         channel.type,
         channel.encoding,

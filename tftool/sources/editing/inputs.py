@@ -16,7 +16,7 @@ from tftool.sources.rosbag2 import files_of_folder, unpack_file
 
 
 @dataclass(slots=True)
-class Input:
+class EditedInput:
     """One recording that is edited. Works in a `with`.
 
     Attributes:
@@ -38,7 +38,7 @@ class Input:
     damage: list[str] = field(default_factory=list)
     _unpacked: "list[tempfile.TemporaryDirectory[str]]" = field(default_factory=list)
 
-    def __enter__(self) -> "Input":
+    def __enter__(self) -> "EditedInput":
         return self
 
     def __exit__(self, *_: object) -> None:
@@ -77,7 +77,7 @@ class Input:
         self.paths.append(path)
 
 
-def open_input(name: str) -> Input:
+def open_input(name: str) -> EditedInput:
     """Open a recording to edit it: a file, a folder of rosbag2's, or a glob of files.
 
     Raises:
@@ -86,7 +86,7 @@ def open_input(name: str) -> Input:
     found = find(name)
     if not found.kind.is_recording:
         raise InputError(f"'{name}' is a {found.kind.value}, not a recording.")
-    opened = Input(name)
+    opened = EditedInput(name)
     try:
         if found.kind is Kind.ROSBAG2:
             folder = found.paths[0]

@@ -92,10 +92,9 @@ class McapTape:
 
     def _read_summary(self) -> bool:
         size = self.size
-        if size < len(MCAP_MAGIC) + _FOOTER_SIZE:
-            return False
-        tail = self._file.at(size - _FOOTER_SIZE, _FOOTER_SIZE)
+        tail = self._file.at(max(0, size - _FOOTER_SIZE), min(size, _FOOTER_SIZE))
         if not tail.endswith(MCAP_MAGIC) or tail[0] != format.FOOTER:
+            self.damage.append("The recording was not closed.")
             return False
         (begin,) = _U64.unpack_from(tail, 9)
         (crc,) = _U32.unpack_from(tail, 25)
@@ -179,7 +178,7 @@ class McapTape:
         if loose:
             yield _Loose(loose)
         if not ended:
-            self.note(f"The recording breaks off at byte {position} of {size}.")
+            self.note(f"The recording breaks off at byte {position}.")
 
     def _attachment(self, body: bytes, position: int) -> None:
         (crc,) = _U32.unpack_from(body, len(body) - 4)
@@ -316,7 +315,8 @@ class McapChunk:
                 else:
                     tape.learn(code, data[first:last])
         except (InputError, struct.error) as error:
-            tape.note(f"The chunk at byte {self.position} is damaged ({_reason(error)}).")
+            if not self._cut:
+                tape.note(f"The chunk at byte {self.position} is damaged ({_reason(error)}).")
             self.whole = False
         self._found = found
         counts: dict[int, int] = {}

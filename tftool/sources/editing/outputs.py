@@ -62,7 +62,7 @@ class Copied:
     place: int
 
 
-class Output:
+class EditedFile:
     """One file that is written, and what is known of it for the comparison in the end.
 
     Attributes:
@@ -85,6 +85,7 @@ class Output:
         ros2: bool,
         packs: bool = False,
         latched: "frozenset[str]" = frozenset(),
+        first_free: int = 1,
     ) -> None:
         """Begin it.
 
@@ -95,6 +96,7 @@ class Output:
             ros2: Whether messages of ROS 1 become those of ROS 2.
             packs: Whether each message is compressed by itself, as rosbag2 does.
             latched: Topics that are made to offer their last message to late subscribers.
+            first_free: The first number that no tape uses for a channel or a schema.
         """
         self.path = path
         self.container = container
@@ -115,6 +117,9 @@ class Output:
         self._mcap: McapWriter | None = None
         self._bag: Rosbag1Writer | None = None
         self._open(tape)
+        for writer in (self._mcap, self._bag):
+            if writer is not None:
+                writer.first_free = first_free
 
     def _open(self, tape: Tape) -> None:
         style: dict[str, Any] = tape.style if tape.container == self.container else {}
@@ -186,7 +191,7 @@ class Output:
         if channel.topic in self._latched:
             written = _latching(written)
         same = written == channel
-        if same and self._fits(source, tape):
+        if same and self._fits(source, tape) and number not in self.channels:
             if isinstance(tape, McapTape) and self._mcap is not None:
                 schema = tape.schema_of[number]
                 if schema:

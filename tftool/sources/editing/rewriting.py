@@ -30,9 +30,9 @@ from tftool.sources.editing.changes import (
     carries_transforms,
     fits,
 )
-from tftool.sources.editing.inputs import Input, open_input, open_tape
+from tftool.sources.editing.inputs import EditedInput, open_input, open_tape
 from tftool.sources.editing.mcap_tape import McapChunk
-from tftool.sources.editing.outputs import Output, container_of, digest
+from tftool.sources.editing.outputs import EditedFile, container_of, digest
 from tftool.sources.editing.rosbag1_tape import Rosbag1Chunk
 from tftool.sources.editing.tape import Block, Taken, Tape
 from tftool.sources.recording import Recording, open_recording
@@ -49,7 +49,7 @@ _ROOM: Final = 1 << 20
 
 
 @dataclass(slots=True)
-class Report:
+class EditReport:
     """What editing did.
 
     Attributes:
@@ -75,7 +75,7 @@ def edit(
     force: bool = False,
     dry_run: bool = False,
     progress: Progress | None = None,
-) -> Report:
+) -> EditReport:
     """Write recordings anew, as one, with changes.
 
     Args:
@@ -102,7 +102,7 @@ def edit(
         return job.done(force=force)
 
 
-def _refuse_the_input(inputs: Sequence[Input], output: Path) -> None:
+def _refuse_the_input(inputs: Sequence[EditedInput], output: Path) -> None:
     """Refuse to write onto what is read, under whatever name.
 
     Raises:
@@ -121,7 +121,7 @@ class _Job:
 
     def __init__(
         self,
-        inputs: Sequence[Input],
+        inputs: Sequence[EditedInput],
         recordings: Sequence[Recording],
         output: Path,
         container: str,
@@ -155,7 +155,7 @@ class _Job:
         self._by_tape = (
             self._is_folder and len(inputs) == 1 and first.is_folder and not edits.split_every
         )
-        self.report = Report()
+        self.report = EditReport()
         self._check_names()
         window = self._window()
         self._changer = Changer(edits, window, self._reparenting())
@@ -163,7 +163,7 @@ class _Job:
         self._start: Stamp = min(starts, default=0)
         if window is not None:
             self._start = max(self._start, window.start)
-        self._outputs: dict[int, Output] = {}
+        self._outputs: dict[int, EditedFile] = {}
         self._order: list[int] = []
         self._heads = bool(
             edits.statics_first or edits.statics_from or edits.cuts or edits.split_every
@@ -258,7 +258,7 @@ class _Job:
 
     # The runs
 
-    def tried(self) -> Report:
+    def tried(self) -> EditReport:
         """What would be done."""
         self._collect_statics()
         done = 0
@@ -277,7 +277,7 @@ class _Job:
         self._sum_up()
         return self.report
 
-    def done(self, *, force: bool) -> Report:
+    def done(self, *, force: bool) -> EditReport:
         """Do it."""
         self._check_room()
         with Target(self._path, folder=self._is_folder, force=force) as target:
@@ -304,12 +304,14 @@ class _Job:
         self._collect_statics()
         total, done = sum(tape.size for tape in self._tapes), 0
         for source, tape in enumerate(self._tapes):
-            if self._by_tape:
-                self._output(source, part)
             for block in tape.blocks():
+                if self._by_tape and source not in self._outputs:
+                    self._output(source, part, block.start or self._start)
                 self._write_block(source, tape, block, part)
                 if isinstance(block, McapChunk | Rosbag1Chunk):
                     self._tell(done + min(block.behind, tape.size), 2 * total)
+            if self._by_tape:
+                self._output(source, part)
             done += tape.size
             self._tell(done, 2 * total)
         if not self._outputs:
@@ -369,8 +371,8 @@ class _Job:
             return 0
         return max(0, (log_time - self._start) // self._edits.split_every)
 
-    def _output(self, number: int, part: Path) -> Output:
-        """The file of a part; when it is first asked for it begins with its statics."""
+    def _output(self, number: int, part: Path, start: Stamp | None = None) -> EditedFile:
+        """The file of a part; when it is first asked for it begins with its statics, at `start`."""
         found = self._outputs.get(number)
         if found is not None:
             return found
@@ -384,18 +386,27 @@ class _Job:
         latched = frozenset(one.channel.topic for one in self._statics)
         if self._edits.statics_from:
             latched |= {"/tf_static"}
-        output = self._outputs[number] = Output(
+        output = self._outputs[number] = EditedFile(
             path,
             self._container,
             tape,
             ros2=self._ros2,
             packs=self._mode == "message",
             latched=latched if self._heads else frozenset(),
+            first_free=self._first_free(),
         )
         self._order.append(number)
         if self._heads:
-            self._write_head(number, output)
+            self._write_head(number, output, self._start if start is None else start)
         return output
+
+    def _first_free(self) -> int:
+        """The first number that none of the inputs uses."""
+        used = [0]
+        for tape in self._tapes:
+            used += tape.channels
+            used += getattr(tape, "schemas", ())
+        return max(used) + 1
 
     # Statics
 
@@ -431,10 +442,10 @@ class _Job:
                 _Static(source, message.channel, channel, message.log_time, row) for row in rows
             ]
 
-    def _write_head(self, number: int, output: Output) -> None:
+    def _write_head(self, number: int, output: EditedFile, start: Stamp) -> None:
         """The latest value of every static, in one message for each channel."""
         edits = self._edits
-        start, end = self._start, _LATEST
+        start, end = max(start, self._start), _LATEST
         if edits.split_every:
             start = self._start + number * edits.split_every
             end = start + edits.split_every - 1
@@ -467,7 +478,7 @@ class _Job:
         output.writer.flush()
         self._changer.counts["statics put first"] += len(chosen) + len(edits.statics_from)
 
-    def _write_added(self, output: Output, rows: Sequence[TransformRow], start: Stamp) -> None:
+    def _write_added(self, output: EditedFile, rows: Sequence[TransformRow], start: Stamp) -> None:
         """The statics of another recording, where this one has no topic for them."""
         from tftool.sources.writing.converting import as_ros1
 
@@ -504,7 +515,7 @@ class _Job:
             done += size
             self._tell(total + total * done // max(sum(sizes), 1), 2 * total)
 
-    def _compare_one(self, output: Output, tape: Tape) -> None:
+    def _compare_one(self, output: EditedFile, tape: Tape) -> None:
         counts: Counter[tuple[str, str]] = Counter()
         found: dict[tuple[str, str], int] = {}
         for block in tape.blocks():

@@ -147,7 +147,7 @@ class Rosbag1Tape:
             ended = ended or code == format.CHUNK_INFO
             position = end
         if position != self.size and not (ended and position > self.size):
-            self.note(f"The recording breaks off at byte {position} of {self.size}.")
+            self.note(f"The recording breaks off at byte {min(position, self.size)}.")
 
     def _behind_index(self, chunk: "Rosbag1Chunk", position: int) -> int:
         """Step over the index behind a chunk; where it ends."""
@@ -221,7 +221,8 @@ class Rosbag1Chunk:
                 elif code == format.CONNECTION:
                     self._tape.learn(header, data[first:last])
         except (InputError, struct.error, KeyError) as error:
-            self._tape.note(f"The chunk at byte {self.position} is damaged ({_reason(error)}).")
+            if not self.cut:
+                self._tape.note(f"The chunk at byte {self.position} is damaged ({_reason(error)}).")
             self.whole = False
         self._found = found
         counts: dict[int, int] = {}

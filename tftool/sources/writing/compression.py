@@ -29,7 +29,12 @@ def compressor(method: str) -> Callable[[bytes], bytes]:
         if method == "lz4":
             import lz4.frame
 
-            return lambda piece: bytes(lz4.frame.compress(piece))
+            # ROS 1 reads frames of independent blocks alone, without their size in front.
+            return lambda piece: bytes(
+                lz4.frame.compress(
+                    piece, block_linked=False, content_checksum=True, store_size=False
+                )
+            )
     except ImportError:
         raise UsageError(
             f"To compress with {method} needs an extra: pip install 'tftool-tf2[recordings]'"

@@ -1,5 +1,6 @@
 """Messages of ROS 1 as ROS 2 writes them, and the other way round, by their definitions."""
 
+import re
 from collections.abc import Callable
 from typing import Final, NamedTuple
 
@@ -20,6 +21,10 @@ from tftool.sources.writing.offers import offers_text
 from tftool.wire.codec import Codec
 from tftool.wire.layouts import CDR, ROS1
 
+_SEQUENCE: Final = re.compile(
+    r"^(MSG: (?:std_msgs|roslib)/Header[ \t]*\n(?:(?!MSG: ).*\n)*?)uint32 seq[ \t]*(?:#.*)?\n",
+    re.MULTILINE,
+)
 _TO_ROS2: Final = {"tf/msg/tfMessage": "tf2_msgs/msg/TFMessage"}
 
 
@@ -108,6 +113,9 @@ def _known(channel: Channel, encoding: str) -> tuple[str, Interfaces]:
     if not text.strip():
         INTERFACES.message(full)
         return full, INTERFACES
+    if encoding == "ros1":
+        # ROS 2 dropped the number that ROS 1 counts headers with; reading leaves it out, too.
+        text = _SEQUENCE.sub(r"\1", text)
     interfaces = Interfaces()
     interfaces.define(full, text)
     interfaces.message(full)

@@ -7,7 +7,7 @@ from typing import Any, Final
 
 from tftool.sources.find import METADATA
 from tftool.sources.writing.channel import Channel
-from tftool.sources.writing.offers import restyled
+from tftool.sources.writing.offers import offers_text, restyled
 from tftool.stamps import Stamp
 
 VERSION: Final = 9
@@ -128,4 +128,8 @@ def _offers(text: str, version: int) -> Any:
         loaded = yaml_guard.load(text, yaml.SafeLoader) if text.strip() else []
     except (yaml.YAMLError, ValueError, RecursionError):
         return []
-    return loaded if isinstance(loaded, list) else []
+    if not isinstance(loaded, list):
+        return []
+    # Readers want every policy, and not every recorder writes them all.
+    (defaults,) = yaml.safe_load(offers_text(static=False))
+    return [{**defaults, **one} for one in loaded if isinstance(one, dict)]

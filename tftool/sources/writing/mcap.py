@@ -99,6 +99,7 @@ class McapWriter:
     Attributes:
         position: Bytes in the file so far.
         counts: Messages by channel.
+        first_free: The first number for channels and schemas that come without one.
     """
 
     def __init__(
@@ -131,6 +132,7 @@ class McapWriter:
             )
         self.method = "" if compression == "none" else compression
         self._pack: Callable[[bytes], bytes] = compressor(self.method)
+        self.first_free = 1
         self._chunk_size = chunk_size
         self._limit = chunk_size or _UNCHUNKED
         self._with_crc = self._with_chunk_crc = with_crc
@@ -228,7 +230,7 @@ class McapWriter:
     def _free(self, taken: Collection[int], wanted: int | None) -> int:
         if wanted is not None:
             return wanted
-        number = len(taken) + 1
+        number = max(len(taken) + 1, self.first_free)
         while number in taken:
             number += 1
         if number > MOST_CHANNELS:

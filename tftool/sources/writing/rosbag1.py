@@ -40,6 +40,7 @@ class Rosbag1Writer:
     Attributes:
         position: Bytes in the file so far.
         counts: Messages by connection.
+        first_free: The first number for connections that come without one.
     """
 
     def __init__(
@@ -60,6 +61,7 @@ class Rosbag1Writer:
             raise UsageError(
                 f"'{compression}' is no compression of ROS 1 bags: {', '.join(COMPRESSIONS)} are."
             )
+        self.first_free = 0
         self.method = compression
         self._pack = compressor(compression)
         self._chunk_size = chunk_size
@@ -99,7 +101,7 @@ class Rosbag1Writer:
             if channel.extra(key):
                 fields[key] = channel.extra(key).encode("utf-8", "surrogateescape")
         if number is None:
-            number = len(self._records)
+            number = max(len(self._records), self.first_free)
             while number in self._records:
                 number += 1
         self._known[channel] = number

@@ -1,0 +1,120 @@
+"""`tftool edit` as a user types it."""
+
+import json
+import math
+import os
+
+import pytest
+
+pytest.importorskip("rosbags", reason="writes the test files")
+pytest.importorskip("mcap", reason="writes the test files")
+pytest.importorskip("zstandard", reason="the extra 'recordings' is not installed")
+
+from tests.sources.writers import SECOND, content, write_mcap
+from tftool.cli.app import main
+from tftool.sources.recording import open_recording
+
+SENT = content(30)
+URDF = """<robot name="r"><link name="base_link"/><link name="laser"/><link name="wheel"/>
+<joint name="a" type="fixed"><parent link="base_link"/><child link="laser"/>
+<origin xyz="0.5 0 0"/></joint>
+<joint name="b" type="continuous"><parent link="base_link"/><child link="wheel"/></joint>
+</robot>"""
+
+
+@pytest.fixture
+def run(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    write_mcap(tmp_path / "a.mcap", SENT)
+    return tmp_path
+
+
+def test_a_link_is_set_in_degrees_and_the_result_is_told(run, capsys):
+    status = main(["edit", "a.mcap", "-o", "b.mcap", "--set", "base_link:laser=1,2,3,0,0,90deg"])
+
+    told = capsys.readouterr()
+    assert status == 0
+    assert told.err == ""
+    assert told.out.splitlines() == [
+        "        1 transforms set",
+        f"{len(SENT):>9} messages written, read again and found equal: b.mcap",
+    ]
+    with open_recording("b.mcap") as recording:
+        found = recording.buffer.lookup_transform("base_link", "laser").transform
+    assert tuple(found.translation) == (1, 2, 3)
+    assert tuple(found.rotation) == pytest.approx((0, 0, math.sqrt(0.5), math.sqrt(0.5)))
+
+
+def test_a_cut_by_seconds_since_the_start_and_json(run, capsys):
+    assert main(["edit", "a.mcap", "-o", "b", "--from", "0.1", "--to", "0.3", "--json"]) == 0
+
+    told = json.loads(capsys.readouterr().out)
+    assert told["files"] == ["b_0.mcap"]
+    assert told["changes"]["statics put first"] == 2
+    with open_recording("b") as recording, open_recording("a.mcap") as whole:
+        assert told["messages"] == sum(topic.count for topic in recording.topics)
+        assert recording.start <= whole.start + SECOND // 10
+        assert recording.end >= whole.start + 3 * SECOND // 10
+        assert recording.end < whole.start + SECOND // 2
+
+
+def test_statics_come_from_a_robot_description_its_fixed_joints_alone(run, capsys):
+    (run / "robot.urdf").write_text(URDF)
+
+    assert main(["edit", "a.mcap", "-o", "b.mcap", "--statics-from", "robot.urdf"]) == 0
+
+    with open_recording("b.mcap") as recording:
+        found = recording.buffer.lookup_transform("base_link", "laser").transform
+        assert {edge.child for edge in recording.edges if edge.static} == {"laser", "camera"}
+    assert tuple(found.translation) == (0.5, 0, 0)
+
+
+def test_a_dry_run_writes_nothing(run, capsys):
+    assert main(["edit", "a.mcap", "-o", "b.mcap", "--rename", "odom=o", "--dry-run"]) == 0
+
+    told = capsys.readouterr()
+    assert "would be written: b.mcap" in told.out
+    assert "'/scan'" not in told.err
+    assert os.listdir() == ["a.mcap"]
+
+
+@pytest.mark.parametrize(
+    ("words", "status", "told"),
+    [
+        (["-o", "a.mcap", "--force"], 2, "is the input"),
+        (["-o", "b.txt"], 2, "names no container"),
+        (["-o", "nowhere/b.mcap"], 3, "there is no folder"),
+        (["-o", "b.mcap", "--split-every", "5"], 2, "folder: 'b', not 'b.mcap'"),
+        (["-o", "b.mcap", "--set", "base_link:laser=1,2"], 2, "takes 6 numbers"),
+        (["-o", "b.mcap", "--set", "base_link:laser=1,2,3,x,0,0"], 2, "'x' is not a number"),
+        (["-o", "b.mcap", "--set", "a:b=1,2,nan,0,0,0"], 2, "not a finite number"),
+        (["-o", "b.mcap", "--set", "a:b=1,2,3,0,0,0,2"], 2, "length is 2, not 1"),
+        (["-o", "b.mcap", "--drop", "laser"], 2, "PARENT:CHILD"),
+        (["-o", "b.mcap", "--rename", "laser"], 2, "OLD=NEW"),
+        (["-o", "b.mcap", "--restamp", "now"], 2, "takes 'log'"),
+        (["-o", "b.mcap", "--everywhere"], 2, "--everywhere goes with"),
+        (["-o", "b.mcap", "--record-time"], 2, "--record-time goes with"),
+        (["-o", "b.mcap", "--from", "9", "--to", "3"], 2, "--to lies before --from"),
+        (["missing.mcap", "-o", "b.mcap"], 3, "There is no file"),
+    ],
+)
+def test_what_cannot_be_done_is_said_in_a_sentence_and_leaves_nothing(
+    run, capsys, words, status, told
+):
+    before = (run / "a.mcap").read_bytes()
+
+    assert main(["edit", "a.mcap", *words]) == status
+
+    assert told in capsys.readouterr().err
+    assert os.listdir() == ["a.mcap"]
+    assert (run / "a.mcap").read_bytes() == before
+
+
+def test_a_folder_without_permission_is_said(run, capsys):
+    if os.geteuid() == 0:
+        pytest.skip("root may write everywhere")
+    (run / "locked").mkdir(mode=0o500)
+
+    assert main(["edit", "a.mcap", "-o", "locked/b.mcap"]) == 3
+
+    assert "may not be written" in capsys.readouterr().err
