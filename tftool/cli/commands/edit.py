@@ -179,9 +179,10 @@ def edit(
 ) -> ExitStatus:
     """Change the frames of a recording; repair, join, cut or convert it.
 
-    What is not touched stays as it is, byte for byte. Without any change a damaged recording becomes a whole one with an index, several become
-    one, and the suffix of FILE turns one container into another. IN is never written to; FILE
-    has its name only once it is whole, and was read again and compared.
+    What is not touched stays as it is, byte for byte. Without any change a damaged
+    recording becomes a whole one with an index, several become one, and the suffix of FILE
+    turns one container into another. IN is never written to; FILE has its name only once
+    it is whole, and was read again and compared.
 
     tftool edit run.mcap -o fixed.mcap --set base_link:laser=0.2,0,0.15,0,0,90deg
 
