@@ -6,6 +6,7 @@ import platform
 from tests.benchmarks import (
     batch,
     demo,
+    doctor,
     link,
     recordings,
     scalar,
@@ -25,6 +26,7 @@ REPORTS = {
     "link": link.report,
     "recordings": recordings.report,
     "wire": wire.report,
+    "doctor": doctor.report,
 }
 """What is measured; add yours."""
 
