@@ -9,6 +9,7 @@ import re
 from collections.abc import Callable
 from dataclasses import dataclass
 from decimal import ROUND_HALF_UP, Decimal, InvalidOperation
+from pathlib import Path
 from typing import Annotated
 
 import typer
@@ -191,6 +192,7 @@ def _date(text: str) -> At:
 
 WHEN = "When"
 OUTPUT = "Output"
+MANY = "Many recordings"
 """Headings of the help under which options are listed; "Options" is that of all others."""
 
 From = Annotated[
@@ -300,4 +302,39 @@ Ascii = Annotated[
 
 Light = Annotated[
     bool, typer.Option("--light", help="For a terminal with a light ground; m changes it.")
+]
+
+Rows = Annotated[
+    Path | None,
+    typer.Option(
+        "--output",
+        "-o",
+        metavar="FILE",
+        rich_help_panel=MANY,
+        help="Write rows to a .jsonl, .csv or .parquet file, whatever the number of recordings.",
+    ),
+]
+Jobs = Annotated[
+    int,
+    typer.Option(
+        "--jobs",
+        "-j",
+        min=1,
+        max=256,
+        metavar="N",
+        rich_help_panel=MANY,
+        help="Work on so many recordings at once.",
+    ),
+]
+Resume = Annotated[
+    bool,
+    typer.Option("--resume", rich_help_panel=MANY, help="Pass over what the file already holds."),
+]
+Scheduler = Annotated[
+    str,
+    typer.Option(
+        metavar="ADDRESS",
+        rich_help_panel=MANY,
+        help="Let a cluster of Dask workers do it that you trust: tcp://HOST:8786.",
+    ),
 ]

@@ -1,6 +1,6 @@
 """What a recording holds, as text and as data."""
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from datetime import UTC, datetime, timedelta
 from typing import Any
 
@@ -217,3 +217,26 @@ def _size(count: int) -> str:
             break
         size /= 1000
     return f"{count} bytes" if unit == "bytes" else f"{size:.1f} {unit}"
+
+
+def as_lines(rows: Sequence[Mapping[str, Any]]) -> str:
+    """Several recordings, a line each: what each holds, or why it cannot be read."""
+    lines: list[tuple[str, ...]] = []
+    for row in rows:
+        name = visible(str(row["source"]))
+        if row["unreadable"] is not None:
+            lines.append((name, "", "", "", "", "", f"unreadable: {visible(row['unreadable'])}"))
+            continue
+        lines.append(
+            (
+                name,
+                str(row["kind"]),
+                f"{row['seconds']:.1f} s",
+                f"{row['messages']:,}",
+                f"{row['transforms']:,}",
+                f"{row['frames']:,} in {row['trees']:,}",
+                "; ".join(visible(text) for text in row["damage"]),
+            )
+        )
+    heads = ("recording", "kind", "length", "messages", "transforms", "frames in trees", "")
+    return "\n".join(table(heads, lines)) + "\n"

@@ -10,12 +10,21 @@ import typer
 
 from tftool.cli.app import ExitStatus
 from tftool.cli.connection import Connection
-from tftool.cli.options import At, CacheTime, Json, RunFor, moment
+from tftool.cli.options import (
+    At,
+    CacheTime,
+    Jobs,
+    Json,
+    Resume,
+    Rows,
+    RunFor,
+    Scheduler,
+    moment,
+)
 from tftool.errors import InputError, UsageError
 from tftool.stamps import Duration, seconds
 
 if TYPE_CHECKING:
-    from tftool.cli.fleet import Job
     from tftool.diagnostics.catalogue import Check
     from tftool.diagnostics.findings import Severity
     from tftool.diagnostics.judge import Diagnosis
@@ -89,21 +98,10 @@ def doctor(
     junit: Annotated[
         Path | None, typer.Option(metavar="FILE", help="Write a JUnit report for a build server.")
     ] = None,
-    output: Annotated[
-        Path | None,
-        typer.Option(
-            "--output",
-            "-o",
-            metavar="FILE",
-            help="Of many recordings, write a row a finding to a .jsonl or .csv file.",
-        ),
-    ] = None,
-    processes: Annotated[
-        int, typer.Option("--jobs", "-j", min=1, max=256, help="With -o: work on so many at once.")
-    ] = 1,
-    resume: Annotated[
-        bool, typer.Option("--resume", help="With -o: pass over what the file already holds.")
-    ] = False,
+    output: Rows = None,
+    processes: Jobs = 1,
+    resume: Resume = False,
+    scheduler: Scheduler = "",
     explain: Annotated[
         str, typer.Option("--explain", metavar="ID", help="Tell all about one check, and stop.")
     ] = "",
@@ -117,7 +115,7 @@ def doctor(
 
     tftool doctor run.mcap
     tftool doctor bags/*.mcap --junit report.xml
-    tftool doctor 'runs/*.mcap' -j 8 -o findings.csv --resume
+    tftool doctor 'runs/**/*.mcap' -j 8 -o findings.parquet --resume
     tftool doctor --explain split-tree
     """
     # Heavy imports wait until this command is the chosen one.
@@ -126,6 +124,7 @@ def doctor(
     from tftool.cli import fleet
     from tftool.cli.printing import write
     from tftool.diagnostics.findings import Severity
+    from tftool.diagnostics.judge import refuse_unknown
     from tftool.diagnostics.model import described_by
     from tftool.diagnostics.scope import Scope
     from tftool.views import findings as view
@@ -143,10 +142,14 @@ def doctor(
     scope = Scope(None if urdf is None else described_by(urdf), settings.tf_topics, begin, end)
     fails = None if fail_on is FailOn.never else Severity(fail_on.value)
     if output is not None:
-        job = fleet.Job(settings, tuple(_words(select or ())), tuple(_words(ignore or ())), scope)
-        return _swept(places or (), output, processes, resume, job, fails)
-    if resume or processes > 1:
-        raise UsageError("--jobs and --resume are for many recordings: add -o FILE.")
+        chosen, left_out = tuple(_words(select or ())), tuple(_words(ignore or ()))
+        refuse_unknown(settings, chosen, left_out)
+        task = fleet.Examination(settings, chosen, left_out, scope)
+        workers = fleet.workers_of(processes, scheduler)
+        counts = fleet.swept_into(places or (), output, workers, task, resume=resume)
+        return _swept_status(counts, fails)
+    if resume or processes > 1 or scheduler:
+        raise UsageError("--jobs, --resume and --scheduler make rows: add -o FILE.")
     rows = _diagnosed(
         connection, places or [None], lasting, settings, select or (), ignore or (), scope
     )
@@ -186,49 +189,39 @@ def _diagnosed(
     scope: "Scope",
 ) -> "list[tuple[str, Diagnosis | str]]":
     """Each source with what was found in it; of several, one that is unreadable stops none."""
+    from dataclasses import replace
+
     from tftool.cli.examining import material_of
+    from tftool.cli.fleet import expanded
     from tftool.diagnostics.judge import judge
+    from tftool.sources.remote import fetched
     from tftool.views.escaping import visible_lines
 
     chosen, left_out = _words(select), _words(ignore)
-    words = _each(places)
+    words = [place for place in places if place is not None]
+    sources: list[str | None] = [*expanded(words)] if words else [None]
     rows: list[tuple[str, Diagnosis | str]] = []
-    for word in words:
+    for word in sources:
         try:
-            material = material_of(connection, word, lasting, scope)
+            with fetched(word or "") as path:
+                material = material_of(connection, path or None, lasting, scope)
         except InputError as error:
-            if len(words) == 1:
+            if len(sources) == 1:
                 raise
             sys.stderr.write(f"tftool doctor: {visible_lines(str(error))}\n")
             rows.append((word or "", str(error)))
             continue
+        if path != (word or ""):
+            material = replace(material, name=word or "")
         diagnosis = judge(material, settings, select=chosen, ignore=left_out)
         rows.append((word or material.name, diagnosis))
     return rows
 
 
-def _swept(
-    places: Sequence[str],
-    path: Path,
-    processes: int,
-    resume: bool,
-    job: "Job",
-    fails: "Severity | None",
-) -> ExitStatus:
-    """Many recordings, a row a finding."""
+def _swept_status(counts: dict[str, int], fails: "Severity | None") -> ExitStatus:
+    """Of many recordings, the worst."""
     from tftool.cli import fleet
-    from tftool.diagnostics.judge import refuse_unknown
 
-    words = [word for word in _each(places) if word is not None]
-    if not words:
-        raise UsageError("Name the recordings to examine: files, folders, globs.")
-    refuse_unknown(job.settings, job.select, job.ignore)
-    output = fleet.Output(path, resume=resume)
-    try:
-        counts = fleet.sweep(words, output, processes, job)
-    finally:
-        output.close()
-    fleet.announce(counts, len(output.done & set(words)), path)
     if fleet.UNREADABLE in counts:
         return ExitStatus.UNREADABLE
     bad = [name for name in ("error", "warning", "note") if name in counts]
@@ -240,24 +233,6 @@ def _rank(name: str) -> int:
     from tftool.diagnostics.findings import Severity
 
     return Severity(name).rank
-
-
-def _each(places: Sequence[str | None]) -> list[str | None]:
-    """The words, each that names several recordings as one word for each of them."""
-    from tftool.cli.hosting import named
-    from tftool.sources.find import Kind
-
-    words: list[str | None] = []
-    for place in places:
-        try:
-            found = None if place is None else named(place)
-        except InputError:
-            found = None
-        if found is not None and found.kind is Kind.SEVERAL:
-            words += [str(path) for path in found.paths]
-        else:
-            words.append(place)
-    return words
 
 
 def _status(rows: "Sequence[tuple[str, Diagnosis | str]]", fails: "Severity | None") -> ExitStatus:

@@ -8,7 +8,7 @@ import typer
 
 from tftool.cli.app import ExitStatus
 from tftool.cli.connection import Connection, RobotOptions
-from tftool.cli.options import Json
+from tftool.cli.options import Jobs, Json, Resume, Rows, Scheduler
 from tftool.errors import UsageError
 
 if TYPE_CHECKING:
@@ -18,13 +18,17 @@ if TYPE_CHECKING:
 
 def info(
     connection: Connection,
-    place: Annotated[
-        str,
+    places: Annotated[
+        list[str],
         typer.Argument(
-            metavar="FROM", help="A recording (file, folder, glob) or a robot description."
+            metavar="FROM...", help="A recording (file, folder, glob) or a robot description."
         ),
     ],
     for_programs: Json = False,
+    output: Rows = None,
+    processes: Jobs = 1,
+    resume: Resume = False,
+    scheduler: Scheduler = "",
 ) -> ExitStatus:
     """Show what a recording or robot description holds (ros2 bag info).
 
@@ -32,10 +36,44 @@ def info(
     rate, who publishes it (by node in ROS 1 bags, by topic else), and how much later than
     its stamp it was received; what is damaged, what is odd, and what the doctor finds.
     Of a robot description: joints with limits and mimics, the root, masses where given.
+    Of several recordings, a line each; with -o, a row each in a file.
 
     tftool info run.mcap
     tftool info robot.urdf
+    tftool info 'runs/**/*.mcap' -j 8 -o runs.csv
     """
+    from tftool.cli import fleet
+    from tftool.sources.remote import fetched
+
+    if output is not None:
+        workers = fleet.workers_of(processes, scheduler)
+        counts = fleet.swept_into(places, output, workers, fleet.Inventory(), resume=resume)
+        return ExitStatus.UNREADABLE if fleet.UNREADABLE in counts else ExitStatus.DONE
+    if resume or scheduler:
+        raise UsageError("--resume and --scheduler make rows: add -o FILE.")
+    if len(places) > 1:
+        return _compared(places, processes, for_programs=for_programs)
+    (place,) = places
+    with fetched(place) as path:
+        return _one(connection, path, for_programs=for_programs)
+
+
+def _compared(places: list[str], processes: int, *, for_programs: bool) -> ExitStatus:
+    """Several recordings, a line each."""
+    from tftool.cli import fleet
+    from tftool.views import info as view
+
+    workers = fleet.workers_of(processes, "")
+    counts, rows = fleet.sweep(fleet.expanded(places), None, workers, fleet.Inventory())
+    if for_programs:
+        sys.stdout.write(json.dumps(rows, indent=2) + "\n")
+    else:
+        sys.stdout.write(view.as_lines(rows))
+    return ExitStatus.UNREADABLE if fleet.UNREADABLE in counts else ExitStatus.DONE
+
+
+def _one(connection: Connection, place: str, *, for_programs: bool) -> ExitStatus:
+    """All there is to say of one recording or description."""
     from tftool.cli.hosting import named
     from tftool.cli.notices import notice
     from tftool.cli.recorded import read, told_of_odometry
@@ -62,10 +100,12 @@ def info(
             sys.stdout.write(json.dumps(view.as_object(recording), indent=2) + "\n")
         else:
             from tftool.diagnostics.judge import judge
-            from tftool.diagnostics.model import read as material_of
+            from tftool.diagnostics.model import Described
+            from tftool.diagnostics.scope import Scope
             from tftool.views.findings import brief
 
-            diagnosis = judge(material_of(recording.source, recording.transforms))
+            given = None if connection.robot.urdf is None else Described(recording.robot)
+            diagnosis = judge(Scope(given).material(recording))
             sys.stdout.write(view.as_text(recording))
             sys.stdout.write(f"\n{brief(diagnosis)}\n")
     return ExitStatus.DONE
