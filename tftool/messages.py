@@ -84,16 +84,9 @@ class Spawned:
 
 @dataclass(frozen=True, slots=True)
 class Kill:
-    """Take a turtle out of the field; its trail stays. Answer: `Killed`."""
+    """Take a turtle out of the field; its trail stays. Answer: None."""
 
     name: str
-
-
-@dataclass(frozen=True, slots=True)
-class Killed:
-    """Whether there was a turtle to take out; ROS 2's own answer is empty."""
-
-    found: bool
 
 
 @dataclass(frozen=True, slots=True)

@@ -11,8 +11,7 @@ from tftool.link.actions import ActionServer
 from tftool.link.graph import Role
 from tftool.link.options import Options
 from tftool.link.session import Link
-from tftool.link.types import action_type
-from tftool.messages import RotateAbsolute, Rotated
+from tftool.messages import Rotated
 from tftool.runtime.clock import WallClock, run
 from tftool.wire.codec import codec
 
@@ -42,7 +41,9 @@ class Stranger:
         self.goals = []
         self.decides = decides
         world.serve_action("turn", self.take)
-        self.server = ActionServer(link, "turn", "sim", action_type(RotateAbsolute))
+        self.server = ActionServer(
+            link, "turn", "sim", INTERFACES.find("turtlesim", "action", "RotateAbsolute")
+        )
 
     def take(self, goal):
         self.goals.append(goal)

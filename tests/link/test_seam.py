@@ -63,7 +63,7 @@ def test_transforms_and_topics_cross_whatever_carries_them():
             pair.other.topic("turtle1/pose", Pose2D).subscribe(heard.append)
             pose = Pose2D(1.0, 2.0, 0.5)
             topic = pair.one.topic("turtle1/pose", Pose2D)
-            await until(lambda: topic.far_subscribers)
+            await until(lambda: topic.subscribers)
             topic.publish(pose)
             await until(lambda: heard)
             assert heard == [pose]

@@ -17,8 +17,7 @@ from tftool.geometry.rigid import Transform
 from tftool.link.graph import Role, hosts
 from tftool.link.options import Options, Reach
 from tftool.link.session import Link
-from tftool.link.tf import TF
-from tftool.link.types import TRANSFORMS
+from tftool.link.tf import TF, TRANSFORMS
 from tftool.link.zenoh.keys import Token, quality
 from tftool.messages import (
     Clear,
@@ -211,7 +210,7 @@ def test_a_topic_that_others_had_goes_with_them_unless_somebody_here_asked_for_i
         two.host.close()
         await until(lambda: "turtle3/pose" not in two.there.topics())
 
-        assert two.there.topics()["turtle2/pose"] is held
+        assert two.there.topics()["turtle2/pose"] is held.topic
         assert "turtle1/pose" in two.there.topics()
         stop()
         two.there.topic("something", Pose2D)

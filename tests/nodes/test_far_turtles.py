@@ -94,7 +94,7 @@ def test_of_a_crowd_only_the_first_are_listened_to(world):
         topic.publish(pose(1.0))
 
     assert len(far.turtles) == MOST
-    assert sum(topic.near_subscribers for topic in topics) == MOST
+    assert sum(topic.near_subscribers for topic in world.topics().values()) == MOST
 
 
 def test_another_simulator_begins_on_an_empty_sheet(world):

@@ -49,7 +49,7 @@ def test_one_name_carries_one_kind():
     world = World(SimClock())
     assert world.topic("/turtle1/pose", Pose2D) is world.topic("turtle1/pose", Pose2D)
 
-    with pytest.raises(TftoolError, match="'turtle1/pose' carries Pose2D, not Twist2D"):
+    with pytest.raises(TftoolError, match="carries turtlesim/msg/Pose, not geometry_msgs/msg/T"):
         world.topic("turtle1/pose", Twist2D)
 
 

@@ -37,7 +37,7 @@ def test_a_watcher_hears_of_a_topic_before_its_first_value():
     heard = []
 
     def listen():
-        world.topics()["new"].subscribe(heard.append)
+        world.topic("new", Twist2D).subscribe(heard.append)
         stop()
 
     stop = world.watch(listen)
@@ -47,7 +47,9 @@ def test_a_watcher_hears_of_a_topic_before_its_first_value():
 
 
 def test_a_topic_tells_of_demand_when_a_listener_comes_and_when_it_goes():
-    topic = World(SimClock()).topic("new", Twist2D)
+    world = World(SimClock())
+    world.topic("new", Twist2D)
+    topic = world.topics()["new"]
     counts = []
     topic.on_demand = lambda: counts.append(topic.subscribers)
 

@@ -5,13 +5,12 @@ import secrets
 from typing import Any, Final, cast
 
 from tftool.errors import LinkError, MalformedMessage
-from tftool.interfaces.classes import INTERFACES, Message
-from tftool.link import types
+from tftool.interfaces.classes import INTERFACES
 from tftool.link.context import LinkContext
 from tftool.link.graph import GraphEntity
 from tftool.link.seam import Arrived
-from tftool.link.services import LONGEST, Answering, Asking, Tasks, patience_for
-from tftool.link.types import ActionType
+from tftool.link.services import LONGEST, Answering, Asking, Tasks
+from tftool.runtime.doors import Goal
 from tftool.runtime.endpoints import Quality
 from tftool.runtime.topics import GoalHandle, Status
 from tftool.stamps import NANOSECONDS, Stamp
@@ -62,12 +61,12 @@ def _info(goal_id: bytes, accepted: Stamp) -> Any:
 class ActionServer:
     """An action of our world, offered to the other processes."""
 
-    def __init__(self, link: LinkContext, name: str, node: str, kind: ActionType) -> None:
+    def __init__(self, link: LinkContext, name: str, node: str, kind: Any) -> None:
+        """Offer an action; the arguments are those of `ServiceServer`."""
         self._link = link
         self._name = name
-        self._kind = kind
-        self._type = kind.ros_type
-        self._goals: dict[bytes, tuple[GoalHandle, Stamp]] = {}
+        self._type: str = kind.interface__
+        self._goals: dict[bytes, tuple[Goal, Stamp]] = {}
         self._undecided: set[bytes] = set()
         self._tasks = Tasks()
         node, base = node or link.main_node, f"{name}/_action"
@@ -105,7 +104,7 @@ class ActionServer:
             # Deciding takes a while, in which the same goal may come again.
             self._undecided.add(goal_id)
             try:
-                accepted = await self._start(goal_id, self._kind.goal.received(asked.goal), now)
+                accepted = await self._start(goal_id, asked.goal, now)
             finally:
                 self._undecided.discard(goal_id)
         answer = f"{self._type}_SendGoal_Response"
@@ -127,11 +126,10 @@ class ActionServer:
 
     async def _start(self, goal_id: bytes, request: Any, now: Stamp) -> bool:
         """Hand a goal to its server; whether it takes it."""
-        feedback = self._kind.feedback
 
-        def feed(value: Any) -> None:
+        def feed(feedback: Any) -> None:
             said = _message(
-                f"{self._type}_FeedbackMessage", goal_id=_id(goal_id), feedback=feedback.sent(value)
+                f"{self._type}_FeedbackMessage", goal_id=_id(goal_id), feedback=feedback
             )
             self._feedback.put(_bytes(said), self._link.now())
 
@@ -143,7 +141,7 @@ class ActionServer:
         self._tasks.start(self._see_through(goal))
         return True
 
-    async def _see_through(self, goal: GoalHandle) -> None:
+    async def _see_through(self, goal: Goal) -> None:
         await goal.result()
         self._publish_status()
 
@@ -181,8 +179,7 @@ class ActionServer:
         if goal is None:
             return _bytes(_message(answer))
         end = await goal.result()
-        result = self._kind.result.sent(end.value)
-        return _bytes(_message(answer, status=_NUMBERS[end.status], result=result))
+        return _bytes(_message(answer, status=_NUMBERS[end.status], result=end.value))
 
     def _publish_status(self) -> None:
         entries = []
@@ -200,7 +197,7 @@ class ActionServer:
 
 
 class ActionClient:
-    """An action of another process, as one of our world: it takes values and messages alike."""
+    """An action of another process, as one of our world."""
 
     def __init__(self, link: LinkContext, name: str, server: GraphEntity) -> None:
         self._link = link
@@ -221,7 +218,11 @@ class ActionClient:
             f"{base}/feedback", feedback, self._on_feedback
         )
         self._withdraw = link.world.serve_action(
-            name, self._accept, self._type, node=server.node, is_remote=True
+            name,
+            self._accept,
+            INTERFACES.find(*self._type.split("/")),
+            node=server.node,
+            is_remote=True,
         )
 
     def close(self) -> None:
@@ -233,11 +234,6 @@ class ActionClient:
             part.close()
 
     def _accept(self, goal: GoalHandle) -> None:
-        if not types.is_goal_of(goal.request, self._type):
-            raise LinkError(
-                f"action '{self._name}' is of type {self._type}, which takes no "
-                f"{type(goal.request).__name__}"
-            )
         goal_id = secrets.token_bytes(16)
         self._goals[goal_id] = goal
         goal.decided = asyncio.get_running_loop().create_future()
@@ -249,15 +245,14 @@ class ActionClient:
     ) -> None:
         """Send a goal, and see it to its end."""
         status: Status = "aborted"
-        kind = self._as(goal)
         result: Any = INTERFACES.part(f"{self._type}_Result")()
         try:
             asked = _message(
                 f"{self._type}_SendGoal_Request",
                 goal_id=_id(goal_id),
-                goal=kind.goal.sent(goal.request),
+                goal=goal.request,
             )
-            answer = await self._send.ask(_bytes(asked), patience_for(goal.request))
+            answer = await self._send.ask(_bytes(asked), goal.patience or LONGEST)
             accepted = _read(f"{self._type}_SendGoal_Response", answer).accepted
             decided.set_result(accepted)
             if accepted:
@@ -272,20 +267,14 @@ class ActionClient:
             self._goals.pop(goal_id, None)
             if not decided.done():
                 decided.set_result(False)
-            goal.finish(status, kind.result.received(result))
-
-    def _as(self, goal: GoalHandle) -> ActionType:
-        """The action, in our values or in messages, as the goal is."""
-        return types.named_action(
-            self._type, None if isinstance(goal.request, Message) else type(goal.request)
-        )
+            goal.finish(status, result)
 
     async def _call_off(self, goal_id: bytes, goal: GoalHandle) -> None:
         info = _info(goal_id, 0)
         accepted = False
         try:
             asked = _message(f"{CANCEL_GOAL}_Request", goal_info=info)
-            answer = await self._cancel.ask(_bytes(asked), patience_for(goal.request))
+            answer = await self._cancel.ask(_bytes(asked), goal.patience or LONGEST)
             accepted = bool(_read(f"{CANCEL_GOAL}_Response", answer).goals_canceling)
         except (LinkError, MalformedMessage) as error:
             self._link.world.log.warn("link", f"{self._name}: {error}")
@@ -300,4 +289,4 @@ class ActionClient:
             return
         goal = self._goals.get(bytes(said.goal_id.uuid))
         if goal is not None:
-            goal.publish_feedback(self._as(goal).feedback.received(said.feedback))
+            goal.publish_feedback(said.feedback)

@@ -5,18 +5,15 @@ from collections.abc import Callable, Coroutine
 from typing import Any, Final
 
 from tftool.errors import LinkError, MalformedMessage, TftoolError
-from tftool.interfaces.classes import Message
-from tftool.link import types
+from tftool.interfaces import values
+from tftool.interfaces.classes import INTERFACES
 from tftool.link.context import LinkContext
 from tftool.link.graph import GraphEntity
 from tftool.link.seam import WireRequest
-from tftool.link.types import ServiceType
-
-PATIENCE: Final = 5.0
-"""Seconds that nodes of ours wait for an answer."""
+from tftool.wire.codec import codec
 
 LONGEST: Final = 3600.0
-"""Seconds that users' nodes wait, which may have work for hours done by a service."""
+"""Seconds to wait for an answer: a user's node may have work for hours done by a service."""
 
 
 class Tasks:
@@ -104,31 +101,39 @@ class Asking:
 class ServiceServer:
     """A service of our world, offered to the other processes."""
 
-    def __init__(self, link: LinkContext, name: str, node: str, kind: ServiceType) -> None:
+    def __init__(self, link: LinkContext, name: str, node: str, kind: Any) -> None:
+        """Offer a service.
+
+        Args:
+            link: The link.
+            name: The service's name.
+            node: The node that serves it, "" where that is not said.
+            kind: The service's class.
+        """
         self._link = link
         self._name = name
         self._kind = kind
         node = node or link.main_node
-        self._answering = Answering(link, node, name, kind.ros_type, self._serve)
+        self._answering = Answering(link, node, name, kind.interface__, self._serve)
 
     def close(self) -> None:
         """Answer no request any more."""
         self._answering.close()
 
     async def _serve(self, payload: bytes) -> bytes:
-        request = self._kind.request.decode(payload)
-        return self._kind.response.encode(await self._link.world.call(self._name, request))
+        request = codec(self._kind.Request).decode(payload)
+        answer = await self._link.world.call(self._name, request)
+        return codec(self._kind.Response).encode(values.as_message(answer, self._kind.Response))
 
 
 class ServiceClient:
-    """A service of another process, as one of our world: it takes values and messages alike."""
+    """A service of another process, as one of our world."""
 
     def __init__(self, link: LinkContext, name: str, server: GraphEntity) -> None:
-        self._name = name
-        self._type = server.ros_type
+        self._kind = INTERFACES.find(*server.ros_type.split("/"))
         self._asking = Asking(link, name, server.ros_type)
         self._withdraw = link.world.serve(
-            name, self._call, server.ros_type, node=server.node, is_remote=True
+            name, self._call, self._kind, node=server.node, is_remote=True
         )
 
     def close(self) -> None:
@@ -137,17 +142,5 @@ class ServiceClient:
         self._asking.close()
 
     async def _call(self, request: Any) -> Any:
-        kind = types.named_service(self._type)
-        if not types.is_same(request, kind.request):
-            raise LinkError(
-                f"service '{self._name}' is of type {self._type}, which takes no "
-                f"{type(request).__name__}"
-            )
-        payload = kind.request.encode(request)
-        answer = kind.response.decode(await self._asking.ask(payload, patience_for(request)))
-        return answer if isinstance(request, Message) else types.answer_to(request, answer)
-
-
-def patience_for(request: Any) -> float:
-    """Seconds to wait for the answer to a request or a goal: messages are users' nodes'."""
-    return LONGEST if isinstance(request, Message) else PATIENCE
+        payload = codec(self._kind.Request).encode(request)
+        return codec(self._kind.Response).decode(await self._asking.ask(payload, LONGEST))

@@ -9,10 +9,11 @@ import asyncio
 import os
 import re
 from collections.abc import Callable
-from typing import Any, TypeVar
+from typing import Any
 
-from tftool.errors import InputError, MalformedMessage
-from tftool.interfaces.classes import INTERFACES
+from tftool.errors import MalformedMessage
+from tftool.interfaces import values
+from tftool.interfaces.classes import INTERFACES, Message
 from tftool.link.actions import ActionClient, ActionServer
 from tftool.link.context import NAME, LinkContext
 from tftool.link.graph import NODE, SERVER, GraphEntity, Process, Role, hosts
@@ -21,13 +22,10 @@ from tftool.link.seam import join
 from tftool.link.services import ServiceClient, ServiceServer
 from tftool.link.tf import StaticBridge, TransformBridge
 from tftool.link.topics import TopicBridge
-from tftool.link.types import VALUES, action_type, service_type, topic_type
 from tftool.runtime.clock import WallClock
 from tftool.runtime.endpoints import PUBLISHER, SUBSCRIPTION
 from tftool.runtime.offers import Offer
 from tftool.runtime.world import TransformMessage, World
-
-T = TypeVar("T")
 
 _PLAIN = re.compile(r"[A-Za-z_][A-Za-z0-9_]*(/[A-Za-z_][A-Za-z0-9_]*)*", re.ASCII)
 
@@ -179,11 +177,11 @@ class Link(LinkContext):
 
         Those that no process has any more, here or there, are forgotten again.
         """
-        values = {ros_type: value for value, ros_type in VALUES.items()}
+        ours = {kind.interface__ for kind in values.TOPICS}
         for entity in self.graph.entities(PUBLISHER):
-            value = values.get(entity.ros_type)
-            if value and entity.name not in self.world.topics() and is_plain(entity.name):
-                self.world.topic(entity.name, value).is_far = True
+            known = entity.ros_type not in ours or entity.name in self.world.topics()
+            if not known and is_plain(entity.name):
+                self.world.name_topic(entity.name, INTERFACES.message(entity.ros_type))
         for topic in tuple(self.world.topics().values()):
             others = self.graph.entities(PUBLISHER, SUBSCRIPTION, name=topic.name)
             if topic.is_far and not topic.near_subscribers and not others:
@@ -204,18 +202,11 @@ class Link(LinkContext):
             if topic.kind is TransformMessage:
                 made = StaticBridge if name == "tf_static" else TransformBridge
                 self._bridges[name] = made(self, topic)
-            else:
-                kind = self._known(name, topic_type, topic.kind)
-                if kind is not None:
-                    self._bridges[name] = TopicBridge(self, topic, kind)
-
-    def _known(self, name: str, find: Callable[[Any], T | None], kind: Any) -> T | None:
-        """How something travels; None, and a word about it, for what cannot."""
-        try:
-            return find(kind)
-        except (InputError, MalformedMessage) as error:
-            self.say_once(f"type {name}", f"'{name}' stays inside this process: {error}.")
-            return None
+            elif issubclass(topic.kind, Message):
+                try:
+                    self._bridges[name] = TopicBridge(self, topic)
+                except MalformedMessage as error:
+                    self.say_once(f"type {name}", f"'{name}' stays inside this process: {error}.")
 
     def _match_servers(self) -> None:
         if self.options.read_only:
@@ -230,16 +221,11 @@ class Link(LinkContext):
                 server.close()
         for name in sorted(own.keys() - self._servers.keys()):
             offer = own[name]
-            if name in self.world.actions():
-                action = self._known(name, action_type, offer.kind)
-                if action is not None:
-                    made = ActionServer(self, name, offer.node, action)
-                    self._servers[name] = offer, made
-                    self._warn_of_rival(name, f"{name}/_action/send_goal")
-                continue
-            service = self._known(name, service_type, offer.kind)
-            if service is not None:
-                self._servers[name] = offer, ServiceServer(self, name, offer.node, service)
+            if hasattr(offer.kind, "Goal"):
+                self._servers[name] = offer, ActionServer(self, name, offer.node, offer.kind)
+                self._warn_of_rival(name, f"{name}/_action/send_goal")
+            elif hasattr(offer.kind, "Request"):
+                self._servers[name] = offer, ServiceServer(self, name, offer.node, offer.kind)
                 self._warn_of_rival(name, name)
 
     def _match_clients(self) -> None:

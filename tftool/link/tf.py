@@ -6,7 +6,6 @@ from tftool.errors import MalformedMessage
 from tftool.frames.sample import TransformStamped
 from tftool.link.context import LinkContext
 from tftool.link.seam import Arrived, WirePublisher
-from tftool.link.types import TRANSFORMS
 from tftool.runtime.endpoints import SUBSCRIPTION, TF, TF_STATIC
 from tftool.runtime.topics import Topic
 from tftool.runtime.world import TransformMessage
@@ -18,6 +17,8 @@ LARGE: Final = 256 * 1024
 
 LONG: Final = 64
 """How many samples a link has in it on the average, at least, for that to pay."""
+
+TRANSFORMS: Final = TransformMessage.interface__
 
 YEAR: Final = seconds(365.25 * 24 * 3600)
 

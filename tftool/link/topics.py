@@ -6,23 +6,29 @@ from typing import Any
 from tftool.errors import MalformedMessage
 from tftool.link.context import LinkContext
 from tftool.link.seam import Arrived, WirePublisher
-from tftool.link.types import MessageType
 from tftool.runtime.endpoints import PUBLISHER, SUBSCRIPTION, USUAL, Endpoint
 from tftool.runtime.topics import Topic
+from tftool.wire.codec import codec
 
 
 class TopicBridge:
-    """A topic whose values are messages of their own.
+    """A topic of messages.
 
     Nodes that state what they publish and subscribe, and with what quality, are shown one
     by one; all others together as the first node of the world. What comes in is taken once
     for all, except by latched subscriptions: each is sent what was there before it.
     """
 
-    def __init__(self, link: LinkContext, topic: Topic[Any], kind: MessageType) -> None:
+    def __init__(self, link: LinkContext, topic: Topic[Any]) -> None:
+        """Carry a topic of messages.
+
+        Raises:
+            MalformedMessage: If the bytes of such messages differ between ROS 2 releases.
+        """
         self._link = link
         self._topic = topic
-        self._kind = kind
+        self._type = topic.kind.interface__
+        self._codec = codec(topic.kind)
         self._senders: dict[Endpoint | None, WirePublisher] = {}
         self._subscriptions: dict[Endpoint | None, Callable[[], None]] = {}
         self._stop_in: Callable[[], None] | None = None
@@ -37,7 +43,7 @@ class TopicBridge:
         topic, endpoints = self._topic, self._link.world.endpoints
         # The simulator computes colours only while a subscriber is counted.
         topic.far_subscribers = sum(
-            one.ros_type == self._kind.ros_type
+            one.ros_type == self._type
             for one in self._link.graph.entities(SUBSCRIPTION, name=topic.name)
         )
         publishers = _here(endpoints.of(topic.name, PUBLISHER))
@@ -80,7 +86,7 @@ class TopicBridge:
 
     def _subscribe(self, stated: Endpoint | None) -> Callable[[], None]:
         """Show a subscription, and ask for what was sent before if it is latched."""
-        link, name, ros_type = self._link, self._topic.name, self._kind.ros_type
+        link, name, ros_type = self._link, self._topic.name, self._type
         node = link.main_node if stated is None else stated.node
         quality = USUAL if stated is None else stated.quality
         deliver = None if stated is None else stated.deliver
@@ -107,7 +113,7 @@ class TopicBridge:
         self, arrived: Callable[[Arrived], object], *, is_latched: bool = False
     ) -> Callable[[], None]:
         return self._link.middleware.listen(
-            self._topic.name, self._kind.ros_type, arrived, is_latched=is_latched
+            self._topic.name, self._type, arrived, is_latched=is_latched
         )
 
     def _arrived(self, message: Arrived) -> None:
@@ -123,12 +129,12 @@ class TopicBridge:
     def _read(self, message: Arrived) -> tuple[Any, Endpoint] | None:
         """What a message says and who sent it; None for one that is refused."""
         try:
-            value = self._kind.decode(message.payload)
+            value = self._codec.decode(message.payload)
         except MalformedMessage as refusal:
             self._link.refuse(self._topic.name, refusal)
             return None
         self._link.received += 1
-        return value, self._link.endpoint(message.sender, self._topic.name, self._kind.ros_type)
+        return value, self._link.endpoint(message.sender, self._topic.name, self._type)
 
     # Out
 
@@ -145,14 +151,14 @@ class TopicBridge:
 
     def _put(self, sender: WirePublisher, value: Any) -> None:
         try:
-            sender.put(self._kind.encode(value), self._link.now())
+            sender.put(self._codec.encode(value), self._link.now())
         except MalformedMessage as refusal:
             self._link.refuse(self._topic.name, refusal)
 
     def _sender(self, stated: Endpoint | None) -> WirePublisher:
         node = self._link.main_node if stated is None else stated.node
         quality = USUAL if stated is None else stated.quality
-        return self._link.middleware.publisher(node, self._topic.name, self._kind.ros_type, quality)
+        return self._link.middleware.publisher(node, self._topic.name, self._type, quality)
 
 
 def _here(endpoints: list[Endpoint]) -> list[Endpoint]:

@@ -5,6 +5,7 @@ from dataclasses import dataclass
 from types import MappingProxyType
 from typing import Final
 
+from tftool.interfaces.values import message_class
 from tftool.messages import Color, Pose2D
 from tftool.nodes.trail import Segment, Trail
 from tftool.nodes.turtle import PEN_COLOR, PEN_WIDTH
@@ -69,14 +70,16 @@ class FarTurtles:
         return MappingProxyType(there)
 
     def _look(self) -> None:
+        pose = message_class(Pose2D)
         for name, topic in tuple(self._world.topics().items()):
             if len(self._stops) >= MOST:
                 return
-            if name.endswith(_POSE) and topic.kind is Pose2D and name not in self._stops:
+            if name.endswith(_POSE) and topic.kind is pose and name not in self._stops:
                 turtle = name.removesuffix(_POSE)
                 # Noted first: to subscribe may call this again.
                 self._stops[name] = lambda: None
-                self._stops[name] = topic.subscribe(self._taker(turtle), "far turtles")
+                poses = self._world.value_topic(topic, Pose2D)
+                self._stops[name] = poses.subscribe(self._taker(turtle), "far turtles")
 
     def _taker(self, name: str) -> Callable[[Pose2D], None]:
         def take(pose: Pose2D) -> None:

@@ -9,8 +9,8 @@ from typing import Literal
 from tftool.errors import TftoolError
 from tftool.messages import KeyPress, RotateAbsolute, Twist2D
 from tftool.nodes.turtle import require_turtle_name
+from tftool.runtime.doors import Goal
 from tftool.runtime.node import Node
-from tftool.runtime.topics import GoalHandle
 from tftool.runtime.world import World
 
 BANNER = (
@@ -108,7 +108,7 @@ class Teleop(Node):
         self.turtle = turtle
         self.declare_parameter("scale_linear", float(scale_linear))
         self.declare_parameter("scale_angular", float(scale_angular))
-        self._goal: GoalHandle | None = None
+        self._goal: Goal | None = None
         self._sending = 0
         self._quit = asyncio.Event()
 

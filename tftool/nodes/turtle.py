@@ -18,8 +18,9 @@ from tftool.motion.unicycle import (
     turn_towards,
 )
 from tftool.nodes.trail import Segment
+from tftool.runtime.doors import ValueGoal
 from tftool.runtime.log import Level
-from tftool.runtime.topics import GoalHandle, Status
+from tftool.runtime.topics import Status
 from tftool.stamps import NANOSECONDS, Stamp
 
 PEN_COLOR = Color(179, 184, 255)
@@ -98,7 +99,7 @@ class Turtle:
         self.wall_hits = 0
         self._commanded = now
         self._teleports: list[Callable[[Placement], Placement]] = []
-        self._goal: GoalHandle | None = None
+        self._goal: ValueGoal | None = None
         self._goal_start = self._goal_delta = 0.0
         self._wall_met = False
         self._wall_told = now
@@ -134,7 +135,7 @@ class Turtle:
         if not off:
             self.color, self.width = color, max(width, 1)
 
-    def rotate(self, goal: GoalHandle, say: Say) -> None:
+    def rotate(self, goal: ValueGoal, say: Say) -> None:
         """Take over a goal of the rotate action; an active one is aborted."""
         if self._goal is not None:
             say(
@@ -196,7 +197,7 @@ class Turtle:
         )
         return stroke
 
-    def _pursue_goal(self, goal: GoalHandle, now: Stamp, say: Say) -> None:
+    def _pursue_goal(self, goal: ValueGoal, now: Stamp, say: Say) -> None:
         self.forward = self.sideways = self.turn = 0.0
         if goal.cancel_requested:
             say("INFO", "Rotation goal canceled")

@@ -18,7 +18,7 @@ from tftool.messages import (
 from tftool.motion.unicycle import FIELD, Placement, float32_finite
 from tftool.nodes.tick_queue import MOST_WAITING, TickQueue
 from tftool.nodes.turtle import Say, Turtle
-from tftool.runtime.topics import GoalHandle
+from tftool.runtime.doors import ValueGoal
 from tftool.runtime.world import World
 from tftool.stamps import NANOSECONDS, Stamp
 
@@ -133,7 +133,7 @@ class TurtlePorts:
         width, off = require_byte(request.width, "width"), bool(require_byte(request.off, "off"))
         return self._queue.ask(lambda _: self._turtle.set_pen(color, width, off))
 
-    def _on_rotate(self, goal: GoalHandle) -> None:
+    def _on_rotate(self, goal: ValueGoal) -> None:
         goal.request = RotateAbsolute(float32_finite(goal.request.theta, "theta"))
 
         def rotate(_: Stamp) -> None:

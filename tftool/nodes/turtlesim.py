@@ -5,7 +5,7 @@ from types import MappingProxyType
 from typing import ClassVar
 
 from tftool.errors import UsageError
-from tftool.messages import Clear, Color, Kill, Killed, Reset, Spawn, Spawned
+from tftool.messages import Clear, Color, Kill, Reset, Spawn, Spawned
 from tftool.motion.unicycle import CENTRE, TICK, Placement
 from tftool.nodes.parameter_services import ParameterServices
 from tftool.nodes.tick_queue import TickQueue
@@ -232,15 +232,14 @@ class Turtlesim(Node):
         place = requested_placement(request)
         return await self._queue.ask(lambda tick: Spawned(self._spawn(place, request.name, tick)))
 
-    async def _on_kill(self, request: Kill) -> Killed:
-        def kill(_: Stamp) -> Killed:
+    async def _on_kill(self, request: Kill) -> None:
+        def kill(_: Stamp) -> None:
             if request.name in self._turtles:
                 self._remove(request.name)
-                return Killed(True)
-            self.error(f"Tried to kill turtle [{shown(request.name)}], which does not exist")
-            return Killed(False)
+            else:
+                self.error(f"Tried to kill turtle [{shown(request.name)}], which does not exist")
 
-        return await self._queue.ask(kill)
+        await self._queue.ask(kill)
 
     async def _on_clear(self, _: Clear) -> None:
         def clear(_: Stamp) -> None:

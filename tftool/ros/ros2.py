@@ -13,7 +13,8 @@ from typing import Any
 from tftool.errors import UsageError
 from tftool.interfaces.classes import INTERFACES
 from tftool.interfaces.parameters import value_of
-from tftool.ros.host import names, program, ros2_words, values
+from tftool.interfaces.values import interface_name
+from tftool.ros.host import names, program, ros2_words
 from tftool.ros.host.workspace import Workspace
 from tftool.ros.rclpy import core
 from tftool.ros.rclpy.action_client import ActionClient
@@ -382,7 +383,7 @@ def _action_list(node: Node, asked: argparse.Namespace, show: Print) -> None:
     _listen(node)
     world = program.current().world
     offers = program.current().ask(lambda: [(k, v.kind) for k, v in world.actions().items()])
-    pairs = [(f"/{name}", [values.type_of(kind)]) for name, kind in sorted(offers)]
+    pairs = [(f"/{name}", [interface_name(kind)]) for name, kind in sorted(offers)]
     _list(pairs, asked, show, hidden=False)
 
 

@@ -12,8 +12,8 @@ class Offer(Generic[T]):
 
     Attributes:
         take: What answers requests, or takes goals.
-        kind: What is asked: the type of our own requests or goals, or the ROS class of the
-            service or action. None where it is not stated; it stays inside the process then.
+        kind: The ROS class of the service or action. None where it is not stated; it stays inside
+            the process then, and takes anything.
         node: The node that answers, "" where it is not stated.
         is_remote: Whether another process answers; a server here takes its place.
     """

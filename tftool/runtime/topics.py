@@ -111,24 +111,31 @@ class Topic(Generic[T]):
         """How many listen in this process."""
         return len(self._subscribers)
 
-    async def stream(self, depth: int = 100) -> AsyncIterator[T]:
+    def stream(self, depth: int = 100) -> AsyncIterator[T]:
         """Values to come, one by one; a reader slower than `depth` values loses the oldest."""
-        waiting: deque[T] = deque(maxlen=depth)
-        arrived = asyncio.Event()
+        return streamed(self.subscribe, depth)
 
-        def keep(value: T) -> None:
-            waiting.append(value)
-            arrived.set()
 
-        stop = self.subscribe(keep)
-        try:
-            while True:
-                while waiting:
-                    yield waiting.popleft()
-                arrived.clear()
-                await arrived.wait()
-        finally:
-            stop()
+async def streamed(
+    subscribe: Callable[[Callable[[T], object]], Callable[[], None]], depth: int
+) -> AsyncIterator[T]:
+    """What a subscription brings, one by one; a reader slower than `depth` loses the oldest."""
+    waiting: deque[T] = deque(maxlen=depth)
+    arrived = asyncio.Event()
+
+    def keep(value: T) -> None:
+        waiting.append(value)
+        arrived.set()
+
+    stop = subscribe(keep)
+    try:
+        while True:
+            while waiting:
+                yield waiting.popleft()
+            arrived.clear()
+            await arrived.wait()
+    finally:
+        stop()
 
 
 Handler = Callable[[Any], Any | Awaitable[Any]]
@@ -159,14 +166,22 @@ class GoalHandle:
             by `decide_cancel`; None for one that always agrees.
         decided: Whether the server takes the goal, once it has decided; None for one that
             takes every goal.
+        patience: Seconds to wait for the server of another process to take the goal or a
+            cancellation; None for as long as it takes.
     """
 
-    def __init__(self, request: Any, on_feedback: Callable[[Any], object] | None = None) -> None:
+    def __init__(
+        self,
+        request: Any,
+        on_feedback: Callable[[Any], object] | None = None,
+        patience: float | None = None,
+    ) -> None:
         self.request = request
         self.cancel_requested = False
         self.feedback: Any = None
         self.on_cancel: Callable[[], object] | None = None
         self.decided: asyncio.Future[bool] | None = None
+        self.patience = patience
         self._on_feedback = on_feedback
         self._cancellation: asyncio.Future[bool] | None = None
         self._result: asyncio.Future[GoalResult] = asyncio.get_running_loop().create_future()
@@ -227,5 +242,5 @@ class GoalHandle:
             self._result.set_result(GoalResult(status, value))
 
 
-Acceptor = Callable[[GoalHandle], None]
+Acceptor = Callable[[Any], None]
 """Takes a goal over; it ends it with `finish`."""

@@ -8,12 +8,14 @@ from dataclasses import dataclass
 from types import MappingProxyType
 from typing import Any, ClassVar, Generic, TypeVar, cast
 
-from tftool.errors import NodeFailed, TftoolError
+from tftool.errors import LinkError, NodeFailed, TftoolError
 from tftool.frames.buffer import Buffer
 from tftool.frames.sample import TransformStamped
+from tftool.interfaces import values
 from tftool.listeners import Listeners, listener_text
 from tftool.runtime import waiting
 from tftool.runtime.clock import Clock
+from tftool.runtime.doors import Goal, ValueGoal, ValueTopic, accepting, serving
 from tftool.runtime.endpoints import (
     PUBLISHER,
     SUBSCRIPTION,
@@ -30,6 +32,9 @@ from tftool.runtime.topics import Acceptor, GoalHandle, Handler, Topic
 from tftool.stamps import Duration, Stamp, seconds
 
 T = TypeVar("T")
+
+PATIENCE = 5.0
+"""Seconds that nodes of ours wait for an answer from another process."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -66,9 +71,11 @@ class TopicPublisher(Generic[T]):
 
     def publish(self, value: T) -> None:
         """Publish a value, on a topic that is made anew where it was removed meanwhile."""
+        topic = self._world.topic(self.name, self.kind)
         if self._endpoint is not None and self._endpoint.kept is not None:
-            self._endpoint.kept.append(value)
-        self._world.topic(self.name, self.kind).publish(value, self._endpoint)
+            carried = topic.message_of(value) if isinstance(topic, ValueTopic) else value
+            self._endpoint.kept.append(carried)
+        topic.publish(value, self._endpoint)
 
     @property
     def subscribers(self) -> int:
@@ -107,6 +114,7 @@ class World:
         self.nodes: list[Resident] = []
         self._joined = 0
         self._topics: dict[str, Topic[Any]] = {}
+        self._doors: dict[str, ValueTopic[Any]] = {}
         self._services: dict[str, Offer[Handler]] = {}
         self._actions: dict[str, Offer[Acceptor]] = {}
         self._statics: dict[str, dict[str, TransformStamped]] = {}
@@ -116,26 +124,52 @@ class World:
         self._supervisor: Supervision | None = None
         self._watchers: Listeners[()] = Listeners(self.report)
         self.endpoints = Endpoints(self._changed, self.log.warn)
-        self.tf = self.topic("tf", TransformMessage)
-        self.tf_static = self.topic("tf_static", TransformMessage)
+        self.tf: Topic[TransformMessage] = self._topic("tf", TransformMessage)
+        self.tf_static: Topic[TransformMessage] = self._topic("tf_static", TransformMessage)
 
     # Topics
 
-    def topic(self, name: str, kind: type[T]) -> Topic[T]:
+    def topic(self, name: str, kind: type[T]) -> Topic[T] | ValueTopic[T]:
         """The topic of that name, made when it is first named.
+
+        Args:
+            name: Its name.
+            kind: A message's class, or one of our values, to publish and take values there.
 
         Raises:
             TftoolError: If it is there already and carries something else.
         """
         name = name.removeprefix("/")
+        door = self._doors.get(name)
+        if door is not None and door.kind is kind:
+            door.topic.is_far = False
+            return door
+        topic = self._topic(name, values.message_class(kind))
+        topic.is_far = False
+        return topic if topic.kind is kind else self.value_topic(topic, kind)
+
+    def name_topic(self, name: str, kind: type[Any]) -> None:
+        """List a topic that only other processes have, until it is asked for here."""
+        self._topic(name, kind).is_far = True
+
+    def _topic(self, name: str, kind: type[Any]) -> Topic[Any]:
         topic = self._topics.get(name)
         if topic is None:
             topic = self._topics[name] = Topic(name, kind, self.report)
             self._changed()
         elif topic.kind is not kind:
-            raise TftoolError(f"topic '{name}' carries {topic.kind.__name__}, not {kind.__name__}")
-        topic.is_far = False
-        return cast("Topic[T]", topic)
+            carried, named = (
+                values.interface_name(one) or one.__name__ for one in (topic.kind, kind)
+            )
+            raise TftoolError(f"topic '{name}' carries {carried}, not {named}")
+        return topic
+
+    def value_topic(self, topic: Topic[Any], kind: type[T]) -> ValueTopic[T]:
+        """The door to a topic of messages for a type of our values."""
+        door = self._doors.get(topic.name)
+        if door is None or door.topic is not topic:
+            door = self._doors[topic.name] = ValueTopic(topic, kind)
+        return cast("ValueTopic[T]", door)
 
     def publisher(
         self, node: str, name: str, kind: type[T], quality: Quality = USUAL
@@ -168,15 +202,20 @@ class World:
             quality: What it asks for. A latched one gets at once what latched publishers of
                 this process sent before, and what those of others did as soon as it comes.
         """
-        topic = self.topic(name, kind)
-        taken: Callable[[T], object] = callback
+        door = self.topic(name, kind)
+        topic: Topic[Any]
+        if isinstance(door, ValueTopic):
+            topic, callback = door.topic, door.taker(callback)
+        else:
+            topic = door
+        taken: Callable[[Any], object] = callback
         deliver: Callable[[Any, Endpoint | None], object] | None = None
         if quality.is_latched and kind is not TransformMessage:
 
             def deliver(value: Any, _sender: Endpoint | None) -> object:
                 return callback(value)
 
-            def taken(value: T) -> object:
+            def taken(value: Any) -> object:
                 # What other processes send comes by `deliver`.
                 sender = topic.sender
                 if sender is not None and sender.is_remote:
@@ -235,7 +274,9 @@ class World:
 
     def remove_topic(self, name: str) -> None:
         """Forget a topic; what is published on a `Topic` still held reaches no new subscriber."""
-        if self._topics.pop(name.removeprefix("/"), None) is not None:
+        name = name.removeprefix("/")
+        self._doors.pop(name, None)
+        if self._topics.pop(name, None) is not None:
             self._changed()
 
     # Services and actions
@@ -254,14 +295,16 @@ class World:
         Args:
             name: The service's name.
             handler: Answers a request, now or when awaited.
-            kind: What is asked, for those in other processes; see `Offer`.
+            kind: The service's ROS class, or our type of its requests: then the handler takes
+                and gives values. None for one that stays inside this process.
             node: The node that answers.
             is_remote: Whether it answers from another process.
 
         Raises:
             TftoolError: If a node here serves that name already.
         """
-        offer = Offer(handler, kind, node, is_remote)
+        take = serving(handler, kind) if kind in values.SERVICES else handler
+        offer = Offer(take, values.interface_class(kind), node, is_remote)
         return self._offer(self._services, name, offer, "service")
 
     def has_service(self, name: str) -> bool:
@@ -275,14 +318,34 @@ class World:
     async def call(self, name: str, request: Any) -> Any:
         """Ask a service and wait for its answer.
 
+        Args:
+            name: The service's name.
+            request: A message; or a value of ours, which is answered by a value, and which a
+                server of another process has `PATIENCE` to answer.
+
         Raises:
-            TftoolError: If no node serves that name.
+            TftoolError: If no node serves that name, or the request is of another type.
+            LinkError: If another process does not answer a value in time.
         """
         offer = self._services.get(name.removeprefix("/"))
         if offer is None:
             raise TftoolError(f"no node serves '{name}'")
-        response = offer.take(request)
-        return await response if inspect.isawaitable(response) else response
+        kind = offer.kind
+        if kind is not None:
+            _require(request, "Request", kind, f"service '{name}'")
+        if kind is None or type(request) not in values.SERVICES:
+            return await _awaited(offer.take(request))
+        message = values.as_message(request, kind.Request)
+        try:
+            async with asyncio.timeout(PATIENCE if offer.is_remote else None) as limit:
+                answer = await _awaited(offer.take(message))
+        except TimeoutError:
+            if not limit.expired():
+                raise
+            raise LinkError(
+                f"service '{name}': no server answered within {PATIENCE:g} s, or it has left"
+            ) from None
+        return values.as_value(answer, values.SERVICES[type(request)][1])
 
     def serve_action(
         self,
@@ -300,7 +363,8 @@ class World:
         Raises:
             TftoolError: If a node here serves that action already.
         """
-        offer = Offer(accept, kind, node, is_remote)
+        take = accepting(accept, kind) if kind in values.ACTIONS else accept
+        offer = Offer(take, values.interface_class(kind), node, is_remote)
         return self._offer(self._actions, name, offer, "action")
 
     def actions(self) -> Mapping[str, Offer[Acceptor]]:
@@ -309,18 +373,36 @@ class World:
 
     async def send_goal(
         self, name: str, goal: Any, on_feedback: Callable[[Any], object] | None = None
-    ) -> GoalHandle:
+    ) -> Goal:
         """Hand a goal to an action's server.
 
+        Args:
+            name: The action's name.
+            goal: A message; or a value of ours, whose feedback and result are values then.
+            on_feedback: Called with each feedback.
+
         Raises:
-            TftoolError: If no node serves that action.
+            TftoolError: If no node serves that action, or the goal is of another type.
         """
         offer = self._actions.get(name.removeprefix("/"))
         if offer is None:
             raise TftoolError(f"no node serves the action '{name}'")
-        handle = GoalHandle(goal, on_feedback)
+        kind = offer.kind
+        if kind is not None:
+            _require(goal, "Goal", kind, f"action '{name}'")
+        if kind is None or type(goal) not in values.ACTIONS:
+            handle = GoalHandle(goal, on_feedback)
+            offer.take(handle)
+            return handle
+        said = values.ACTIONS[type(goal)][2]
+
+        def fed(feedback: Any) -> None:
+            if on_feedback is not None:
+                on_feedback(values.as_value(feedback, said))
+
+        handle = GoalHandle(values.as_message(goal, kind.Goal), fed, PATIENCE)
         offer.take(handle)
-        return handle
+        return ValueGoal(handle, type(goal))
 
     def watch(self, callback: Callable[[], object], owner: str = "") -> Callable[[], None]:
         """Have `callback` called when a topic, service, action or node comes or goes.
@@ -553,3 +635,18 @@ class World:
 
 def _nothing() -> None:
     """Take nothing out."""
+
+
+async def _awaited(answer: Any) -> Any:
+    return await answer if inspect.isawaitable(answer) else answer
+
+
+def _require(asked: Any, part: str, kind: Any, what: str) -> None:
+    """Refuse what is not the request of a service's class, or the goal of an action's.
+
+    Raises:
+        TftoolError: If it is not.
+    """
+    if not values.is_part(asked, part, kind):
+        given = getattr(asked, "interface__", "") or type(asked).__name__
+        raise TftoolError(f"{what} is of type {kind.interface__}, which takes no {given}")

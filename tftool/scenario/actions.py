@@ -18,7 +18,6 @@ from tftool.messages import (
     Clear,
     KeyPress,
     Kill,
-    Killed,
     Reset,
     RotateAbsolute,
     SetPen,
@@ -142,8 +141,10 @@ class KillTurtle(Action):
 
     async def do(self, script: "Script") -> None:
         """Do it, now."""
-        killed: Killed = await script.call("kill", Kill(self.turtle))
-        if not killed.found:
+        # The answer says nothing, as in ROS 2.
+        is_there = script.world.has_service(f"{self.turtle}/set_pen")
+        await script.call("kill", Kill(self.turtle))
+        if not is_there:
             raise StepFailed(f"there is no turtle '{self.turtle}'")
 
 

@@ -17,6 +17,7 @@ from tftool.frames.sample import FrameInfo
 from tftool.frames.velocity import Velocity
 from tftool.geometry import planar
 from tftool.geometry.rigid import Transform
+from tftool.interfaces.values import message_class
 from tftool.messages import Pose2D
 from tftool.runtime.log import LEVELS, LogRecord
 from tftool.runtime.world import World
@@ -444,8 +445,9 @@ class PoseOf(Subject):
     def answer(self, scene: ScenarioWorld) -> Pose2D | None:
         """Find the answer, now."""
         topic = scene.world.topics().get(f"{self.turtle}/pose")
-        latest = topic.latest if topic is not None else None
-        return latest if isinstance(latest, Pose2D) else None
+        if topic is None or topic.kind is not message_class(Pose2D):
+            return None
+        return scene.world.value_topic(topic, Pose2D).latest
 
     def __str__(self) -> str:
         return f"pose of {self.turtle}"

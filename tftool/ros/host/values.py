@@ -1,59 +1,39 @@
-"""Between ROS 2's messages and the values our own nodes exchange.
+"""Between the messages of users' nodes and what the world carries.
 
-Our simulator publishes `Pose2D`; a node of the tutorial subscribes `turtlesim.msg.Pose`.
-A message type we have no value for travels as it is.
+Messages are copied on their way in and out, and turtlesim's of a newer release become those of
+the older one, which the world knows. tf's topics carry tuples of samples.
 """
 
-from collections.abc import Callable
-from dataclasses import dataclass
-from functools import partial
 from typing import Any
 
-from tftool.errors import TftoolError
 from tftool.frames.sample import TransformStamped
 from tftool.geometry.rigid import transform
-from tftool.interfaces.classes import INTERFACES, Message, duplicate
-from tftool.link import types
-from tftool.runtime.offers import Offer
+from tftool.interfaces.classes import INTERFACES, Message
+from tftool.interfaces.values import as_message, plain_name, recast
 from tftool.runtime.world import TransformMessage
 from tftool.stamps import NANOSECONDS, Stamp
 
 TF_TOPICS = ("tf", "tf_static")
 
 
-@dataclass(frozen=True, slots=True)
-class Converter:
-    """How one message type travels.
-
-    Attributes:
-        kind: The type the world's topic carries.
-        pack: From a message to that; the message is not kept.
-        unpack: From that to a new message.
-    """
-
-    kind: type[Any]
-    pack: Callable[[Any], Any]
-    unpack: Callable[[Any], Any]
+def carried(kind: type[Message], topic: str) -> type[Any]:
+    """What the world's topic carries where a user's node names a message class (full name)."""
+    if kind.interface__ == TransformMessage.interface__ and topic in TF_TOPICS:
+        return TransformMessage
+    plain = plain_name(kind.interface__)
+    return kind if plain == kind.interface__ else INTERFACES.message(plain)
 
 
-def converter(kind: type[Message], topic: str) -> Converter:
-    """How messages of a class travel on a topic (full name)."""
-    name = types.plain_name(kind.interface__)
-    if name == types.TRANSFORMS and topic in TF_TOPICS:
-        return Converter(TransformMessage, _pack_transforms, unpack_transforms)
-    for value, ros_type in types.VALUES.items():
-        if name == ros_type:
-            # By way of a copy, whose 32-bit fields are rounded.
-            return Converter(
-                value,
-                partial(_as_value, kind=value),
-                partial(types.as_message, kind=kind),
-            )
-    return Converter(kind, duplicate, duplicate)
+def pack(message: Any, kind: type[Any]) -> Any:
+    """A message as a topic of `kind` carries it; the message itself is not kept."""
+    return _pack_transforms(message) if kind is TransformMessage else recast(message, kind)
 
 
-def _as_value(message: Any, kind: type[Any]) -> Any:
-    return types.as_value(duplicate(message), kind)
+def unpack(value: Any, kind: type[Message]) -> Any:
+    """What a topic, a service or an action carries, as a new message of a class."""
+    if isinstance(value, TransformMessage):
+        return unpack_transforms(value)
+    return recast(value, kind) if isinstance(value, Message) else as_message(value, kind)
 
 
 def stamp_of(message: Any) -> Stamp:
@@ -99,42 +79,3 @@ def unpack_transforms(value: TransformMessage) -> Any:
     """The tf2_msgs TFMessage of what travels on `tf`."""
     kind = INTERFACES.message("tf2_msgs/TFMessage")
     return kind(transforms=[unpack_transform(one) for one in value.transforms])
-
-
-# Services and actions
-
-
-def pack_request(offer: Offer[Any], request: Any) -> Any:
-    """A request or a goal, a message, as the server takes it.
-
-    Raises:
-        TftoolError: If it is of another type.
-    """
-    known = type_of(offer.kind)
-    given = request.interface__.rpartition("_")[0]
-    if known and types.plain_name(given) != types.plain_name(known):
-        raise TftoolError(f"what is asked is of type {known}, the question of type {given}")
-    is_ours = offer.kind in types.SERVICES or offer.kind in types.ACTIONS
-    return _as_value(request, offer.kind) if is_ours else duplicate(request)
-
-
-def unpack(value: Any, kind: type[Message]) -> Any:
-    """A part of a service or an action as a message of a class; None says nothing."""
-    return duplicate(value) if isinstance(value, Message) else types.as_message(value, kind)
-
-
-def answer(request: Any, response: Any) -> Any:
-    """A response, a message, as the client that sent the request expects it."""
-    copy = duplicate(response)
-    return copy if isinstance(request, Message) else types.answer_to(request, copy)
-
-
-def type_of(kind: Any) -> str:
-    """The ROS type of what answers a service or takes goals; "" where it is not said."""
-    if isinstance(kind, str):
-        return kind
-    if kind in types.SERVICES:
-        return types.SERVICES[kind][0]
-    if kind in types.ACTIONS:
-        return types.ACTIONS[kind][0]
-    return str(getattr(kind, "interface__", ""))

@@ -12,7 +12,7 @@ from tftool.ros.rclpy.entities import Requester
 from tftool.ros.rclpy.executors import wait_for
 from tftool.ros.rclpy.futures import Future
 from tftool.ros.rclpy.seat import seat_of
-from tftool.runtime.topics import GoalHandle as WorldGoal
+from tftool.runtime.doors import Goal as WorldGoal
 
 
 class _Result:
@@ -122,12 +122,10 @@ class ActionClient(Requester):
 
         async def send() -> None:
             world = self.seat.world
-            offer = world.actions().get(self.full)
-            if offer is None:
+            if self.full not in world.actions():
                 return
             try:
-                value = values.pack_request(offer, copy)
-                handle = await world.send_goal(self.full, value, on_feedback)
+                handle = await world.send_goal(self.full, copy, on_feedback)
             except TftoolError as error:
                 refused = error
                 self.put(lambda: future.set_exception(refused))

@@ -3,8 +3,7 @@
 from collections.abc import Callable, Iterable, Iterator
 from typing import TypeVar
 
-from tftool.link import types
-from tftool.ros.host import values
+from tftool.interfaces.values import interface_name
 from tftool.ros.host.program import Program
 from tftool.ros.rclpy.endpoints import TopicEndpointInfo, endpoint_info
 from tftool.ros.rclpy.seat import NodeSeat
@@ -66,7 +65,7 @@ class NodeGraph:
             name: {kind}
             for name, topic in world.topics().items()
             # What has no type stays among nodes of tftool's own: the keys that are pressed, say.
-            if (kind := types.topic_name(topic.kind))
+            if (kind := interface_name(topic.kind))
         }
         for name in world.endpoints.topics():
             ends = [
@@ -118,7 +117,7 @@ class NodeGraph:
     def __served(self, by: Callable[[str], bool]) -> Iterator[tuple[str, str]]:
         for name, offer in self._tftool.world.services().items():
             if by(offer.node):
-                yield name, values.type_of(offer.kind)
+                yield name, interface_name(offer.kind)
 
     def count_services(self, service_name: str) -> int:
         """How many serve a service: one or none."""

@@ -78,11 +78,10 @@ class Client(Requester):
     async def _call(self, request: Any, future: Future) -> None:
         world = self.seat.world
         # As in ROS 2, a request that no server takes yet is not kept: it stays unanswered.
-        offer = world.services().get(self.full)
-        if offer is None:
+        if not world.has_service(self.full):
             return
         try:
-            answer = await world.call(self.full, values.pack_request(offer, request))
+            answer = await world.call(self.full, duplicate(request))
             response = values.unpack(answer, self.srv_type.Response)
         except TftoolError as error:
             failure = error
@@ -132,7 +131,7 @@ class Service(WorkQueue):
         self._open.add(answer)
 
         def settle(response: Any) -> None:
-            self._send(values.answer(request, response), answer)
+            self._send(duplicate(response), answer)
 
         self.put(lambda: self._answer(message, settle))
         try:

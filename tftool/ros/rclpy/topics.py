@@ -27,8 +27,8 @@ class Publisher(NodeEntity):
         self.qos_profile = profile
         self.topic = topic
         self.full = full
-        self._converter = values.converter(kind, full)
-        self._topic = seat.world.topic(full, self._converter.kind)
+        self._carried = values.carried(kind, full)
+        self._topic: Any = seat.world.topic(full, self._carried)
         quality = quality_of(profile, offered=True)
         self._withdrawn = False
         latched = quality.is_latched and full not in values.TF_TOPICS
@@ -61,7 +61,7 @@ class Publisher(NodeEntity):
         if not isinstance(msg, self.msg_type):
             raise TypeError(f"Expected {self.msg_type}, got {type(msg)}")
         seat = self.seat
-        value = self._converter.pack(msg)
+        value = values.pack(msg, self._carried)
         if self.full in values.TF_TOPICS and isinstance(value, TransformMessage):
             static = self.full == "tf_static"
             seat.program.ask(
@@ -121,13 +121,12 @@ class Subscription(NodeEntity):
         self.qos_profile = profile
         self.topic = topic
         self.full = full
-        self._converter = values.converter(kind, full)
         self._queue: deque[Any] = deque(maxlen=_room(profile))
         self._takes_info = _takes_two(callback)
         self._quality = quality_of(profile, offered=False)
         # What other processes send, and sent before, comes to a latched one by itself.
         self._is_fed = self._quality.is_latched and full not in values.TF_TOPICS
-        self._topic = seat.world.topic(full, self._converter.kind)
+        self._topic: Any = seat.world.topic(full, values.carried(kind, full))
         self._leave = seat.world.endpoints.add(
             Endpoint(
                 SUBSCRIPTION,
@@ -168,7 +167,7 @@ class Subscription(NodeEntity):
         stamp, value = self._queue.popleft()
 
         def work() -> Any:
-            message = self._converter.unpack(value)
+            message = values.unpack(value, self.msg_type)
             if self.raw:
                 message = serialize_message(message)
             if self._takes_info:
