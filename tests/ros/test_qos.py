@@ -162,7 +162,7 @@ def test_a_question_of_another_type_than_the_service_is_refused(node):
     asked = node.create_client(SetBool, "go").call_async(SetBool.Request())
     rclpy.spin_until_future_complete(node, asked, timeout_sec=1.0)
 
-    with pytest.raises(Exception, match="is of type std_srvs/srv/Trigger, the question of type"):
+    with pytest.raises(Exception, match="is of type std_srvs/srv/Trigger, which takes no"):
         asked.result()
 
 
