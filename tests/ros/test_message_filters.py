@@ -105,3 +105,19 @@ def test_a_message_without_a_stamp_is_left_out_or_taken_as_of_now(filters, ros_r
     assert len(heard) == 1
     (warning,) = ros_runtime.log("message_filters_cache")
     assert warning.startswith("String has no header with a stamp and is left out")
+
+
+def test_a_stamp_may_be_an_rclpy_time_already(node):
+    from message_filters import Cache, SimpleFilter
+    from rclpy.time import Time
+
+    class Header:
+        stamp = Time(seconds=3)
+
+    class Message:
+        header = Header()
+
+    cache = Cache(SimpleFilter(), 5)
+    cache.add(Message())
+
+    assert cache.getLastestTime() == Time(seconds=3)

@@ -138,8 +138,14 @@ tf2_geometry_msgs: tf2.do_transform: do_transform_wrench_stamped do_transform_po
 tf2_geometry_msgs: tf2.do_transform: do_transform_pose_with_covariance_stamped
 tf2_geometry_msgs: tf2.do_transform: transform_covariance to_msg_msg from_msg_msg
 tf2_geometry_msgs.tf2_geometry_msgs: tf2.do_transform: *
-tf2_sensor_msgs: tf2.do_transform: do_transform_cloud
-tf2_sensor_msgs.tf2_sensor_msgs: tf2.do_transform: do_transform_cloud
+tf2_ros: tf2.remote: BufferClient BufferServer
+tf2_ros.buffer_client: tf2.remote: BufferClient
+tf2_ros.buffer_server: tf2.remote: BufferServer
+tf2_sensor_msgs: tf2.do_transform: do_transform_cloud transform_points
+tf2_sensor_msgs.tf2_sensor_msgs: tf2.do_transform: do_transform_cloud transform_points
+sensor_msgs_py.point_cloud2: tf2.point_clouds: read_points read_points_numpy read_points_list
+sensor_msgs_py.point_cloud2: tf2.point_clouds: create_cloud create_cloud_xyz32 dtype_from_fields
+sensor_msgs_py.point_cloud2: tf2.point_clouds: DUMMY_FIELD_PREFIX
 tf_transformations: tf2.euler: quaternion_from_euler euler_from_quaternion euler_from_matrix
 tf_transformations: tf2.euler: euler_matrix quaternion_matrix quaternion_from_matrix
 tf_transformations: tf2.euler: quaternion_about_axis quaternion_multiply quaternion_inverse

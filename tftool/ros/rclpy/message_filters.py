@@ -55,7 +55,8 @@ class Subscriber(SimpleFilter):
 def _stamp(msg: Any, allow_headerless: bool, who: str) -> Time | None:
     """A message's time, now for one without; None, and a warning, where that is not allowed."""
     if hasattr(msg, "header") and hasattr(msg.header, "stamp"):
-        return Time.from_msg(msg.header.stamp)
+        stamp = msg.header.stamp
+        return stamp if isinstance(stamp, Time) else Time.from_msg(stamp)
     if allow_headerless:
         return ROSClock().now()
     get_logger(who).warning(

@@ -42,27 +42,30 @@ class TransformListener:
         self._member.keep(lambda: self._listen(static_only))
 
     def _listen(self, static_only: bool) -> NodeEntity:
-        world, frames = self._member.world, self.buffer.frames
+        world = self._member.world
 
         arrivals = _Arrivals(self._member, self._stop)
         program = self._member.program
         # A recording that is played again, or a simulation that starts over.
-        watch = Watch(frames.clear, lambda _, text: program.say("WARN", program.name, text))
+        watch = Watch(
+            lambda: self.buffer.frames.clear(),
+            lambda _, text: program.say("WARN", program.name, text),
+        )
 
         def moving(message: TransformMessage) -> None:
             watch.read(world.clock.now())
             arrivals.note()
             for sample in message.transforms:
-                frames.set_transform(sample, message.authority)
+                self.buffer.frames.set_transform(sample, message.authority)
 
         def fixed(message: TransformMessage) -> None:
             watch.read(world.clock.now())
             arrivals.note()
             for sample in message.transforms:
-                frames.set_transform_static(sample, message.authority)
+                self.buffer.frames.set_transform_static(sample, message.authority)
 
         for sample in world.static_transforms():
-            frames.set_transform_static(sample, AUTHORITY)
+            self.buffer.frames.set_transform_static(sample, AUTHORITY)
             arrivals.note()
         self._stops = [world.tf_static.subscribe(fixed, self._member.authority)]
         if not static_only:

@@ -43,15 +43,15 @@ class BufferCore:
 
     # Setting
 
-    def set_transform(self, transform: Any, authority: str) -> bool:
-        """Take a moving link's sample in."""
+    def set_transform(self, transform: Any, authority: str) -> None:
+        """Take a moving link's sample in; one that is refused is said in the log."""
         sample = values.pack_transform(transform)
-        return bool(self._ask(lambda: self._frames.set_transform(sample, authority)))
+        self._ask(lambda: self._frames.set_transform(sample, authority))
 
-    def set_transform_static(self, transform: Any, authority: str) -> bool:
-        """Take a link in that holds for all time."""
+    def set_transform_static(self, transform: Any, authority: str) -> None:
+        """Take a link in that holds for all time; one that is refused is said in the log."""
         sample = values.pack_transform(transform)
-        return bool(self._ask(lambda: self._frames.set_transform_static(sample, authority)))
+        self._ask(lambda: self._frames.set_transform_static(sample, authority))
 
     def clear(self) -> None:
         """Forget all that moves."""

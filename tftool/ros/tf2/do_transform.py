@@ -152,6 +152,14 @@ def do_transform_cloud(cloud: Any, transform: Any) -> Any:
     return result
 
 
+def transform_points(point_cloud: Any, transform: Any) -> Any:
+    """Points, an array of shape (n, 3), moved by a Transform message."""
+    import numpy as np
+
+    points = np.asarray(point_cloud)
+    return carry.points(_transform_of(transform), points.astype(np.float64)).astype(points.dtype)
+
+
 def to_msg_msg(msg: Any) -> Any:
     """The message itself."""
     return msg

@@ -1,0 +1,200 @@
+"""sensor_msgs_py.point_cloud2: the points of a PointCloud2, as numpy has them."""
+
+import array
+from collections import namedtuple
+from collections.abc import Iterable, Sequence
+from typing import Any
+
+import numpy as np
+import numpy.typing as npt
+
+from tftool.interfaces.classes import INTERFACES
+
+DUMMY_FIELD_PREFIX = "unnamed_field"
+"""What a field without a name is called."""
+
+_KINDS = {1: "i1", 2: "u1", 3: "i2", 4: "u2", 5: "i4", 6: "u4", 7: "f4", 8: "f8"}
+"""How numpy writes a PointField's datatype."""
+
+
+def _named(fields: Iterable[Any]) -> list[tuple[str, Any]]:
+    """Each element of each field: a field of three is x_0, x_1 and x_2."""
+    named = []
+    for number, field in enumerate(fields):
+        name = field.name or f"{DUMMY_FIELD_PREFIX}_{number}"
+        several = field.count > 1
+        named += [
+            (f"{name}_{element}" if several else name, (field, element))
+            for element in range(field.count)
+        ]
+    return named
+
+
+def dtype_from_fields(
+    fields: Iterable[Any], point_step: int | None = None, is_bigendian: bool = False
+) -> "np.dtype[Any]":
+    """The structured dtype of points with such fields.
+
+    Raises:
+        ValueError: If a field's datatype is none of PointField's, or they do not fit a point.
+    """
+    fields = list(fields)
+    if point_step is not None and sum(field.count for field in fields) > point_step:
+        raise ValueError(f"the fields do not fit a point of {point_step} bytes")
+    order = ">" if is_bigendian else "<"
+    names, formats, offsets = [], [], []
+    for name, (field, element) in _named(fields):
+        kind = _KINDS.get(field.datatype)
+        if kind is None:
+            raise ValueError(f"field '{name}' has datatype {field.datatype}, and there is none")
+        form = np.dtype(order + kind)
+        names.append(name)
+        formats.append(form)
+        offsets.append(field.offset + element * form.itemsize)
+    layout: dict[str, Any] = {"names": names, "formats": formats, "offsets": offsets}
+    if point_step is not None:
+        layout["itemsize"] = point_step
+    return np.dtype(layout)  # type: ignore[call-overload, no-any-return]
+
+
+def read_points(
+    cloud: Any,
+    field_names: Sequence[str] | None = None,
+    skip_nans: bool = False,
+    uvs: Any = None,
+    reshape_organized_cloud: bool = False,
+) -> npt.NDArray[Any]:
+    """The points as a structured array, one element a point.
+
+    Args:
+        cloud: A PointCloud2.
+        field_names: Which fields, and in which order; all of them without.
+        skip_nans: Leave points out of which a number is NaN.
+        uvs: Which points: their numbers, or (u, v) pairs of an organized cloud.
+        reshape_organized_cloud: Give an organized cloud's points in its rows.
+
+    Raises:
+        AssertionError: If the message is none, a field is not there or the data is too short.
+    """
+    kind: Any = INTERFACES.message("sensor_msgs/PointCloud2")
+    if not isinstance(cloud, kind):
+        raise AssertionError("Cloud is not a sensor_msgs.msg.PointCloud2")
+    form = dtype_from_fields(cloud.fields, cloud.point_step, cloud.is_bigendian)
+    data = cloud.data.tobytes() if hasattr(cloud.data, "tobytes") else bytes(cloud.data)
+    needed = (cloud.height - 1) * cloud.row_step + cloud.width * cloud.point_step
+    if cloud.width and cloud.height and len(data) < needed:
+        raise AssertionError(f"the cloud's data has {len(data)} bytes, and {needed} are needed")
+    shape = (cloud.height, cloud.width)
+    steps = (cloud.row_step, cloud.point_step)
+    rows = np.ndarray(shape, form, data if data else bytes(1), 0, steps)
+    points: npt.NDArray[Any] = rows.ravel()
+    if field_names is not None:
+        missing = [name for name in field_names if name not in (form.names or ())]
+        if missing:
+            raise AssertionError(f"the cloud has no field {', '.join(missing)}")
+        points = points[list(field_names)]
+    if skip_nans and len(points):
+        bad = np.zeros(len(points), dtype=np.bool_)
+        for name in points.dtype.names or ():
+            if points[name].dtype.kind == "f":
+                bad |= np.isnan(points[name])
+        points = points[~bad]
+    if uvs is not None:
+        chosen = np.asarray(uvs if isinstance(uvs, np.ndarray) else list(uvs))
+        if chosen.ndim == 2:
+            chosen = chosen[:, 1] * cloud.width + chosen[:, 0]
+        points = points[chosen]
+    if reshape_organized_cloud and cloud.height > 1:
+        points = points.reshape(cloud.height, cloud.width)
+    return points
+
+
+def read_points_numpy(
+    cloud: Any,
+    field_names: Sequence[str] | None = None,
+    skip_nans: bool = False,
+    uvs: Any = None,
+    reshape_organized_cloud: bool = False,
+) -> npt.NDArray[Any]:
+    """The points as a plain array, one row a point; the fields are of one kind.
+
+    Raises:
+        AssertionError: If they are not, or as `read_points` says.
+    """
+    from numpy.lib.recfunctions import structured_to_unstructured
+
+    wanted = _named(cloud.fields)
+    if field_names is not None:
+        wanted = [pair for pair in wanted if pair[0] in field_names]
+    if len({field.datatype for _, (field, _) in wanted}) > 1:
+        raise AssertionError("All fields need to have the same datatype. Use `read_points()` then.")
+    points = read_points(cloud, field_names, skip_nans, uvs, reshape_organized_cloud)
+    return structured_to_unstructured(points)
+
+
+def read_points_list(
+    cloud: Any,
+    field_names: Sequence[str] | None = None,
+    skip_nans: bool = False,
+    uvs: Any = None,
+) -> list[Any]:
+    """The points as named tuples."""
+    points = read_points(cloud, field_names, skip_nans, uvs)
+    kind = namedtuple("Point", points.dtype.names or ())  # type: ignore[misc]
+    return [kind._make(point) for point in points.tolist()]
+
+
+def create_cloud(
+    header: Any, fields: Sequence[Any], points: Any, step: int | None = None, point_step: Any = None
+) -> Any:
+    """A PointCloud2 of points.
+
+    Args:
+        header: Its header.
+        fields: Its PointFields.
+        points: Tuples with a number for each field; or an array, structured or one row a
+            point. An array of rows of points makes an organized cloud.
+        step: Bytes from one point to the next, if more than the fields take.
+        point_step: The same, by its newer name.
+
+    Raises:
+        AssertionError: If the points do not have the fields.
+    """
+    step = step if step is not None else point_step
+    form = dtype_from_fields(fields, step)
+    if isinstance(points, np.ndarray) and points.dtype.names is not None:
+        made = points.astype(form)
+    else:
+        rows = np.asarray(points if isinstance(points, np.ndarray) else list(points))
+        if rows.size == 0:
+            rows = rows.reshape(0, len(form.names or ()))
+        if rows.shape[-1] != len(form.names or ()):
+            raise AssertionError(
+                f"a point has {rows.shape[-1]} numbers, and the fields take {len(form.names or ())}"
+            )
+        made = np.zeros(rows.shape[:-1], form)
+        for place, name in enumerate(form.names or ()):
+            made[name] = rows[..., place]
+    height, width = made.shape if made.ndim == 2 else (1, len(made))
+    kind: Any = INTERFACES.message("sensor_msgs/PointCloud2")
+    return kind(
+        header=header,
+        height=height,
+        width=width,
+        is_dense=False,
+        is_bigendian=False,
+        fields=list(fields),
+        point_step=form.itemsize,
+        row_step=form.itemsize * width,
+        data=array.array("B", made.tobytes()),
+    )
+
+
+def create_cloud_xyz32(header: Any, points: Any, step: int | None = None) -> Any:
+    """A PointCloud2 of points with x, y and z in 32 bits."""
+    field: Any = INTERFACES.message("sensor_msgs/PointField")
+    fields = [
+        field(name=name, offset=4 * place, datatype=field.FLOAT32, count=1)
+        for place, name in enumerate("xyz")
+    ]
+    return create_cloud(header, fields, points, step)

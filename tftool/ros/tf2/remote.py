@@ -1,0 +1,221 @@
+"""tf2_ros: a buffer that another node keeps, asked by an action."""
+
+from typing import Any
+
+from tftool.interfaces.classes import INTERFACES
+from tftool.ros.rclpy.action_client import ActionClient
+from tftool.ros.rclpy.action_server import ActionServer
+from tftool.ros.rclpy.executors import wait_for
+from tftool.ros.rclpy.futures import Future
+from tftool.ros.rclpy.seat import seat_of
+from tftool.ros.rclpy.time import Duration, Time
+from tftool.ros.tf2.buffer import Buffer
+from tftool.ros.tf2.errors import (
+    ConnectivityException,
+    ExtrapolationException,
+    InvalidArgumentException,
+    LookupException,
+    TimeoutException,
+    TransformException,
+)
+from tftool.ros.tf2.interface import NOW, BufferInterface
+from tftool.ros.tf2.lookup_requests import length, stamp
+
+_PADDING = Duration(seconds=2.0)
+
+_NUMBERS: tuple[tuple[type[TransformException], int], ...] = (
+    (LookupException, 1),
+    (ConnectivityException, 2),
+    (ExtrapolationException, 3),
+    (InvalidArgumentException, 4),
+    (TimeoutException, 5),
+    (TransformException, 6),
+)
+"""Each refusal's number in a TF2Error, what is most special first."""
+
+
+def _action() -> Any:
+    return INTERFACES.find("tf2_msgs", "action", "LookupTransform")
+
+
+class BufferClient(BufferInterface):
+    """Asks the buffer of a `BufferServer`; it may be used wherever a `Buffer` may."""
+
+    def __init__(
+        self,
+        node: Any,
+        ns: str,
+        check_frequency: float = 10.0,
+        timeout_padding: Any = _PADDING,
+    ) -> None:
+        """Ask from a node.
+
+        Args:
+            node: Who asks.
+            ns: The action's name.
+            check_frequency: How often ROS 2 looks for the answer; here it is awaited.
+            timeout_padding: How much longer than the timeout to wait for the answer, as a
+                Duration or in seconds.
+        """
+        super().__init__()
+        self.node = node
+        self.action_client = ActionClient(node, _action(), ns)
+        self.check_frequency = check_frequency
+        self.timeout_padding = timeout_padding
+
+    def lookup_transform(
+        self, target_frame: str, source_frame: str, time: Any, timeout: Any = NOW
+    ) -> Any:
+        """The pose of source in target, as the server's buffer has it.
+
+        Raises:
+            TransformException: If it cannot be given, or the server does not answer in time.
+        """
+        return self._ask(
+            timeout, target_frame=target_frame, source_frame=source_frame, source_time=_sent(time)
+        )
+
+    def lookup_transform_full(
+        self,
+        target_frame: str,
+        target_time: Any,
+        source_frame: str,
+        source_time: Any,
+        fixed_frame: str,
+        timeout: Any = NOW,
+    ) -> Any:
+        """The pose of source at one time in target at another, through a fixed frame.
+
+        Raises:
+            TransformException: If it cannot be given, or the server does not answer in time.
+        """
+        return self._ask(
+            timeout,
+            target_frame=target_frame,
+            target_time=_sent(target_time),
+            source_frame=source_frame,
+            source_time=_sent(source_time),
+            fixed_frame=fixed_frame,
+            advanced=True,
+        )
+
+    def can_transform(self, *asked: Any, **named: Any) -> bool:
+        """Whether a lookup would succeed."""
+        return _succeeds(self.lookup_transform, *asked, **named)
+
+    def can_transform_full(self, *asked: Any, **named: Any) -> bool:
+        """Whether a lookup between two moments would succeed."""
+        return _succeeds(self.lookup_transform_full, *asked, **named)
+
+    def destroy(self) -> None:
+        """Ask no more."""
+        self.action_client.destroy()
+
+    def _ask(self, timeout: Any, **fields: Any) -> Any:
+        if not self.action_client.server_is_ready():
+            raise TimeoutException("The BufferServer is not ready.")
+        wait = Duration(nanoseconds=length(timeout))
+        goal = _action().Goal(timeout=wait.to_msg(), **fields)
+        padding = self.timeout_padding
+        extra = length(padding) / 1e9 if isinstance(padding, Duration) else float(padding)
+        # The answer needs a moment to come back, even where nothing is added for that.
+        limit = length(timeout) / 1e9 + max(extra, 0.1)
+        seat = seat_of(self.node)
+        sent = self.action_client.send_goal_async(goal)
+        wait_for(seat, sent, limit)
+        if not sent.done() or not sent.result().accepted:
+            raise TimeoutException("The BufferServer did not take the goal in time.")
+        answer = sent.result().get_result_async()
+        wait_for(seat, answer, limit)
+        if not answer.done():
+            raise TimeoutException("The BufferServer did not answer in time.")
+        result = answer.result().result
+        for kind, number in _NUMBERS:
+            if result.error.error == number:
+                raise kind(result.error.error_string)
+        return result.transform
+
+
+class BufferServer:
+    """Answers the questions of `BufferClient`s out of a node's buffer."""
+
+    def __init__(
+        self,
+        buffer: Buffer,
+        node: Any,
+        ns: str = "tf2_buffer_server",
+        check_period: Any = None,
+    ) -> None:
+        """Serve an action.
+
+        Args:
+            buffer: Whose transforms to give.
+            node: Who serves.
+            ns: The action's name.
+            check_period: How often ROS 2 looks whether it can answer; here it is told.
+        """
+        self.buffer = buffer
+        self.node = node
+        self._server = ActionServer(node, _action(), ns, self._answer)
+
+    async def _answer(self, goal: Any) -> Any:
+        asked = goal.request
+        moment = Time.from_msg(asked.source_time)
+        found: Future
+        words: tuple[Any, ...] = (asked.target_frame, asked.source_frame, moment)
+        if asked.advanced:
+            target_time = Time.from_msg(asked.target_time)
+            words = (words[0], target_time, *words[1:], asked.fixed_frame)
+            found = self.buffer.wait_for_transform_full_async(*words)
+            look: Any = self.buffer.lookup_transform_full_core
+        else:
+            found = self.buffer.wait_for_transform_async(*words)
+            look = self.buffer.lookup_transform_core
+        await self._first(found, Duration.from_msg(asked.timeout))
+        result = _action().Result()
+        try:
+            result.transform = look(*words)
+        except TransformException as refused:
+            result.error.error = next(
+                number for kind, number in _NUMBERS if isinstance(refused, kind)
+            )
+            result.error.error_string = str(refused)
+            goal.abort()
+        else:
+            goal.succeed()
+        finally:
+            found.cancel()
+        return result
+
+    async def _first(self, found: Future, limit: Duration) -> None:
+        """Wait until it is found, at most for so long."""
+        if found.done() or limit.nanoseconds <= 0:
+            return
+        over = Future()
+
+        def end(*_: object) -> None:
+            if not over.done():
+                over.set_result(None)
+
+        timer = self.node.create_timer(limit.nanoseconds / 1e9, end)
+        found.add_done_callback(end)
+        try:
+            await over
+        finally:
+            self.node.destroy_timer(timer)
+
+    def destroy(self) -> None:
+        """Serve no more."""
+        self._server.destroy()
+
+
+def _sent(time: Any) -> Any:
+    return Time(nanoseconds=stamp(time)).to_msg()
+
+
+def _succeeds(look: Any, *asked: Any, **named: Any) -> bool:
+    try:
+        look(*asked, **named)
+    except TransformException:
+        return False
+    return True
