@@ -58,6 +58,7 @@ if TYPE_CHECKING:
     from tftool.frames.sample import Snapshot
     from tftool.link.session import Link
     from tftool.scenario.schema import NodeEntry, Scenario
+    from tftool.sources.robot import Robot
 
 T = TypeVar("T")
 
@@ -174,6 +175,7 @@ class Session:
         duration: How long its scenario or recording lasts; None where nothing says so.
         link: What joins it to other processes; None for a world on its own.
         is_recorded: Whether all of its frames are there from the beginning, and none come.
+        robot: The robot in a recording, by its description.
     """
 
     world: World
@@ -184,6 +186,7 @@ class Session:
     duration: Duration | None = None
     link: "Link | None" = None
     is_recorded: bool = False
+    robot: "Robot | None" = None
 
     def departures(self) -> int:
         """How many of the other processes have left by now that transforms came from."""
@@ -647,7 +650,8 @@ def _recorded(connection: Connection, found: Found, *, simulated: bool) -> Sessi
             await clock.sleep_until(until, Phase.END)
 
     name = f"{_kind_word(found)} '{visible(stored.name)}'"
-    return Session(world, True, name, alive, lasting, lasting, is_recorded=True)
+    robot = getattr(stored, "robot", None)
+    return Session(world, True, name, alive, lasting, lasting, is_recorded=True, robot=robot)
 
 
 def _kind_word(found: Found) -> str:

@@ -63,6 +63,10 @@ class Stage:
         transforms = [TransformStamped(0, parent, child, pose) for parent, child in links]
         self.do(lambda world: world.broadcast(transforms, "mount", static=True))
 
+    def show(self, robot):
+        """Show a robot on the page."""
+        self.do(lambda world: self._page.show_robot(robot))
+
     def end(self):
         """End the session; its page is told."""
         if self._thread.is_alive():

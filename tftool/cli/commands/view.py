@@ -1,19 +1,26 @@
 """`tftool view`: the frames in 3-D, in a browser."""
 
 import sys
-from typing import TYPE_CHECKING, Annotated
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
 from tftool.cli.app import ExitStatus
-from tftool.cli.connection import Connection
+from tftool.cli.connection import ROBOT, Connection
 from tftool.cli.options import CacheTime, From, RunFor, within
 from tftool.errors import UsageError
 from tftool.stamps import Duration
 
 if TYPE_CHECKING:
+    from collections.abc import Sequence
+
     from tftool.cli.hosting import Session
+    from tftool.screens.browser.robots import ShownRobot
     from tftool.screens.browser.server import PageServer
+    from tftool.sources.find import Found
+
+_MOST_TOLD = 5
 
 
 def view(
@@ -36,15 +43,28 @@ def view(
         ),
     ] = 30.0,
     cache_time: CacheTime = None,
+    meshes: Annotated[
+        list[Path] | None,
+        typer.Option(
+            "--meshes",
+            metavar="FOLDER",
+            rich_help_panel=ROBOT,
+            file_okay=False,
+            exists=True,
+            help="Where packages with meshes lie; again for more. Nothing outside is shown.",
+        ),
+    ] = None,
 ) -> ExitStatus:
     """Show the frames in 3-D, in a browser (rviz2 with its TF display).
 
     The page is served on this machine alone, and asks no other for anything. It shows axes,
     names and arrows in any fixed frame, scrubs back through the buffer, and tells the transform
-    of a pair you pick.
+    of a pair you pick. A robot is drawn by its description: FROM itself, the one in a
+    recording, or what is published on /robot_description; sliders move the joints of FROM.
 
     tftool view --open
     tftool view robot --port 8800
+    tftool view arm.urdf --meshes ~/ws/src --open
     """
     try:
         from tftool.screens.browser.server import PageServer
@@ -52,13 +72,89 @@ def view(
         if error.name is None or error.name.partition(".")[0] != "websockets":
             raise
         raise UsageError("'view' needs an extra: pip install 'tftool-tf2[view]'") from error
-    from tftool.cli.hosting import open_session
+    from tftool.cli.hosting import named, open_session
     from tftool.cli.notices import notice
+    from tftool.screens.browser.meshes import MeshFolders
+    from tftool.screens.browser.robots import ShownRobot
+    from tftool.sources.find import Kind
 
-    session = open_session(connection, place, cache_time=cache_time)
+    found = None if place is None else named(place)
+    shown = None
+    if found is not None and found.kind is Kind.DESCRIPTION:
+        session, shown = _alive(connection, found, meshes or [])
+    else:
+        session = open_session(connection, place, cache_time=cache_time)
+        if session.robot is not None:
+            folders = MeshFolders(connection.robot.urdf, meshes or [])
+            shown = ShownRobot(session.robot, folders)
     page = PageServer(session.world, port=port, rate=rate, tell=notice)
+    if shown is not None:
+        page.show_robot(shown)
+        _tell_missing(shown)
+    else:
+        _listen(session, page, meshes or [])
     session.run(_show(session, page, run_for, open_browser))
     return ExitStatus.DONE
+
+
+def _alive(
+    connection: Connection, found: "Found", meshes: "Sequence[Path]"
+) -> "tuple[Session, ShownRobot]":
+    """A world with one robot, whose joints the page moves."""
+    from tftool.cli.described import load_described, tell_beyond
+    from tftool.cli.hosting import Session, lived, refuse_to_share
+    from tftool.nodes.joints import JointStatePublisher, RobotStatePublisher
+    from tftool.runtime.world import World
+    from tftool.screens.browser.meshes import MeshFolders
+    from tftool.screens.browser.robots import ShownRobot
+    from tftool.views.escaping import visible
+
+    refuse_to_share(connection, found.name)
+    robot = load_described(found, connection.robot)
+    joints = connection.robot.joints
+    robot.positions(joints)
+    tell_beyond(robot, joints)
+    world = World(connection.providers.wall_clock())
+    RobotStatePublisher(world, robot=robot, publish_frequency=0.0)
+    mover = JointStatePublisher(world, robot=robot, positions=joints, rate=30.0)
+    name = f"robot description '{visible(found.name)}'"
+    session = Session(world, True, name, lived(world, None, "host"))
+    return session, ShownRobot(robot, MeshFolders(found.paths[0], meshes), mover)
+
+
+def _listen(session: "Session", page: "PageServer", meshes: "Sequence[Path]") -> None:
+    """Show the robot whose description is published, as soon as it is."""
+    from tftool.cli.notices import notice
+    from tftool.errors import InputError
+    from tftool.nodes.joints import DESCRIPTION, LATCHED, description_type
+    from tftool.screens.browser.meshes import MeshFolders
+    from tftool.screens.browser.robots import ShownRobot
+    from tftool.sources.robot import Robot
+    from tftool.sources.urdf import parse_description
+    from tftool.views.escaping import visible
+
+    def described(message: Any) -> None:
+        try:
+            robot = Robot(parse_description(message.data))
+        except InputError as error:
+            notice(f"The description on /{DESCRIPTION} is not shown: {visible(str(error))}")
+            return
+        shown = ShownRobot(robot, MeshFolders(given=meshes))
+        page.show_robot(shown)
+        _tell_missing(shown)
+
+    session.world.subscribe("view", DESCRIPTION, description_type(), described, LATCHED)
+
+
+def _tell_missing(shown: "ShownRobot") -> None:
+    from tftool.cli.notices import notice
+    from tftool.views.escaping import visible
+
+    missing = shown.missing
+    for sentence in missing[:_MOST_TOLD]:
+        notice(f"A box stands for a mesh: {visible(sentence)}.")
+    if len(missing) > _MOST_TOLD:
+        notice(f"... and for {len(missing) - _MOST_TOLD} more.")
 
 
 async def _show(

@@ -18,7 +18,9 @@ _FILES = {
 SAFETY: Mapping[str, str] = {
     # Nothing but our own files, whatever a name manages to put into the page.
     "Content-Security-Policy": (
-        "default-src 'none'; script-src 'self'; style-src 'self'; connect-src 'self'; "
+        "default-src 'none'; script-src 'self'; style-src 'self'; "
+        # A mesh may carry its own textures and buffers.
+        "connect-src 'self' data: blob:; "
         "img-src 'self' data: blob:; base-uri 'none'; form-action 'none'; frame-ancestors 'none'"
     ),
     "X-Content-Type-Options": "nosniff",

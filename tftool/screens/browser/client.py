@@ -73,6 +73,7 @@ class PageClient:
         self._revision = self._next_revision = -1
         self._next: list[str | bytes] = []
         self._word: str | None = None
+        self._robot: str | None = None
         self._wake = asyncio.Event()
 
     def hear(self, said: protocol.Show | protocol.PairRequest | protocol.Got, epoch: Stamp) -> None:
@@ -108,11 +109,19 @@ class PageClient:
         self._word = text
         self._wake.set()
 
+    def show_robot(self, text: str) -> None:
+        """Put up what the robot is; the last that was put up is sent."""
+        self._robot = text
+        self._wake.set()
+
     async def feed(self) -> None:
         """Send what is offered whenever the page is ready for it; ends with the connection."""
         while True:
             await self._wake.wait()
             self._wake.clear()
+            robot, self._robot = self._robot, None
+            if robot is not None:
+                await self.socket.send(robot)
             word, self._word = self._word, None
             if word is not None:
                 await self.socket.send(word)

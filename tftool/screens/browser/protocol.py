@@ -3,6 +3,7 @@
 Server to page:
   text   {"type": "frames", ...}  the frames' names and parents, whenever they change
   text   {"type": "pair", ...}    the transform of the chosen pair, or why there is none
+  text   {"type": "robot", ...}   shapes, joints and sliders of the robot; see `robots.py`
   text   {"type": "range", ...}   how far the buffer reaches, while a past moment is shown
   binary                          every frame's pose at one moment; see `encode_poses`
 
@@ -10,6 +11,7 @@ Page to server, text only:
   {"type": "show", "at": seconds | null}        which moment; null follows the present
   {"type": "pair", "target": …, "source": …}    which pair; null for none
   {"type": "got", "sequence": n}                the page has drawn that many poses
+  {"type": "move", "joint": …, "position": …}   put a joint elsewhere, radians or metres
   {"type": "past"}                              send what the buffer remembers, for trails;
                                                 it comes as poses of sequence number 0
 
@@ -75,15 +77,23 @@ class Got:
 
 
 @dataclass(frozen=True, slots=True)
+class Move:
+    """Put a joint elsewhere: radians or metres."""
+
+    joint: str
+    position: float
+
+
+@dataclass(frozen=True, slots=True)
 class Past:
     """Send poses from all over the buffer once."""
 
 
-def parse(message: str | bytes) -> Show | PairRequest | Got | Past:
+def parse(message: str | bytes) -> Show | PairRequest | Got | Move | Past:
     """Read what a page sent.
 
     Raises:
-        InputError: If it is none of the four messages; says what is wrong.
+        InputError: If it is none of the five messages; says what is wrong.
     """
     if isinstance(message, bytes):
         raise InputError("the page speaks text, not bytes")
@@ -106,9 +116,16 @@ def parse(message: str | bytes) -> Show | PairRequest | Got | Past:
         if isinstance(sequence, int):
             return Got(sequence)
         raise InputError("a sequence is a whole number")
+    if kind == "move":
+        joint, position = said.get("joint"), said.get("position")
+        if not isinstance(joint, str) or not isinstance(position, (int, float)):
+            raise InputError("a move is the name of a joint and a number")
+        if not abs(position) < 1e9:
+            raise InputError("a joint's position is a finite number")
+        return Move(joint, float(position))
     if kind == "past":
         return Past()
-    raise InputError('a message is an object whose "type" is show, pair, got or past')
+    raise InputError('a message is an object whose "type" is show, pair, got, move or past')
 
 
 def _moment(value: Any) -> float | None:

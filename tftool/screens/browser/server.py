@@ -28,6 +28,9 @@ from tftool.frames.sample import Snapshot
 from tftool.runtime.clock import Clock, Phase
 from tftool.screens.browser import assets, protocol
 from tftool.screens.browser.client import PageClient, Poses, SharedMoment, TreeMessage
+from tftool.screens.browser.meshes import MeshRefused
+from tftool.screens.browser.robots import ShownRobot
+from tftool.screens.sliders import slide_range
 from tftool.stamps import NANOSECONDS, Stamp
 from tftool.views.forest import grow
 
@@ -97,9 +100,32 @@ class PageServer:
         self._period = _period(source.clock, rate)
         self._server: Server | None = None
         self._files = assets.load()
+        self._robot: ShownRobot | None = None
+        self._robot_text = ""
         self._trees: dict[object, TreeMessage] = {}
         self._revision = 0
         self._ticks = 0
+
+    def show_robot(self, robot: ShownRobot) -> None:
+        """Show a robot from now on, in place of the one before."""
+        self._robot = robot
+        robot.place(frozenset(self.source.buffer.frames()))
+        self._tell_robot()
+
+    def _tell_robot(self) -> None:
+        if self._robot is not None:
+            self._robot_text = self._robot.as_text()
+            for client in self.clients:
+                client.show_robot(self._robot_text)
+
+    def _move(self, said: protocol.Move) -> None:
+        """Put a joint elsewhere; what is no joint of ours is passed over."""
+        robot = self._robot
+        if robot is not None and robot.mover is not None and robot.robot.takes(said.joint):
+            lower, upper = slide_range(robot.robot.joints[said.joint])
+            robot.mover.move(said.joint, min(upper, max(lower, said.position)))
+            # Pages that open later begin with it.
+            self._robot_text = ""
 
     @property
     def url(self) -> str:
@@ -211,6 +237,11 @@ class PageServer:
             while len(self._trees) >= TREES_KEPT:
                 del self._trees[next(iter(self._trees))]
             self._trees[key] = tree
+            # The frames that have come may say what stands before the names of the links.
+            if self._robot is not None and self._robot.place(
+                frozenset(self.source.buffer.frames())
+            ):
+                self._tell_robot()
         return tree
 
     def _offer(self, client: PageClient, picture: SharedMoment) -> None:
@@ -237,20 +268,36 @@ class PageServer:
                     f"{MOST_CLIENTS} pages are open already; close one of them.",
                 )
             return None
+        if path.startswith("/mesh/"):
+            return self._mesh(path)
         found = self._files.get(path)
         if found is None:
             return _refuse(HTTPStatus.NOT_FOUND, "There is no such page here.")
         return _answer(HTTPStatus.OK, found.kind, found.content)
 
+    def _mesh(self, path: str) -> Response:
+        if self._robot is None:
+            return _refuse(HTTPStatus.NOT_FOUND, "There is no robot here.")
+        try:
+            served = self._robot.folders.read(path)
+        except MeshRefused as refusal:
+            return _refuse(HTTPStatus.NOT_FOUND, str(refusal))
+        return _answer(HTTPStatus.OK, served.kind, served.content)
+
     async def _talk(self, socket: ServerConnection) -> None:
         client = PageClient(socket)
         self.clients.add(client)
+        if self._robot is not None:
+            self._robot_text = self._robot_text or self._robot.as_text()
+            client.show_robot(self._robot_text)
         feeding = asyncio.ensure_future(client.feed())
         telling: asyncio.Future[None] | None = None
         try:
             async for message in socket:
                 said = protocol.parse(message)
-                if not isinstance(said, protocol.Past):
+                if isinstance(said, protocol.Move):
+                    self._move(said)
+                elif not isinstance(said, protocol.Past):
                     client.hear(said, self.source.clock.epoch)
                 elif telling is None or telling.done():
                     telling = asyncio.ensure_future(self._tell_past(socket))

@@ -30,6 +30,10 @@ export class Choices {
     this.arrows = given.arrows ?? true;
     this.grid = given.grid ?? true;
     this.trails = given.trails ?? false;
+    this.visuals = given.visuals ?? true; // of the robot
+    this.collisions = given.collisions ?? false;
+    this.jointaxes = given.jointaxes ?? false;
+    this.opacity = Math.min(1, Math.max(0.1, given.opacity ?? 1));
     this.view = given.view === "orbit" ? "orbit" : "top";
     this.theme = given.theme === "light" || given.theme === "dark" ? given.theme : theme;
     this.interval = 0; // seconds
@@ -51,6 +55,7 @@ export class Choices {
     this.hidden = new Set(given.hidden);
     this.closed = new Set(given.closed);
     this.trailed = new Set(given.trailed);
+    this.bare = new Set(given.bare); // frames whose link is not drawn
     this.only = "";
     this.not = "";
     /** @type {{ only: RegExp | null, not: RegExp | null }} */
@@ -107,7 +112,7 @@ export class Choices {
 
   /**
    * Put a name into one of the sets, or take it out.
-   * @param {"hidden" | "closed" | "trailed"} set
+   * @param {"hidden" | "closed" | "trailed" | "bare"} set
    * @param {string} name
    * @param {boolean} on
    */
@@ -127,6 +132,7 @@ export class Choices {
       hidden: [...this.hidden],
       closed: [...this.closed],
       trailed: [...this.trailed],
+      bare: [...this.bare],
       at: at ?? undefined,
       camera,
     };

@@ -6,14 +6,16 @@ import { chain, describe, trails } from "./frames.js";
 import { fade, Model } from "./model.js";
 import { $, showCounts, showEmpty, showFrame, showPair, showReach, showStatus, showTime, toast } from "./panels.js";
 import { Redraw } from "./redraw.js";
+import { Robot } from "./robot.js";
 import { Stage } from "./scene.js";
 import { read, write } from "./share.js";
+import { Sliders, showRobot } from "./sliders.js";
 import { Timeline } from "./timeline.js";
 import { Tree } from "./tree.js";
 import { Wire } from "./wire.js";
 
 const STEP = 0.1; // seconds one press of [ or ] goes
-const SWITCHES = ["names", "axes", "arrows", "grid", "trails"];
+const SWITCHES = ["names", "axes", "arrows", "grid", "trails", "visuals", "collisions", "jointaxes"];
 // When the past is requested for the trails: once the tree has come to rest, and once more later,
 // because what came while the page was busy starting has gaps.
 const PAST_AFTER = [300, 3000];
@@ -25,6 +27,7 @@ const model = new Model();
 const bounds = new Bounds();
 const stage = new Stage($("under"), $("main"), $("over"));
 stage.taken = given.camera !== undefined;
+const robot = new Robot(stage.scene, () => redraw.everything());
 
 /** @type {{ connection: "wait" | "open" | "ended", pair: any, unacknowledged: number }} */
 const server = { connection: "wait", pair: null, unacknowledged: 0 };
@@ -53,6 +56,10 @@ const tree = new Tree($("tree"), {
   choose: (name) => choose(choices.chosen === name ? undefined : name),
   toggle(name, visible) {
     choices.mark("hidden", name, !visible);
+    changed();
+  },
+  solid(name, visible) {
+    choices.mark("bare", name, !visible);
     changed();
   },
   fold(name, closed) {
@@ -96,6 +103,12 @@ const wire = new Wire({
     server.pair = message;
     redraw.data();
   },
+  robot(message) {
+    robot.show(message);
+    sliders.show(message.sliders);
+    $("robot").hidden = false;
+    redraw.everything();
+  },
   range(message) {
     timeline.setReach(message);
     redraw.data();
@@ -110,6 +123,8 @@ const wire = new Wire({
     model.setPoses(poses, performance.now());
   },
 });
+
+const sliders = new Sliders($("sliders"), (joint, position) => wire.move(joint, position));
 
 /** Tell the server that what it sent is dealt with, so that it sends what is newest then. */
 function acknowledge() {
@@ -137,7 +152,7 @@ function render(now) {
     paint();
   }
   if (due.lists) {
-    tree.refresh(shown.frames, choices);
+    tree.refresh(shown.frames, choices, robot);
     words();
   }
   acknowledge();
@@ -158,6 +173,7 @@ function solve() {
 function paint() {
   const { drawn, lines } = shown;
   const { pair } = server;
+  robot.place(shown.frames, choices);
   stage.draw(drawn, { ...choices, scale: 10 ** Number($("scale").value) });
   const special = new Set([choices.chosen, ...(pair?.found ? [pair.source, pair.target] : [])]);
   const labels = drawn
@@ -180,6 +196,7 @@ function words() {
     $("with-trail").setAttribute("aria-pressed", String(choices.trailed.has(choices.chosen)));
   }
   showPair(server.pair);
+  showRobot(robot);
   showTime(timeline);
 }
 
@@ -378,6 +395,11 @@ for (const id of Object.keys(LIMITS)) {
     changed();
   };
 }
+$("opacity").value = String(choices.opacity);
+$("opacity").oninput = () => {
+  choices.opacity = Number($("opacity").value);
+  changed();
+};
 $("scrub").oninput = () => timeline.scrub(Number($("scrub").value));
 $("back").onclick = () => timeline.step(-STEP);
 $("forth").onclick = () => timeline.step(STEP);
@@ -454,6 +476,7 @@ requestAnimationFrame(render);
 // What is drawn, for tests and for the curious.
 Object.assign(globalThis, {
   tftool: {
+    robot: () => ({ waiting: robot.waiting, missing: robot.missing, ...robot.drawn() }),
     drawn: () =>
       shown.drawn.map(({ name, pose, parent, grey, alpha }) => ({
         name,

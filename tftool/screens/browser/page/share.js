@@ -1,10 +1,10 @@
 // @ts-check
 // The view as part of the page's address, so that a link shows just this.
 
-const NUMBERS = ["scale", "interval", "timeout", "length", "speed", "at"];
+const NUMBERS = ["scale", "interval", "timeout", "length", "speed", "at", "opacity"];
 const WORDS = ["fixed", "target", "source", "chosen", "only", "not", "view", "theme"];
-const SWITCHES = ["names", "axes", "arrows", "grid", "trails"];
-const LISTS = ["hidden", "closed", "trailed"];
+const SWITCHES = ["names", "axes", "arrows", "grid", "trails", "visuals", "collisions", "jointaxes"];
+const LISTS = ["hidden", "closed", "trailed", "bare"];
 
 /** Read the address; what is missing or makes no sense is left out. */
 export function read(hash) {

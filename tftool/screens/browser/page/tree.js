@@ -2,7 +2,7 @@
 // The nested list of frames. Names go in by textContent and no other way.
 
 export class Tree {
-  /** Handlers: choose(name), toggle(name, shown), fold(name, closed). */
+  /** Handlers: choose(name), toggle(name, shown), fold(name, closed), solid(name, shown). */
   constructor(list, handlers) {
     this.list = list;
     this.handlers = handlers;
@@ -71,20 +71,28 @@ export class Tree {
       told.classList.add("still");
       told.textContent = "static";
     }
-    row.append(fold, box, label, told);
+    const solid = document.createElement("button");
+    solid.className = "solid plain";
+    solid.textContent = "◆";
+    solid.hidden = true;
+    solid.onclick = (event) => {
+      event.stopPropagation();
+      this.handlers.solid(name, state.bare.has(name));
+    };
+    row.append(fold, box, label, solid, told);
     row.onclick = () => this.handlers.choose(name);
     row.tabIndex = 0;
     row.onkeydown = (event) => {
       if (event.target === row && event.key === "Enter") this.handlers.choose(name);
     };
     item.append(row);
-    this.rows[index] = { row, box, told };
+    this.rows[index] = { row, box, told, solid };
     return item;
   }
 
-  /** Refresh what changes with time; `frames[index]`: { lost, grey, trouble, told }. */
-  refresh(frames, state) {
-    this.rows.forEach(({ row, box, told }, index) => {
+  /** Refresh what changes with time; `frames[index]`: { lost, grey, trouble, told }; `links.has(name)`. */
+  refresh(frames, state, links) {
+    this.rows.forEach(({ row, box, told, solid }, index) => {
       const frame = frames[index];
       const name = this.model.names[index];
       const shown = !state.hidden.has(name);
@@ -94,6 +102,9 @@ export class Tree {
       row.classList.toggle("grey", frame.grey > 0);
       row.classList.toggle("chosen", state.chosen === name);
       row.title = frame.trouble;
+      solid.hidden = !links.has(name);
+      solid.title = state.bare.has(name) ? "Draw this link" : "Do not draw this link";
+      solid.setAttribute("aria-pressed", String(!state.bare.has(name)));
       if (!told.classList.contains("still") && told.textContent !== frame.told) told.textContent = frame.told;
     });
   }

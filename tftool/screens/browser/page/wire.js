@@ -65,6 +65,7 @@ export class Wire {
   /**
    * Handlers: open(), ended(reason), names(message),
    *  pair(message), range(message), poses(Poses),
+   *  robot(message), its shapes, joints and sliders;
    *  past(Poses), which are drawn nowhere but in trails.
    */
   constructor(handlers) {
@@ -106,6 +107,11 @@ export class Wire {
 
   got(sequence) {
     this.send(JSON.stringify({ type: "got", sequence }));
+  }
+
+  /** Put a joint elsewhere. */
+  move(joint, position) {
+    this.send(JSON.stringify({ type: "move", joint, position }));
   }
 
   /** Ask for poses from all over the buffer. */

@@ -1,0 +1,242 @@
+"""Where the meshes of a robot lie: names in a description to files, inside of known folders alone.
+
+What a description names is a stranger's text. Only files inside the folders that were given
+or found are ever served: no absolute path, no `file://`, nothing reached by `..` or a
+symbolic link that leads out of them, and only kinds of files that meshes are made of.
+"""
+
+import os
+import re
+from collections.abc import Iterable, Iterator, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from urllib.parse import quote, unquote
+from xml.etree import ElementTree
+
+KINDS = {
+    ".stl": "model/stl",
+    ".obj": "text/plain; charset=utf-8",
+    ".mtl": "text/plain; charset=utf-8",
+    ".dae": "text/xml; charset=utf-8",
+    ".gltf": "model/gltf+json",
+    ".glb": "model/gltf-binary",
+    ".bin": "application/octet-stream",
+    ".png": "image/png",
+    ".jpg": "image/jpeg",
+    ".jpeg": "image/jpeg",
+    ".bmp": "image/bmp",
+    ".gif": "image/gif",
+    ".webp": "image/webp",
+}
+"""The files that are served, by their ending, and their media types."""
+
+SHAPES = (".stl", ".obj", ".dae", ".gltf", ".glb")
+"""Endings of meshes the page can draw."""
+
+LARGEST = 256 * 1024 * 1024
+"""Bytes a served file may have."""
+
+DEEPEST = 5
+"""How far below a given folder a package is looked for."""
+
+MOST_FOLDERS = 5000
+"""Folders that are looked at for one package."""
+
+_PACKAGE = re.compile(r"package://([A-Za-z0-9_][\w.-]*)/(.+)", re.DOTALL)
+_SCHEME = re.compile(r"[A-Za-z][A-Za-z0-9+.-]*:")
+
+
+class MeshRefused(Exception):
+    """A mesh cannot be shown; says why in a sentence."""
+
+
+@dataclass(frozen=True, slots=True)
+class ServedFile:
+    """A file for the page, and its media type."""
+
+    kind: str
+    content: bytes
+
+
+class MeshFolders:
+    """The folders that meshes are served from.
+
+    Attributes:
+        roots: Each with its place in the addresses: `/mesh/<place>/<path below it>`.
+    """
+
+    def __init__(self, description: Path | None = None, given: Sequence[Path] = ()) -> None:
+        """Find out where meshes may lie.
+
+        Args:
+            description: The file of the robot's description, where there is one: the package
+                around it counts, and those beside that one.
+            given: Folders with packages, or packages themselves.
+        """
+        self.roots: list[Path] = []
+        self._given = [folder.resolve() for folder in given]
+        self._beside = None if description is None else description.resolve().parent
+        self._packages: dict[str, Path | None] = {}
+
+    def address(self, name: str) -> str:
+        """The path under which the page gets a mesh or a texture.
+
+        Args:
+            name: As the description has it: `package://…`, or a path beside the description.
+
+        Raises:
+            MeshRefused: If there is no such file in the folders, or it may not be served.
+        """
+        root, path = self._place(name)
+        found = self._inside(root, path)
+        if root not in self.roots:
+            self.roots.append(root)
+        shown = quote(found.as_posix())
+        return f"/mesh/{self.roots.index(root)}/{shown}"
+
+    def read(self, address: str) -> ServedFile:
+        """The file behind an address, which may also be one that a mesh refers to.
+
+        Raises:
+            MeshRefused: If there is none that may be served.
+        """
+        match = re.fullmatch(r"/mesh/(\d{1,6})/(.+)", address)
+        if match is None or int(match[1]) >= len(self.roots):
+            raise MeshRefused("There is no such mesh.")
+        root = self.roots[int(match[1])]
+        path = root / self._inside(root, unquote(match[2]))
+        try:
+            if path.stat().st_size > LARGEST:
+                raise MeshRefused(f"'{path.name}' is larger than {LARGEST:,} bytes.")
+            return ServedFile(KINDS[path.suffix.lower()], path.read_bytes())
+        except OSError as error:
+            raise MeshRefused(f"'{path.name}' cannot be read: {error.strerror}.") from error
+
+    def _place(self, name: str) -> tuple[Path, str]:
+        """The folder a name is looked for in, and the path inside of it."""
+        match = _PACKAGE.fullmatch(name)
+        if match:
+            package = self._package(match[1])
+            if package is None:
+                raise MeshRefused(
+                    f"package '{match[1]}' of '{name}' is not found: give the folder it is in with "
+                    "--meshes FOLDER"
+                )
+            return package, match[2]
+        if _SCHEME.match(name):
+            raise MeshRefused(
+                f"'{name}' is not shown: only package:// and paths beside the description are"
+            )
+        if name.startswith(("/", "\\")):
+            raise MeshRefused(f"'{name}' is an absolute path, which is never shown")
+        for root in self._relative_roots():
+            try:
+                self._inside(root, name)
+            except MeshRefused:
+                continue
+            return root, name
+        # A path such as ../meshes/arm.stl means the package around the description.
+        if self._beside is not None:
+            for package in self._around():
+                path = Path(os.path.normpath(self._beside / name))
+                if path.is_relative_to(package):
+                    return package, path.relative_to(package).as_posix()
+        roots = self._relative_roots()
+        if not roots:
+            raise MeshRefused(
+                f"'{name}' is not found: give the folder it is in with --meshes FOLDER"
+            )
+        return roots[0], name
+
+    def _relative_roots(self) -> list[Path]:
+        return [*([] if self._beside is None else [self._beside]), *self._given]
+
+    def _inside(self, root: Path, name: str) -> Path:
+        """The path below a folder, once it is known to end inside of it.
+
+        Raises:
+            MeshRefused: If it does not, or is no file of a known kind.
+        """
+        if "\0" in name or "\\" in name:
+            raise MeshRefused("a name of a mesh has a sign that no path has")
+        path = Path(os.path.normpath(root / name))
+        if not path.is_relative_to(root):
+            raise MeshRefused(f"'{name}' lies outside of '{root.name}', and is never shown")
+        if path.suffix.lower() not in KINDS:
+            raise MeshRefused(f"'{name}' is no mesh or texture ({', '.join(SHAPES)})")
+        try:
+            real = path.resolve(strict=True)
+        except (OSError, RuntimeError):
+            raise MeshRefused(f"there is no file '{name}' in '{root.name}'") from None
+        if not real.is_relative_to(root.resolve()):
+            raise MeshRefused(f"'{name}' is a link that leads out of '{root.name}'")
+        if real.suffix.lower() not in KINDS or not real.is_file():
+            raise MeshRefused(f"'{name}' is no mesh or texture ({', '.join(SHAPES)})")
+        return path.relative_to(root)
+
+    def _package(self, name: str) -> Path | None:
+        if name not in self._packages:
+            found = next((one for one in self._candidates(name) if one.is_dir()), None)
+            self._packages[name] = None if found is None else found.resolve()
+        return self._packages[name]
+
+    def _candidates(self, name: str) -> Iterator[Path]:
+        for folder in self._given:
+            if folder.name == name or package_name(folder) == name:
+                yield folder
+            yield folder / name
+            yield from _below(folder, name)
+        for package in self._around():
+            if package.name == name or package_name(package) == name:
+                yield package
+        # Packages lie beside each other.
+        for package in self._around():
+            yield package.parent / name
+        for variable, inside in (("ROS_PACKAGE_PATH", ""), ("AMENT_PREFIX_PATH", "share")):
+            for entry in filter(None, os.environ.get(variable, "").split(os.pathsep)):
+                yield Path(entry) / inside / name
+
+    def _around(self) -> list[Path]:
+        """The packages around the description, from the nearest on."""
+        if self._beside is None:
+            return []
+        above = [self._beside, *self._beside.parents][:6]
+        return [folder for folder in above if (folder / "package.xml").is_file()]
+
+
+def package_name(folder: Path) -> str:
+    """What the package in a folder calls itself; empty if there is none."""
+    try:
+        raw = (folder / "package.xml").read_bytes()
+        if len(raw) > 1 << 20 or b"<!DOCTYPE" in raw or b"<!ENTITY" in raw:
+            return ""
+        return (ElementTree.fromstring(raw).findtext("name") or "").strip()
+    except (OSError, ElementTree.ParseError, ValueError):
+        return ""
+
+
+def _below(folder: Path, name: str) -> Iterator[Path]:
+    """Packages of a name below a folder, the nearest first."""
+    level: Iterable[Path] = [folder]
+    seen = 0
+    for _ in range(DEEPEST):
+        deeper = []
+        for one in level:
+            try:
+                children = sorted(
+                    child
+                    for child in one.iterdir()
+                    if child.is_dir() and not child.is_symlink() and child.name[:1] != "."
+                )
+            except OSError:
+                continue
+            for child in children:
+                seen += 1
+                if seen > MOST_FOLDERS:
+                    return
+                if (child / "package.xml").is_file() and (
+                    child.name == name or package_name(child) == name
+                ):
+                    yield child
+                deeper.append(child)
+        level = deeper

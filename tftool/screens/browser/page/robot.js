@@ -1,0 +1,297 @@
+// @ts-check
+// A robot's links as solids: the shapes of its description, meshes fetched from our own server.
+import {
+  ArrowHelper,
+  BoxGeometry,
+  CapsuleGeometry,
+  Color,
+  CylinderGeometry,
+  DirectionalLight,
+  DoubleSide,
+  Group,
+  HemisphereLight,
+  Mesh,
+  MeshLambertMaterial,
+  Quaternion,
+  SphereGeometry,
+  SRGBColorSpace,
+  TextureLoader,
+  Vector3,
+} from "three";
+import { ColladaLoader } from "three/addons/loaders/ColladaLoader.js";
+import { GLTFLoader } from "three/addons/loaders/GLTFLoader.js";
+import { OBJLoader } from "three/addons/loaders/OBJLoader.js";
+import { STLLoader } from "three/addons/loaders/STLLoader.js";
+
+const GREY = [0.75, 0.75, 0.77, 1]; // where a description says no colour
+const COLLISION = [0.95, 0.45, 0.2, 0.45];
+const MISSING = [0.95, 0.25, 0.3, 0.8];
+const MISSING_SIZE = 0.1; // metres
+const AXIS = "#ffd400";
+const AXIS_LENGTH = 0.2; // metres
+const SIDES = 24;
+
+/**
+ * @typedef {{ kind: string, origin: number[], size?: number[], radius?: number, length?: number,
+ *   address?: string, scale?: number[], color?: number[], texture?: string }} Shape
+ * @typedef {{ frame: string, visuals: Shape[], collisions: Shape[] }} Link
+ * @typedef {{ name: string, links: Link[], missing: string[],
+ *   joints: { name: string, frame: string, axis: number[], slides: boolean }[],
+ *   sliders: { name: string, unit: string, range: number[], position: number }[] }} Description
+ * @typedef {{ visuals: boolean, collisions: boolean, jointaxes: boolean, opacity: number, bare: Set<string> }} Look
+ */
+
+export class Robot {
+  /**
+   * @param {import("three").Scene} scene
+   * @param {() => void} changed called when a mesh has come, or failed
+   */
+  constructor(scene, changed) {
+    this.scene = scene;
+    this.changed = changed;
+    this.group = new Group();
+    this.group.visible = false;
+    /** @type {Map<string, { all: Group, visuals: Group, collisions: Group, axes: Group }>} */
+    this.links = new Map();
+    /** @type {string[]} */
+    this.missing = [];
+    /** @type {Map<string, Promise<import("three").Object3D>>} */
+    this.meshes = new Map();
+    this.textures = new TextureLoader();
+    this.waiting = 0; // meshes that have not come yet
+    const above = new HemisphereLight("#ffffff", "#5a6270", 2.2);
+    above.position.set(0, 0, 1);
+    const sun = new DirectionalLight("#ffffff", 1.6);
+    sun.position.set(-3, -4, 8);
+    this.group.add(above, sun, sun.target);
+    scene.add(this.group);
+  }
+
+  /** Frames that have a shape. */
+  has(frame) {
+    const link = this.links.get(frame);
+    return link !== undefined && link.visuals.children.length + link.collisions.children.length > 0;
+  }
+
+  /** What of it is in the picture, by link: how many visuals, collisions and axes. */
+  drawn() {
+    const links = {};
+    for (const [frame, { all, visuals, collisions, axes }] of this.links) {
+      if (!all.visible) continue;
+      const count = (group) => (group.visible ? group.children.length : 0);
+      links[frame] = [count(visuals), count(collisions), count(axes)];
+    }
+    return { links };
+  }
+
+  /** @param {Description} description */
+  show(description) {
+    for (const { all } of this.links.values()) {
+      this.group.remove(all);
+      all.traverse(release);
+    }
+    this.links.clear();
+    this.meshes.clear();
+    this.missing = [...description.missing];
+    for (const link of description.links) {
+      const { visuals, collisions } = this.link(link.frame);
+      for (const shape of link.visuals) this.add(visuals, shape, shape.color ?? GREY);
+      for (const shape of link.collisions) this.add(collisions, shape, COLLISION);
+    }
+    for (const joint of description.joints) {
+      const way = new Vector3(...joint.axis);
+      const arrow = new ArrowHelper(way, new Vector3(), AXIS_LENGTH, AXIS, AXIS_LENGTH / 4, AXIS_LENGTH / 8);
+      this.link(joint.frame).axes.add(arrow);
+    }
+    this.group.visible = true;
+  }
+
+  link(frame) {
+    let link = this.links.get(frame);
+    if (!link) {
+      const [all, visuals, collisions, axes] = [new Group(), new Group(), new Group(), new Group()];
+      all.matrixAutoUpdate = false;
+      all.visible = false;
+      all.add(visuals, collisions, axes);
+      this.group.add(all);
+      link = { all, visuals, collisions, axes };
+      this.links.set(frame, link);
+    }
+    return link;
+  }
+
+  /**
+   * @param {Group} group
+   * @param {Shape} shape
+   * @param {number[]} color
+   */
+  add(group, shape, color) {
+    const holder = new Group();
+    holder.position.fromArray(shape.origin, 0);
+    holder.quaternion.fromArray(shape.origin, 3);
+    group.add(holder);
+    const geometry = solid(shape);
+    if (geometry) {
+      const material = paint(shape.kind === "missing" ? MISSING : color);
+      if (shape.kind === "missing") material.wireframe = true;
+      if (shape.texture) this.texture(material, shape.texture);
+      holder.add(new Mesh(geometry, material));
+      return;
+    }
+    const address = shape.address ?? "";
+    this.waiting++;
+    this.mesh(address).then(
+      (found) => {
+        const copy = found.clone(true);
+        copy.traverse((part) => {
+          if (!(part instanceof Mesh)) return;
+          // An STL or OBJ says no colour; the others have materials of their own.
+          if (/\.(stl|obj)$/i.test(address) || group.parent?.children[1] === group) part.material = paint(color);
+          else part.material = Array.isArray(part.material) ? part.material.map((one) => one.clone()) : part.material.clone();
+          if (shape.texture && !Array.isArray(part.material)) this.texture(part.material, shape.texture);
+          remember(part.material);
+        });
+        const sized = new Group();
+        sized.scale.fromArray(shape.scale ?? [1, 1, 1]);
+        sized.add(copy);
+        holder.add(sized);
+        this.arrived();
+      },
+      (error) => {
+        const box = paint(MISSING);
+        box.wireframe = true;
+        holder.add(new Mesh(new BoxGeometry(MISSING_SIZE, MISSING_SIZE, MISSING_SIZE), box));
+        const name = decodeURIComponent(address.split("/").slice(3).join("/"));
+        const sentence = `'${name}' cannot be drawn: ${error instanceof Error ? error.message : error}`;
+        if (!this.missing.includes(sentence)) this.missing.push(sentence);
+        this.arrived();
+      },
+    );
+  }
+
+  arrived() {
+    this.waiting--;
+    this.changed();
+  }
+
+  texture(material, address) {
+    material.map = this.textures.load(address, () => this.changed());
+    material.map.colorSpace = SRGBColorSpace;
+    material.color = new Color(1, 1, 1);
+  }
+
+  /** A mesh, fetched once whatever the number of links that have it. */
+  mesh(address) {
+    let found = this.meshes.get(address);
+    if (!found) {
+      found = load(address);
+      this.meshes.set(address, found);
+    }
+    return found;
+  }
+
+  /**
+   * Put the links where their frames are.
+   * @param {import("./frames.js").Frame[]} frames
+   * @param {Look} look
+   */
+  place(frames, look) {
+    if (!this.group.visible) return;
+    for (const { all } of this.links.values()) all.visible = false;
+    const turn = new Quaternion();
+    const where = new Vector3();
+    const one = new Vector3(1, 1, 1);
+    for (const { name, pose, filtered } of frames) {
+      const link = this.links.get(name);
+      if (!link || !pose || filtered || look.bare.has(name)) continue;
+      link.all.visible = true;
+      link.all.matrix.compose(where.fromArray(pose, 0), turn.fromArray(pose, 3), one);
+      link.all.matrixWorldNeedsUpdate = true;
+      link.visuals.visible = look.visuals;
+      link.collisions.visible = look.collisions;
+      link.axes.visible = look.jointaxes;
+    }
+    if (this.opacity !== look.opacity || this.painted !== this.waiting) {
+      this.opacity = look.opacity;
+      this.painted = this.waiting;
+      for (const { visuals } of this.links.values()) visuals.traverse((part) => fadePart(part, look.opacity));
+    }
+  }
+}
+
+/**
+ * The geometry of a shape that is no mesh; null for a mesh. Cylinders lie along z, as in ROS.
+ * @param {Shape} shape
+ */
+function solid({ kind, size = [1, 1, 1], radius = 0, length = 0 }) {
+  if (kind === "box") return new BoxGeometry(size[0], size[1], size[2]);
+  if (kind === "sphere") return new SphereGeometry(radius, SIDES, SIDES / 2);
+  if (kind === "cylinder") return new CylinderGeometry(radius, radius, length, SIDES).rotateX(Math.PI / 2);
+  if (kind === "capsule") return new CapsuleGeometry(radius, length, SIDES / 4, SIDES).rotateX(Math.PI / 2);
+  if (kind === "missing") return new BoxGeometry(MISSING_SIZE, MISSING_SIZE, MISSING_SIZE);
+  return null;
+}
+
+function paint(color) {
+  const [red, green, blue, alpha] = color;
+  const material = new MeshLambertMaterial({
+    color: new Color().setRGB(red, green, blue, SRGBColorSpace),
+    side: DoubleSide,
+    opacity: alpha,
+    transparent: alpha < 1,
+  });
+  remember(material);
+  return material;
+}
+
+/** Keep how opaque a material is by itself. */
+function remember(material) {
+  for (const one of Array.isArray(material) ? material : [material]) one.userData.opaque ??= one.opacity;
+}
+
+function fadePart(part, opacity) {
+  if (!(part instanceof Mesh)) return;
+  for (const material of Array.isArray(part.material) ? part.material : [part.material]) {
+    const alpha = (material.userData.opaque ?? 1) * opacity;
+    if (material.opacity === alpha) continue;
+    material.opacity = alpha;
+    material.transparent = alpha < 1;
+    material.depthWrite = alpha >= 1;
+    material.needsUpdate = true;
+  }
+}
+
+function release(part) {
+  if (!(part instanceof Mesh)) return;
+  part.geometry.dispose();
+  for (const material of Array.isArray(part.material) ? part.material : [part.material]) material.dispose();
+}
+
+/** Fetch and read a mesh; fails with a sentence. */
+async function load(address) {
+  const answer = await fetch(address);
+  if (!answer.ok) throw new Error((await answer.text()).trim() || `status ${answer.status}`);
+  const folder = address.slice(0, address.lastIndexOf("/") + 1);
+  const kind = address.slice(address.lastIndexOf(".")).toLowerCase();
+  if (kind === ".stl") return new Mesh(new STLLoader().parse(await answer.arrayBuffer()));
+  if (kind === ".obj") return cleaned(new OBJLoader().parse(await answer.text()));
+  if (kind === ".dae") {
+    const found = new ColladaLoader().parse(await answer.text(), folder);
+    if (!found) throw new Error("it is no Collada file");
+    // Which way is up is the link's business, as in rviz.
+    found.scene.rotation.set(0, 0, 0);
+    return cleaned(found.scene);
+  }
+  const found = await new GLTFLoader().parseAsync(await answer.arrayBuffer(), folder);
+  return cleaned(found.scene);
+}
+
+/** Without the lights and cameras that came along. */
+function cleaned(scene) {
+  const strangers = [];
+  scene.traverse((part) => {
+    if (part.isLight || part.isCamera) strangers.push(part);
+  });
+  for (const part of strangers) part.removeFromParent();
+  return scene;
+}

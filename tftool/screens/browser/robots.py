@@ -1,0 +1,146 @@
+"""A robot for the page: its shapes, its joints, and what became of its meshes."""
+
+import json
+from collections.abc import Collection
+from dataclasses import dataclass, field
+from typing import Any
+
+from tftool.geometry.rigid import Transform
+from tftool.screens.browser.meshes import SHAPES, MeshFolders, MeshRefused
+from tftool.screens.sliders import Positions, slide_range
+from tftool.sources.described import prefix_of
+from tftool.sources.robot import Robot
+from tftool.sources.urdf import (
+    BoxShape,
+    CapsuleShape,
+    CylinderShape,
+    LinkShape,
+    MeshShape,
+    SphereShape,
+    Surface,
+)
+
+MOST_SHAPES = 5000
+"""Shapes of one robot that are drawn."""
+
+
+@dataclass(slots=True)
+class ShownRobot:
+    """A robot in the page.
+
+    Attributes:
+        robot: What it is.
+        folders: Where its meshes lie.
+        mover: What moves its joints, where we publish them; else None.
+        prefix: What stands before the names of its links.
+    """
+
+    robot: Robot
+    folders: MeshFolders = field(default_factory=MeshFolders)
+    mover: Positions | None = None
+    prefix: str = ""
+
+    def place(self, frames: Collection[str]) -> bool:
+        """Find out what stands before the names of its links; whether that has changed."""
+        prefix = prefix_of(self.robot, frames)
+        changed = prefix != self.prefix
+        self.prefix = prefix
+        return changed
+
+    @property
+    def missing(self) -> list[str]:
+        """Why meshes and textures are not shown, as sentences."""
+        found: list[str] = json.loads(self.as_text())["missing"]
+        return found
+
+    def as_text(self) -> str:
+        """Everything the page draws of it, as a message."""
+        missing: list[str] = []
+        count = 0
+        links = []
+        for link in self.robot.links.values():
+            shapes = {}
+            for kind, given in (("visuals", link.visuals), ("collisions", link.collisions)):
+                kept = given[: max(0, MOST_SHAPES - count)]
+                count += len(kept)
+                shapes[kind] = [self._shape(shape, missing) for shape in kept]
+            if shapes["visuals"] or shapes["collisions"]:
+                links.append({"frame": self.prefix + link.name, **shapes})
+        return json.dumps(
+            {
+                "type": "robot",
+                "name": self.robot.name,
+                "links": links,
+                "joints": [
+                    {
+                        "name": joint.name,
+                        "frame": self.prefix + joint.child,
+                        "axis": list(joint.axis),
+                        "slides": joint.type == "prismatic",
+                    }
+                    for joint in self.robot.joints.values()
+                    if joint.moves
+                ],
+                "sliders": self._sliders(),
+                "missing": list(dict.fromkeys(missing)),
+            }
+        )
+
+    def _sliders(self) -> list[dict[str, Any]]:
+        if self.mover is None:
+            return []
+        positions = self.mover.positions
+        return [
+            {
+                "name": joint.name,
+                "unit": joint.unit,
+                "range": list(slide_range(joint)),
+                "position": positions[joint.name],
+            }
+            for joint in self.robot.joints.values()
+            if joint.moves and self.robot.leader(joint.name) == joint.name
+        ]
+
+    def _shape(self, shape: LinkShape, missing: list[str]) -> dict[str, Any]:
+        return {
+            "origin": _seven(shape.origin),
+            **self._geometry(shape.geometry, missing),
+            **self._surface(shape.material, missing),
+        }
+
+    def _geometry(self, geometry: Any, missing: list[str]) -> dict[str, Any]:
+        if isinstance(geometry, BoxShape):
+            return {"kind": "box", "size": list(geometry.size)}
+        if isinstance(geometry, CylinderShape | CapsuleShape):
+            kind = "cylinder" if isinstance(geometry, CylinderShape) else "capsule"
+            return {"kind": kind, "radius": geometry.radius, "length": geometry.length}
+        if isinstance(geometry, SphereShape):
+            return {"kind": "sphere", "radius": geometry.radius}
+        assert isinstance(geometry, MeshShape)
+        try:
+            address = self.folders.address(geometry.filename)
+            if not geometry.filename.lower().endswith(SHAPES):
+                raise MeshRefused(
+                    f"'{geometry.filename}' is no mesh that is drawn here ({', '.join(SHAPES)})"
+                )
+        except MeshRefused as refusal:
+            missing.append(str(refusal))
+            return {"kind": "missing"}
+        return {"kind": "mesh", "address": address, "scale": list(geometry.scale)}
+
+    def _surface(self, surface: Surface | None, missing: list[str]) -> dict[str, Any]:
+        if surface is None:
+            return {}
+        told: dict[str, Any] = {}
+        if surface.color is not None:
+            told["color"] = list(surface.color)
+        if surface.texture:
+            try:
+                told["texture"] = self.folders.address(surface.texture)
+            except MeshRefused as refusal:
+                missing.append(str(refusal))
+        return told
+
+
+def _seven(pose: Transform) -> list[float]:
+    return [*pose.translation, *pose.rotation]
