@@ -1,4 +1,5 @@
 import json
+from pathlib import Path
 from xml.etree import ElementTree
 
 import pytest
@@ -64,6 +65,13 @@ def test_a_check_can_be_explained_and_all_can_be_listed(tftool):
     assert result.status == 0
     assert result.out.startswith("split-tree: the frames form more than one tree")
     assert "\nsplit-tree " in tftool("doctor", "--list").out
+
+
+def test_the_page_of_the_checks_is_as_the_command_prints_it(tftool):
+    page = Path(__file__).parents[2] / "docs" / "reference" / "checks.md"
+    printed = tftool("doctor", "--list", "--markdown").out
+    assert printed.count("\n### ") == 54
+    assert page.read_text(encoding="utf-8") == printed
 
 
 @pytest.mark.parametrize(

@@ -43,6 +43,7 @@ class Check:
         links: Threads about it, and standards.
         limits: Its thresholds by name; seconds, metres, radians, shares, counts.
         needs: Which keys of `NEEDS` it cannot run without.
+        why: Why the rule and its thresholds are as they are; empty where that is plain.
     """
 
     id: str
@@ -58,6 +59,7 @@ class Check:
     links: tuple[str, ...] = ()
     limits: Mapping[str, float] = field(default_factory=dict)
     needs: tuple[str, ...] = ()
+    why: str = ""
 
 
 def _threads(*threads: str) -> tuple[str, ...]:
@@ -84,13 +86,14 @@ _LIST = (
         "a frame has two parents among the statics, or changes its parent more than {switches:g} "
         "times and keeps each for less than {stay:g} s on average",
         "{child} gets its parent by turns from {parents}",
-        "{sources}; changes {switches:times}",
+        "{sources}; changes {switches:times}, first at {first:moment}",
         "{lost} lose their way to one root while the other parent rules: the robot jumps, and "
         "lookups fail now and then",
         (
             Fix(
-                "let the transform end at the robot's root frame ({root}) instead of {child}, "
-                "or switch one of the two off: publish_tf: false and its like"
+                "let the transform end at the robot's root frame ({root}) instead of {child} "
+                "(robot_base_frame, base_frame, LIO-SAM's baselinkFrame), switch one of the two off "
+                "(publish_tf: false and its like), or chain them (RTAB-Map's odom_guess_frame_id)"
             ),
         ),
         (
@@ -105,6 +108,7 @@ _LIST = (
             "introlab/rtabmap_ros#822",
         ),
         {"switches": 4, "stay": 1.0},
+        why="a hand-over changes the parent once and stays; a fight changes it at the rate of messages",
     ),
     Check(
         "publisher-conflict",
@@ -142,6 +146,7 @@ _LIST = (
             "share": 0.1,
             "changes": 6,
         },
+        why="a thing that moves continues where it was, while two opinions alternate; so much speed tells two opinions apart, and leaves fast robots and relocalisations alone",
     ),
     Check(
         "static-and-dynamic",
@@ -174,6 +179,7 @@ _LIST = (
         ("a calibration or a detector publishes its result with a static broadcaster",),
         (),
         {"values": 4, "metres": 1e-6, "radians": 1e-4},
+        why="a recalibration happens once or twice",
     ),
     Check(
         "static-changed",
@@ -202,6 +208,7 @@ _LIST = (
         ("the static publisher of the old tf package",),
         _threads("orbbec/ros_astra_camera#89"),
         {"samples": 20},
+        why="a static sent at 10 Hz lets every lookup wait for up to 100 ms",
     ),
     Check(
         "parent-switch",
@@ -320,6 +327,7 @@ _LIST = (
         ),
         _threads("Ekumen-OS/andino_gz#43", "ros2/ros2_documentation#5222", "osrf/vrx#876"),
         needs=("headers",),
+        why="lookups fail by name before any question of time",
     ),
     Check(
         "slash-twins",
@@ -330,7 +338,10 @@ _LIST = (
         "{topic} says {frame}, tf knows {known}",
         "{topic}: {frame}, {count:times}",
         "every lookup refuses: \"in tf2 frame_ids cannot start with a '/'\"",
-        (Fix('set frame_id to "{known}" in the publisher of {topic}'),),
+        (
+            Fix('set frame_id to "{known}" in the publisher of {topic}'),
+            Fix("in a recording:", "tftool edit RECORDING -o CLEAN --strip-slash --everywhere"),
+        ),
         ("a publisher from the days of tf 1",),
         _threads("ros-simulation/stage_ros#68", "gisbi-kim/FAST_LIO_SLAM#15"),
         needs=("headers",),
@@ -459,7 +470,7 @@ _LIST = (
         "the median latency of a transform is below -{seconds:g} s (of what places odometry in a "
         "map: -{localisation:g} s); a note from -{note:g} s on",
         "{where} is dated {ahead:span} ahead of its arrival",
-        "{edge}: {ahead:span} ahead (median)",
+        "{edge}: {ahead:span} ahead (median){clock}",
         "the latest common time lies in the future: a lookup at latest mixes moments",
         (
             Fix(
@@ -471,6 +482,7 @@ _LIST = (
         _threads("ros-navigation/navigation2#3166"),
         {"seconds": 0.25, "localisation": 2.0, "note": 0.02},
         ("log times",),
+        why="AMCL dates its transform 1 s ahead, and offsets of 0.1 s are in use",
     ),
     Check(
         "stale-stamp",
@@ -525,6 +537,7 @@ _LIST = (
         ),
         {"seconds": 0.02, "spread": 0.02, "apart": 0.05, "samples": 20},
         ("log times", "headers"),
+        why="a message cannot be older than itself; 20 ms are more than stamps are rounded by, and a scan may be stamped with its end",
     ),
     Check(
         "zero-stamp",
@@ -592,6 +605,7 @@ _LIST = (
         ("play --loop", "a simulation was reset", "NTP set the clock back while running"),
         _threads("ros2/geometry2#606", "ros/geometry2#43"),
         needs=("log times",),
+        why="a looped recording would trip forty other checks: all of them look at the first lap only",
     ),
     Check(
         "old-data",
@@ -651,6 +665,7 @@ _LIST = (
         ("load", "a network that drops", "a publisher that hung"),
         (),
         {"periods": 5, "seconds": 0.5, "samples": 10, "variation": 1.0},
+        why="four messages lost in a row are no chance on a reliable topic, and shorter holes are covered by the waits that consumers have anyway",
     ),
     Check(
         "single-sample",
@@ -663,6 +678,7 @@ _LIST = (
         "one sample answers for its own stamp only, and only for as long as the cache keeps it",
         (Fix("send a mount with a StaticTransformBroadcaster (on /tf_static)"),),
         ("a mount sent with a TransformBroadcaster",),
+        why="tf2 interpolates between two samples and never extrapolates from one",
     ),
     Check(
         "no-transforms",
@@ -687,7 +703,10 @@ _LIST = (
         "these sensors can be placed nowhere",
         (
             Fix("record with /tf and /tf_static (ROS 1: rosbag record --repeat-latched)"),
-            Fix("take the statics from the first part of the recording, or the robot description"),
+            Fix(
+                "take the statics from the first part of the recording, or the robot description:",
+                "tftool edit RECORDING -o WHOLE --statics-from FIRST_PART",
+            ),
         ),
         (
             "the second part of a split recording",
@@ -736,7 +755,12 @@ _LIST = (
         "statics are spread over {messages} messages",
         "the last lacks {lost}",
         "a player that publishes them from one node keeps only the last for late listeners",
-        (Fix("start listeners before playing"),),
+        (
+            Fix("start listeners before playing"),
+            Fix(
+                "or bring them into one message:", "tftool edit RECORDING -o WHOLE --statics-first"
+            ),
+        ),
         ("several static publishers",),
         _threads("ros/ros_comm#706", "ros2/geometry2#585"),
         needs=("recording",),
@@ -769,6 +793,7 @@ _LIST = (
         ),
         {"seconds": 0.1, "never": 0.05, "refused": 0.5, "note": 0.03, "messages": 5},
         ("log times", "headers"),
+        why="0.1 s is the usual tolerance of consumers, and a healthy robot at 50 Hz needs 20 ms for some scans",
     ),
     Check(
         "cache-short",
@@ -781,7 +806,10 @@ _LIST = (
         "{cache:span}",
         '"extrapolation into the past": the transforms it needs were dropped',
         (
-            Fix("keep more", "Buffer(cache_time=Duration(seconds={needed}))"),
+            Fix(
+                "keep more (ROS 1's Python ignores this argument: ros_comm#2270)",
+                "Buffer(cache_time=Duration(seconds={needed}))",
+            ),
             Fix("or look up when the measurement arrives, and keep the result"),
         ),
         ("a slow detector", "a consumer that is behind"),
@@ -804,6 +832,7 @@ _LIST = (
         (),
         {"seconds": 0.5},
         ("log times", "headers"),
+        why="the first second of every recording is a start, and a localiser that dates ahead loses it always",
     ),
     Check(
         "truncated-recording",
@@ -858,6 +887,7 @@ _LIST = (
             "robomechanics/quad-sdk#346", "introlab/rtabmap_ros#153", "CCNYRoboticsLab/imu_tools#67"
         ),
         {"length": 0.01},
+        why="ROS 1 drops such a transform and ROS 2 normalises it: the frame is in one and not in the other",
     ),
     Check(
         "teleport",
@@ -887,6 +917,7 @@ _LIST = (
             "few": 3,
             "samples": 10,
         },
+        why="what moves steadily has a usual speed; more jumps than that are noise, or two publishers",
     ),
     Check(
         "optical-convention",
@@ -902,6 +933,7 @@ _LIST = (
         ("the optical frame was given the axes of the body",),
         (_REP103, *_threads("ros-simulation/gazebo_ros_pkgs#1329")),
         {"degrees": 5.0, "metres": 0.1},
+        why="calibrated cameras are off by up to 5°",
     ),
     Check(
         "image-not-optical",

@@ -7,6 +7,7 @@ import numpy as np
 
 from tftool.diagnostics.findings import Confidence, Hit, Severity
 from tftool.diagnostics.model import Heard, Limits, Model, Track, unsorted_share
+from tftool.diagnostics.wording import several
 from tftool.sources.contract import SIMULATED_BELOW, Stamps
 from tftool.stamps import NANOSECONDS, seconds
 
@@ -69,19 +70,27 @@ def future_stamp(model: Model, limits: Limits) -> Iterator[Hit]:
         ahead = -track.median_latency
         least = limits["localisation"] if track.is_localisation else limits["seconds"]
         if ahead > least * NANOSECONDS:
-            yield _ahead(track, ahead, Severity.WARNING)
+            yield _ahead(model, track, ahead, Severity.WARNING)
         elif not track.is_localisation and ahead > limits["note"] * NANOSECONDS:
-            yield _ahead(track, ahead, Severity.NOTE)
+            yield _ahead(model, track, ahead, Severity.NOTE)
 
 
-def _ahead(track: Track, ahead: int, severity: Severity) -> Hit:
+def _ahead(model: Model, track: Track, ahead: int, severity: Severity) -> Hit:
+    streams: list[Track | Heard] = [*model.dynamic, *(h for h in model.heard if h.is_spatial)]
+    # Streams of one computer are ahead by the same amount; a tolerance is one publisher's own.
+    also = [
+        _name(other)
+        for other in streams
+        if other is not track and abs(-other.median_latency - ahead) < max(0.02e9, 0.1 * ahead)
+    ]
+    told = f"; so are {several(also)}: their computer's clock is ahead" if also else ""
     return Hit(
         edges=(track.edge,),
         publishers=track.nodes,
         since=int(track.logs[0]),
         count=len(track.stamps),
         severity=severity,
-        facts={"edge": track.name, "ahead": ahead},
+        facts={"edge": track.name, "ahead": ahead, "also": also, "clock": told},
     )
 
 

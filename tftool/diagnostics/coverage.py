@@ -323,12 +323,16 @@ def _cures(heard: Heard, waits: Waits, wait: float) -> tuple[Fix, ...]:
     p95 = math.ceil(waits.serves(95) / 1e6)
     later = waits.link.median_latency - heard.median_latency
     depth = max(1, math.ceil(worst / NANOSECONDS * rate(heard)))
+    ahead = Fix(
+        f"or date {waits.link.name} {math.ceil(worst / 1e6)} ms further ahead (transform_tolerance)"
+    )
     return (
         Fix(
             f"wait for it: a timeout of {rounded_up(worst) // 10**6} ms serves all that are ever "
             f"served ({p95} ms serve 95 %)"
         ),
         Fix(least_rate(later, wait)),
+        *((ahead,) if waits.link.is_localisation else ()),
         Fix(f"let the queue of the message filter hold {depth} messages"),
     )
 

@@ -8,6 +8,7 @@ import numpy as np
 
 from tftool.diagnostics.findings import Confidence, Fix, Hit
 from tftool.diagnostics.model import Limits, Model, Places, Track, last_part, rate
+from tftool.diagnostics.shape import quoted
 from tftool.geometry.batch import Floats, unit
 from tftool.geometry.quaternions import angle_between
 from tftool.stamps import NANOSECONDS
@@ -55,6 +56,7 @@ def _fight(model: Model, child: str, tracks: Sequence[Track], switches: int, fir
         facts={
             "child": child,
             "parents": [track.parent for track in tracks],
+            "first": first,
             "sources": [_source(track) for track in tracks],
             "switches": switches,
             "lost": sorted(model.below(child)),
@@ -352,8 +354,8 @@ def _switches_off(track: Track) -> Fix:
     if track.is_localisation:
         return Fix(
             "switch one of the localisers' transforms off: tf_broadcast: false (AMCL), "
-            "publish_map_tf: false (ZED); of a replayed one, drop it from the recording or "
-            "play without /tf"
+            "publish_map_tf: false (ZED); of a replayed one, take it out of the recording:",
+            f"tftool edit RECORDING -o CLEAN --drop {quoted(f'{track.parent}:{track.child}')}",
         )
     if _is_odometry(track):
         return Fix(

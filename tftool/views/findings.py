@@ -283,11 +283,14 @@ def explained(check: Check) -> str:
         "",
         f"rule     {filled(check.rule, check.limits)}.",
     ]
+    if check.why:
+        lines.append(f"why      {check.why}.")
     if check.limits:
         names = ", ".join(f"{name} = {value:g}" for name, value in check.limits.items())
         lines.append(f"limits   {names}  (--limit {check.id}.{next(iter(check.limits))}=VALUE)")
     if check.needs:
         lines.append(f"needs    {', '.join(check.needs)}")
+    lines.append(f"says     {_general(check.headline)}")
     lines.append(f"so       {_general(check.consequence)}.")
     for number, cause in enumerate(check.causes):
         lines.append(f"{'causes ' if not number else '       '}  {cause}")
@@ -299,6 +302,52 @@ def explained(check: Check) -> str:
     return "\n".join(lines) + "\n"
 
 
+def as_page() -> str:
+    """Every check as a page of Markdown, by area."""
+    lines = [
+        "# What the doctor looks for",
+        "",
+        "Written by `tftool doctor --list --markdown`. Names in CAPITALS stand for what was found.",
+        "A threshold is changed with `--limit ID.NAME=VALUE`.",
+    ]
+    for area in Area:
+        lines += ["", f"## {area.value[0].upper()}{area.value[1:]}"]
+        for check in CHECKS.values():
+            if check.area is area:
+                lines += ["", *_paragraphs(check)]
+    return "\n".join(lines) + "\n"
+
+
+def _paragraphs(check: Check) -> list[str]:
+    """One check as Markdown."""
+    lines = [f"### {check.id}", "", f"*{check.severity.value}*: {_marked(check.summary)}.", ""]
+    lines.append(f"- **rule**: {_marked(filled(check.rule, check.limits))}.")
+    if check.why:
+        lines.append(f"- **why**: {_marked(check.why)}.")
+    if check.limits:
+        given = (f"`{name}` = {value:g}" for name, value in check.limits.items())
+        lines.append(f"- **thresholds**: {', '.join(given)}")
+    if check.needs:
+        lines.append(f"- **needs**: {', '.join(check.needs)}")
+    lines.append(f"- **says**: {_marked(_general(check.headline))}")
+    lines.append(f"- **so**: {_marked(_general(check.consequence))}.")
+    if check.causes:
+        lines.append(f"- **causes**: {_marked('; '.join(check.causes))}")
+    for fix in check.fixes:
+        command = f" `{_general(fix.command)}`" if fix.command else ""
+        lines.append(f"- **fix**: {_marked(_general(fix.text))}{command}")
+    if check.links:
+        lines.append(f"- **see**: {', '.join(f'<{link}>' for link in check.links)}")
+    return lines
+
+
+def _marked(text: str) -> str:
+    """A text in which nothing of Markdown acts."""
+    from re import sub
+
+    return sub(r"([\\`*_<>\[\]|])", r"\\\1", text)
+
+
 def _general(text: str) -> str:
     """A text of the catalogue without the facts of a finding: their names stand for them."""
     from string import Formatter
@@ -306,7 +355,8 @@ def _general(text: str) -> str:
     parts = []
     for literal, name, _, _ in Formatter().parse(text):
         parts.append(literal)
-        if name is not None:
+        # What stands at a word's end without a blank is an addition that may be empty.
+        if name is not None and not literal[-1:].isalpha():
             parts.append(name.split("[")[0].upper())
     return "".join(parts)
 

@@ -130,7 +130,10 @@ def doctor(
     from tftool.views import findings as view
 
     if listed:
-        write(view.listing())
+        if markdown:
+            sys.stdout.write(view.as_page())
+        else:
+            write(view.listing())
         return ExitStatus.DONE
     if explain:
         sys.stdout.write(view.explained(_check(explain)))
