@@ -1,9 +1,21 @@
 import pytest
 
 from tftool.errors import TftoolError
-from tftool.messages import Pose2D, Twist2D
+from tftool.interfaces.classes import INTERFACES
+from tftool.messages import (
+    Clear,
+    Pose2D,
+    RotateAbsolute,
+    Rotated,
+    Rotating,
+    Spawn,
+    Spawned,
+    Twist2D,
+)
 from tftool.runtime.clock import SimClock, run
-from tftool.runtime.topics import Topic
+from tftool.runtime.endpoints import Quality
+from tftool.runtime.node import Node
+from tftool.runtime.topics import GoalResult, Topic
 from tftool.runtime.world import World
 from tftool.stamps import seconds
 
@@ -155,3 +167,109 @@ def test_an_action_nobody_serves_is_named():
     world = World(SimClock())
     with pytest.raises(TftoolError, match="no node serves the action 'rotate'"):
         run(world.clock, world.send_goal("rotate", 1))
+
+
+TWIST = INTERFACES.message("geometry_msgs/Twist")
+
+
+def twist(x, z=0.0):
+    message = TWIST()
+    message.linear.x, message.linear.z = x, z
+    return message
+
+
+def test_a_topic_of_messages_is_one_of_values_to_those_who_name_a_value():
+    world = World(SimClock())
+    values, messages = [], []
+    world.topic("cmd_vel", Twist2D).subscribe(values.append)
+    stop = world.topic("cmd_vel", TWIST).subscribe(messages.append)
+
+    world.topic("cmd_vel", Twist2D).publish(Twist2D(1.0))
+    world.topic("cmd_vel", TWIST).publish(twist(2.0, 3.0))
+    stop()
+    world.topic("cmd_vel", Twist2D).publish(Twist2D(4.0))
+
+    assert values == [Twist2D(1.0), Twist2D(2.0), Twist2D(4.0)]
+    assert messages == [twist(1.0), twist(2.0, 3.0)]
+    assert world.topic("cmd_vel", Twist2D).latest == Twist2D(4.0)
+    assert world.topic("cmd_vel", TWIST).latest == twist(4.0)
+    assert world.topic("cmd_vel", TWIST).count == 3
+
+
+def test_a_reader_of_messages_that_comes_later_makes_them_from_then_on():
+    world = World(SimClock())
+    node = Node(world, "driver")
+    node.publish("cmd_vel", Twist2D(1.0))
+    messages = []
+    world.subscribe("reader", "cmd_vel", TWIST, messages.append)
+
+    node.publish("cmd_vel", Twist2D(2.0))
+
+    assert messages == [twist(2.0)]
+
+
+def test_a_latched_publisher_of_values_keeps_messages_for_those_who_come_late():
+    world = World(SimClock())
+    publisher = world.publisher("map", "goal", Twist2D, Quality(1, is_latched=True))
+    publisher.publish(Twist2D(1.0))
+    publisher.publish(Twist2D(2.0))
+    late, values = [], []
+
+    world.subscribe("late", "goal", TWIST, late.append, Quality(is_latched=True))
+    world.subscribe("ours", "goal", Twist2D, values.append, Quality(is_latched=True))
+
+    assert late == [twist(2.0)]
+    assert values == [Twist2D(2.0)]
+
+
+def test_a_value_that_is_not_the_topics_is_refused_at_its_door():
+    with pytest.raises(TypeError, match="carries Twist2D, not Pose2D"):
+        World(SimClock()).topic("cmd_vel", Twist2D).publish(Pose2D(0.0, 0.0, 0.0))
+
+
+def test_a_service_takes_values_and_messages_and_answers_each_in_kind():
+    spawn = INTERFACES.find("turtlesim", "srv", "Spawn")
+
+    async def ask():
+        world = World(SimClock())
+        world.serve("ours", lambda request: Spawned(request.name.upper()), Spawn)
+        world.serve("theirs", lambda request: spawn.Response(name=request.name + "!"), spawn)
+        value, message = Spawn(1.0, 2.0, 0.0, "bob"), spawn.Request(name="bob")
+
+        assert await world.call("ours", value) == Spawned("BOB")
+        assert await world.call("theirs", value) == Spawned("bob!")
+        assert await world.call("ours", message) == spawn.Response(name="BOB")
+        assert await world.call("theirs", message) == spawn.Response(name="bob!")
+        with pytest.raises(TftoolError, match="'ours' is of type turtlesim/srv/Spawn, which takes"):
+            await world.call("ours", Clear())
+
+    run(SimClock(), ask())
+
+
+def test_a_goal_in_values_and_its_server_in_messages_understand_each_other():
+    rotate = INTERFACES.find("turtlesim", "action", "RotateAbsolute")
+
+    async def act():
+        world = World(SimClock())
+        taken, fed = [], []
+        world.serve_action("turn", taken.append, rotate)
+        goal = await world.send_goal("turn", RotateAbsolute(1.5), fed.append)
+        assert taken[0].request == rotate.Goal(theta=1.5)
+        taken[0].publish_feedback(rotate.Feedback(remaining=0.5))
+        assert fed == [Rotating(0.5)]
+        assert goal.feedback == Rotating(0.5)
+        assert goal.ended is None
+        taken[0].finish("succeeded", rotate.Result(delta=1.5))
+        assert goal.done
+        assert goal.ended == GoalResult("succeeded", Rotated(1.5))
+
+        world.serve_action("spin", taken.append, RotateAbsolute)
+        handle = await world.send_goal("spin", rotate.Goal(theta=2.0))
+        assert taken[1].request == RotateAbsolute(2.0)
+        handle.cancel()
+        assert taken[1].cancel_requested
+        assert await taken[1].cancellation()
+        taken[1].finish("canceled", Rotated(0.25))
+        assert await handle.result() == GoalResult("canceled", rotate.Result(delta=0.25))
+
+    run(SimClock(), act())

@@ -12,7 +12,16 @@ from typing import Any, Generic, TypeVar
 
 from tftool.interfaces import values
 from tftool.runtime.endpoints import Endpoint
-from tftool.runtime.topics import Acceptor, GoalHandle, GoalResult, Handler, Status, Topic, streamed
+from tftool.runtime.topics import (
+    Acceptor,
+    GoalHandle,
+    GoalResult,
+    Handler,
+    Status,
+    Topic,
+    Unmade,
+    streamed,
+)
 
 T = TypeVar("T")
 
@@ -43,7 +52,8 @@ class ValueTopic(Generic[T]):
     @property
     def latest(self) -> T | None:
         """The value published last, None before the first."""
-        return None if self.topic.latest is None else self.value_of(self.topic.latest)
+        held = self.topic.held
+        return None if held is None else self.value_of(held)
 
     @property
     def count(self) -> int:
@@ -66,24 +76,24 @@ class ValueTopic(Generic[T]):
         Raises:
             TypeError: If `value` is not of the topic's kind.
         """
-        self.topic.publish(self.message_of(value), sender)
-
-    def message_of(self, value: T) -> Any:
-        """The message that says the same as a value.
-
-        Raises:
-            TypeError: If `value` is not of the topic's kind.
-        """
         if not isinstance(value, self.kind):
             raise TypeError(
                 f"topic '{self.name}' carries {self.kind.__name__}, not {type(value).__name__}"
             )
+        if not self.topic.publish_unmade(Unmade(value, self._pack), sender):
+            self.topic.publish(self.message_of(value), sender)
+
+    def message_of(self, value: T) -> Any:
+        """The message that says the same as a value."""
         message = self._pack(value)
         self._message, self._value = message, value
         return message
 
     def value_of(self, message: Any) -> T:
         """The value that says the same as a message."""
+        if isinstance(message, Unmade):
+            held: T = message.value
+            return held
         if message is not self._message or self._value is None:
             self._message, self._value = message, values.as_value(message, self.kind)
         value: Any = self._value
@@ -95,7 +105,7 @@ class ValueTopic(Generic[T]):
 
     def subscribe(self, callback: Callable[[T], object], owner: str = "") -> Callable[[], None]:
         """Have `callback` called with every value to come; see `Topic.subscribe`."""
-        return self.topic.subscribe(self.taker(callback), owner)
+        return self.topic.subscribe(self.taker(callback), owner, takes_unmade=True)
 
     def stream(self, depth: int = 100) -> AsyncIterator[T]:
         """Values to come, one by one; see `Topic.stream`."""

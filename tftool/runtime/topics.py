@@ -18,14 +18,29 @@ T = TypeVar("T")
 Status = Literal["succeeded", "aborted", "canceled"]
 
 
+@dataclass(slots=True)
+class Unmade:
+    """A value on a topic of messages, whose message is made when it is first asked for.
+
+    Between nodes of ours it never is: to make every pose a message costs a fifth of a world.
+
+    Attributes:
+        value: The value.
+        pack: Makes the message of it.
+    """
+
+    value: Any
+    pack: Callable[[Any], Any]
+
+
 class Topic(Generic[T]):
     """A named stream of values of one type that keeps its latest value.
 
     Attributes:
         name: The topic's name, without a leading slash.
         kind: The type every value has.
-        latest: The value published last, None before the first.
         count: How many values were published.
+        held: The value published last, as it was published.
         on_demand: Called when a subscriber comes or goes; None without a link.
         sender: The publisher of the value that is being delivered; None when not known.
         relay: What carries values to other processes, told last; None without a link.
@@ -35,12 +50,13 @@ class Topic(Generic[T]):
     """
 
     __slots__ = (
+        "_readers",
         "_subscribers",
         "count",
         "far_subscribers",
+        "held",
         "is_far",
         "kind",
-        "latest",
         "name",
         "on_demand",
         "relay",
@@ -51,7 +67,8 @@ class Topic(Generic[T]):
         """Begin without a value; `report` takes what subscribers raise, see `Listeners`."""
         self.name = name
         self.kind = kind
-        self.latest: T | None = None
+        self.held: T | Unmade | None = None
+        self._readers = 0
         self.count = 0
         self.on_demand: Callable[[], object] | None = None
         self.sender: Endpoint | None = None
@@ -59,6 +76,14 @@ class Topic(Generic[T]):
         self.far_subscribers = 0
         self.is_far = False
         self._subscribers: Listeners[T] = Listeners(report)
+
+    @property
+    def latest(self) -> T | None:
+        """The value published last, None before the first."""
+        if isinstance(self.held, Unmade):
+            self.held = self.held.pack(self.held.value)
+        made: Any = self.held
+        return made  # type: ignore[no-any-return]
 
     def publish(self, value: T, sender: Endpoint | None = None) -> None:
         """Keep `value` and tell every subscriber at once, and who sent it if that is known.
@@ -70,23 +95,41 @@ class Topic(Generic[T]):
             raise TypeError(
                 f"topic '{self.name}' carries {self.kind.__name__}, not {type(value).__name__}"
             )
-        self.latest = value
+        self._tell(value, sender)
+
+    def publish_unmade(self, value: Unmade, sender: Endpoint | None = None) -> bool:
+        """Publish a value without its message, where no subscriber reads messages.
+
+        Returns:
+            Whether it could; nothing was published if not.
+        """
+        if self._readers or self.relay is not None:
+            return False
+        self._tell(value, sender)
+        return True
+
+    def _tell(self, value: Any, sender: Endpoint | None) -> None:
+        self.held = value
         self.count += 1
+        relay = self.relay
         before, self.sender = self.sender, sender
         try:
             self._subscribers.call(value)
-            if self.relay is not None:
-                self.relay(value)
+            if relay is not None:
+                relay(value)
         finally:
             self.sender = before
 
-    def subscribe(self, callback: Callable[[T], object], owner: str = "") -> Callable[[], None]:
+    def subscribe(
+        self, callback: Callable[[T], object], owner: str = "", *, takes_unmade: bool = False
+    ) -> Callable[[], None]:
         """Have `callback` called with every value to come; call what is returned to stop.
 
         What it raises is reported under the name of its `owner`, and does not reach the
-        publisher.
+        publisher. One that takes `Unmade` as well keeps messages from being made for it.
         """
         withdraw = self._subscribers.add(callback, owner)
+        self._readers += not takes_unmade
         is_there = True
         if self.on_demand is not None:
             self.on_demand()
@@ -95,6 +138,7 @@ class Topic(Generic[T]):
             nonlocal is_there
             if is_there:
                 is_there = False
+                self._readers -= not takes_unmade
                 withdraw()
                 if self.on_demand is not None:
                     self.on_demand()

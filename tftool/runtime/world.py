@@ -224,7 +224,7 @@ class World:
 
         # Entered first: the link shows a subscriber without a name for what is not.
         _, withdraw = self.enter(SUBSCRIPTION, node, topic.name, kind, quality, deliver=deliver)
-        stop = topic.subscribe(taken, node)
+        stop = topic.subscribe(taken, node, takes_unmade=isinstance(door, ValueTopic))
         if deliver is not None:
             for publisher in self.endpoints.of(topic.name, PUBLISHER):
                 for value in publisher.kept or ():
