@@ -1,6 +1,8 @@
 """A recording as FROM: opened with a bar where reading takes time, its damage told once."""
 
+import os
 import sys
+from contextlib import suppress
 from typing import TYPE_CHECKING, Any
 
 from tftool.cli.notices import notice
@@ -215,8 +217,9 @@ class Bar:
                 frame: "FrameType | None",
                 before: "Callable[[int, FrameType | None], object]" = before,
             ) -> None:
-                sys.stderr.write("\r\x1b[2K")
-                sys.stderr.flush()
+                # Past Python's own buffer, which the signal may have met in the middle of a write.
+                with suppress(OSError):
+                    os.write(2, b"\r\x1b[2K")
                 before(number, frame)
 
             signal.signal(number, leave)
