@@ -20,6 +20,9 @@ class Simulated(Providers):
     def wall_clock(self, rate=1.0, *, epoch=None, head_start=0):
         return SimClock() if epoch is None else SimClock(epoch)
 
+    def still_clock(self, epoch, now):
+        return SimClock(epoch)
+
     def link(self, options):
         return None
 

@@ -302,7 +302,7 @@ def test_no_messages_arrive_from_a_recording(tftool, recording, words, monkeypat
     assert f"no message arrives: 'tftool tree {recording}' shows its frames." in result.err
 
 
-@pytest.mark.parametrize("command", ["demo", "check"])
+@pytest.mark.parametrize("command", ["check"])
 def test_a_recording_is_no_scenario(tftool, recording, command):
     result = tftool(command, recording)
 

@@ -109,6 +109,17 @@ class Providers:
 
         return WallClock(rate, epoch=epoch, head_start=head_start)
 
+    def still_clock(self, epoch: "Stamp", now: "Stamp") -> "Clock":
+        """Make a clock that stands still at the end of something that is all there.
+
+        Args:
+            epoch: When it began.
+            now: Its end.
+        """
+        from tftool.runtime.clock import FollowedClock
+
+        return FollowedClock(now, epoch=epoch)
+
     def joined_clock(self) -> "Clock":
         """Make a clock for a world that joins a session: real time, or what `/clock` says."""
         from tftool.runtime.clock import FollowedClock

@@ -84,6 +84,9 @@ LISTEN_LIVE = seconds(2)
 TOLD = seconds(2)
 """How long a joined world waits for the first that `/clock` says, where it is published."""
 
+SETTLING = seconds(1)
+"""How long after a recording's beginning all of its frames are expected to have come."""
+
 AHEAD = seconds(1)
 """How long past the moment asked about a scenario is played, for what comes late."""
 
@@ -176,6 +179,7 @@ class Session:
         link: What joins it to other processes; None for a world on its own.
         is_recorded: Whether all of its frames are there from the beginning, and none come.
         robot: The robot in a recording, by its description.
+        is_played: Whether a recording's messages arrive in it, which are over at its end.
     """
 
     world: World
@@ -187,6 +191,20 @@ class Session:
     link: "Link | None" = None
     is_recorded: bool = False
     robot: "Robot | None" = None
+    is_played: bool = False
+
+    def first_look(self) -> Stamp | None:
+        """Where to begin to look at what is recorded; None to look at the present.
+
+        That is when all has come that comes within `SETTLING` of the beginning.
+        """
+        if not self.is_recorded or not self.duration:
+            return None
+        clock, begin = self.world.clock, self.world.clock.epoch
+        frames = self.world.buffer.snapshot(begin + self.duration).frames
+        first = [info.oldest for info in frames if info.samples and not info.is_static]
+        soon = [stamp for stamp in first if stamp <= min(begin + SETTLING, clock.now())]
+        return max([begin, *soon])
 
     def departures(self) -> int:
         """How many of the other processes have left by now that transforms came from."""
@@ -402,6 +420,7 @@ def open_session(
     without: Callable[["NodeEntry"], bool] | None = None,
     needs_turtles: bool = False,
     needs_messages: bool = False,
+    plays: bool = False,
     because: str = NO_SESSION,
     by_hand: bool = False,
 ) -> Session:
@@ -416,6 +435,7 @@ def open_session(
         without: Says which of a hosted scenario's nodes to leave out.
         needs_turtles: Whether only a session with a turtle simulator will do.
         needs_messages: Whether messages have to arrive: those of a recording have.
+        plays: Whether those of a recording are to arrive again, as fast as can be simulated.
         because: Why a world that was not named is hosted, for people.
         by_hand: Whether a person drives in it, in place of the scenario's own script.
 
@@ -426,12 +446,11 @@ def open_session(
     """
     found = None if word is None else named(word)
     if found is not None and found.kind is not Kind.SCENARIO:
-        if needs_messages:
-            raise UsageError(
-                f"'{visible(found.name)}' is {kind_in_words(found)}, from which no message "
-                f"arrives: 'tftool tree {visible(found.name)}' shows its frames."
-            )
+        if needs_messages and not plays:
+            raise _without_messages(found)
         refuse_to_share(connection, word)
+        if plays:
+            return _played(connection, found, cache_time)
         return _recorded(connection, found, simulated=simulated)
     _refuse_options_of_files(connection, word)
     link = None
@@ -637,9 +656,7 @@ def _recorded(connection: Connection, found: Found, *, simulated: bool) -> Sessi
     # Where nothing was recorded both are 0, at which no clock can begin.
     start = max(stored.start, 1)
     clock: Clock = (
-        SimClock(start)
-        if simulated
-        else connection.providers.wall_clock(epoch=start, head_start=lasting)
+        SimClock(start) if simulated else connection.providers.still_clock(start, start + lasting)
     )
     world = World(clock, stored.buffer)
 
@@ -652,6 +669,39 @@ def _recorded(connection: Connection, found: Found, *, simulated: bool) -> Sessi
     name = f"{_kind_word(found)} '{visible(stored.name)}'"
     robot = getattr(stored, "robot", None)
     return Session(world, True, name, alive, lasting, lasting, is_recorded=True, robot=robot)
+
+
+def _played(connection: Connection, found: Found, cache_time: Duration | None) -> Session:
+    """A world in which a recording's messages arrive, as fast as they can be simulated.
+
+    Raises:
+        UsageError: If it is no recording.
+    """
+    from tftool.nodes.player import Player
+    from tftool.sources.recording import Recording
+    from tftool.sources.timeline import Timeline
+
+    recording = connection.open_stored(found) if found.kind.is_recording else None
+    if not isinstance(recording, Recording):
+        raise _without_messages(found)
+    timeline = Timeline(recording.source, recording.transforms)
+    clock = SimClock(max(timeline.start, 1))
+    world = World(clock, cache_time=cache_time or CACHE_TIME)
+    Player(world, "player", timeline=timeline, pace=clock, is_silent=True)
+
+    async def alive(until: Stamp | None) -> None:
+        await live(world, until=until)
+
+    name = f"recording '{visible(recording.name)}'"
+    lasting = timeline.end - timeline.start
+    return Session(world, True, name, alive, 0, lasting, is_played=True)
+
+
+def _without_messages(found: Found) -> UsageError:
+    return UsageError(
+        f"'{visible(found.name)}' is {kind_in_words(found)}, from which no message "
+        f"arrives: 'tftool tree {visible(found.name)}' shows its frames."
+    )
 
 
 def _kind_word(found: Found) -> str:

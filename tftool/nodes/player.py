@@ -65,6 +65,7 @@ class Player(Node):
         is_paused: bool = False,
         is_looping: bool = False,
         is_restamped: bool = False,
+        is_silent: bool = False,
         feed: Feed | None = None,
     ) -> None:
         """Join a world.
@@ -80,6 +81,7 @@ class Player(Node):
             is_looping: Whether to start over at the end.
             is_restamped: Whether to move stamps to the moment at which they are sent, and publish
                 no `/clock`.
+            is_silent: Whether to publish no `/clock` though stamps are the recording's.
             feed: Sends other topics along.
         """
         super().__init__(world, name)
@@ -91,12 +93,13 @@ class Player(Node):
         self.laps = 0
         self._is_looping = is_looping
         self._is_restamped = is_restamped
+        self._is_silent = is_silent or is_restamped
         self._feed = feed
         self._anchor = self.start  # where it was
         self._since = pace.now()  # when it was there
         self._place = timeline.place(self.start)
         self._wake: Callable[[], object] | None = None
-        if not is_restamped:
+        if not self._is_silent:
             self.publisher("clock", INTERFACES.message("rosgraph_msgs/Clock"), CLOCK_QUALITY)
 
     # Where it is
@@ -200,7 +203,7 @@ class Player(Node):
         now = self._pace.now()
         if is_behind:
             return now
-        turn = now + TICK
+        turn = self._since + 2**62 if self._is_silent and not self.is_paused else now + TICK
         if self.is_paused:
             return turn
         dues = [self.end]
@@ -234,7 +237,7 @@ class Player(Node):
 
     def _tell(self, moment: Stamp | None = None) -> None:
         """Say what time it is: to this world, and on `/clock`."""
-        if self._is_restamped:
+        if self._is_silent:
             return
         now = max(self._anchor if moment is None else moment, 1)
         clock = self.world.clock

@@ -364,13 +364,14 @@ class FollowedClock(WallClock):
         fell_back: Called with by how many nanoseconds, when what it is told lies before now.
     """
 
-    def __init__(self, told: Stamp | None = None) -> None:
+    def __init__(self, told: Stamp | None = None, *, epoch: Stamp | None = None) -> None:
         """Read real time, or a moment that stands still from the beginning.
 
         Args:
             told: That moment.
+            epoch: When it began, where that was before.
         """
-        super().__init__(epoch=told)
+        super().__init__(epoch=told if epoch is None else epoch)
         self.fell_back: Listeners[Duration] = Listeners()
         self._told = told
         self._first: asyncio.Future[None] | None = None

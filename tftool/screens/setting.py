@@ -3,6 +3,7 @@
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
 
+from tftool.stamps import Stamp
 from tftool.views import theme
 
 
@@ -18,6 +19,7 @@ class Setting:
         light: Whether the terminal's ground is light.
         drive_only: Whether the field has the screen to itself, as in teleop.
         banner: Lines to show above the field.
+        at: The moment to begin with, at rest; the present if None.
     """
 
     title: str = "tftool"
@@ -27,6 +29,7 @@ class Setting:
     light: bool = False
     drive_only: bool = False
     banner: tuple[str, ...] = ()
+    at: Stamp | None = None
 
 
 def setting_from(environment: Mapping[str, str], encoding: str, wanted: Setting) -> Setting:

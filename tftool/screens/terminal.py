@@ -113,6 +113,7 @@ class TurtleApp(App[None]):
         self._press = press
         self._light = self.setting.light
         self._question = SceneQuestion(scene, self.setting.pair)
+        self._question.at = self.setting.at
         self._stale = True
         self._painted: object = None
         self._count = 0
@@ -128,8 +129,9 @@ class TurtleApp(App[None]):
         return self.scene.world
 
     def begin(self, stamp: Stamp) -> None:
-        """Count time from now on: the world begins to live."""
-        self.scene.start = stamp
+        """Count time from now on: the world begins to live. What is all there began before."""
+        if self.setting.at is None:
+            self.scene.start = stamp
 
     # Building
 

@@ -27,8 +27,8 @@ def demo(
     scenario: Annotated[
         str | None,
         typer.Argument(
-            metavar="[SCENARIO]",
-            help="Scenario to play, a built-in name or a file. "
+            metavar="[FROM]",
+            help="Scenario to play, a built-in name or a file; or a recording to look at. "
             "If not said: what runs here already, else turtles.",
             show_default=False,
         ),
@@ -71,11 +71,26 @@ def demo(
     tftool demo carrot --source-frame carrot1
     tftool demo time_travel --rate 2 --set delay=3
     """
-    from tftool.cli.hosting import HOME, left_to_a_person, look_around, scenario_named, shared
+    from tftool.cli.hosting import (
+        HOME,
+        left_to_a_person,
+        look_around,
+        named,
+        scenario_named,
+        shared,
+    )
     from tftool.cli.onscreen import driver_of, has_terminal, run_app, simulator_of
     from tftool.scenario.play import build
 
     arguments = _arguments(settings or (), source_frame)
+    if scenario is not None and named(scenario).kind.is_recording:
+        if arguments or rate != 1.0 or lasting is not None or for_programs:
+            raise UsageError(
+                "A recording stands still: leave out --set, --source-frame, --rate, --for and "
+                "--json. 'tftool play' plays it."
+            )
+        _show_recording(connection, scenario, ascii_only=ascii_only, light=light)
+        return ExitStatus.DONE
     chosen = scenario_named(scenario or HOME, arguments)
     if for_programs or not has_terminal():
         from tftool.scenario.summary import as_json, play_through, written
@@ -94,8 +109,8 @@ def demo(
     from tftool.screens.setting import Setting
 
     # Without a wish of the user's, what runs here already is shown.
-    named = scenario or (HOME if arguments or rate != 1.0 else None)
-    found = look_around(connection, named, needs_turtles=True)
+    wanted = scenario or (HOME if arguments or rate != 1.0 else None)
+    found = look_around(connection, wanted, needs_turtles=True)
     joined = found.session
     if joined is not None:
         world, live = joined.world, joined.live
@@ -122,6 +137,30 @@ def demo(
         title = f"tftool demo {chosen.name}"
     run_app(world, life(), driver, Setting(title=title, ascii_only=ascii_only, light=light))
     return ExitStatus.DONE
+
+
+def _show_recording(connection: Connection, word: str, *, ascii_only: bool, light: bool) -> None:
+    """Show a recording at rest, from its beginning on."""
+    from pathlib import Path
+
+    from tftool.cli.hosting import open_session
+    from tftool.cli.onscreen import has_terminal, run_app
+    from tftool.screens.setting import Setting
+    from tftool.views.escaping import visible
+
+    if not has_terminal():
+        raise UsageError(
+            f"There is no terminal to show it on: 'tftool tree {visible(word)}' prints its "
+            f"frames, 'tftool view {visible(word)}' shows them in a browser."
+        )
+    session = open_session(connection, word)
+
+    async def life() -> None:
+        await session.live(None)
+
+    title = f"tftool demo {visible(Path(word).name)}"
+    setting = Setting(title=title, ascii_only=ascii_only, light=light, at=session.first_look())
+    run_app(session.world, life(), None, setting)
 
 
 def _arguments(settings: "list[str] | tuple[str, ...]", source_frame: str | None) -> dict[str, str]:

@@ -60,7 +60,9 @@ def monitor(
         raise UsageError("--tf2 and --json are two ways of writing: choose one.")
     frames, place = _sorted_out(words or [])
     try:
-        session = open_session(connection, place, cache_time=cache_time, needs_messages=True)
+        session = open_session(
+            connection, place, cache_time=cache_time, needs_messages=True, plays=True
+        )
     except InputError as error:
         if frames is None:
             sentence = f"{error} For the chain between two frames, name both."
@@ -72,6 +74,10 @@ def monitor(
         style = Style.TF2
     else:
         style = Style.TABLE if sys.stdout.isatty() else Style.LINES
+    if session.is_played and session.duration is not None:
+        # What was recorded is over at once: one report says all of it.
+        run_for = min(run_for or session.duration, session.duration) or 1
+        every = every or run_for
     if every is None:
         every = seconds(1) if style is Style.TABLE else seconds(10)
     watching = Monitor(session.world, frames, style, period=every)

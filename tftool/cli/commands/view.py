@@ -10,7 +10,7 @@ from tftool.cli.app import ExitStatus
 from tftool.cli.connection import ROBOT, Connection
 from tftool.cli.options import CacheTime, From, RunFor, within
 from tftool.errors import UsageError
-from tftool.stamps import Duration
+from tftool.stamps import Duration, as_seconds
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -167,9 +167,13 @@ async def _show(
     async with page:
         if page.asked_port not in (0, page.port):
             notice(f"Port {page.asked_port} is not free: taking {page.port}.")
-        sys.stdout.write(f"The frames of {session.name} are at {page.url}\n")
+        # What is all there is shown from its beginning on, and stands still.
+        begin = session.first_look()
+        at = 0 if begin is None else as_seconds(begin - session.world.clock.epoch)
+        url = page.url if begin is None else f"{page.url}#at={at:.9f}"
+        sys.stdout.write(f"The frames of {session.name} are at {url}\n")
         sys.stdout.flush()
-        if open_browser and not await _opened(page.url):
+        if open_browser and not await _opened(url):
             notice("No browser could be started: open that address yourself.")
         tasks = {
             asyncio.ensure_future(page.run()),

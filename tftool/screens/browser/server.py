@@ -25,7 +25,7 @@ from websockets.http11 import Request, Response
 from tftool.errors import InputError, TftoolError
 from tftool.frames.buffer import Buffer
 from tftool.frames.sample import Snapshot
-from tftool.runtime.clock import Clock, Phase
+from tftool.runtime.clock import Clock, Phase, pace_of
 from tftool.screens.browser import assets, protocol
 from tftool.screens.browser.client import PageClient, Poses, SharedMoment, TreeMessage
 from tftool.screens.browser.meshes import MeshRefused
@@ -185,12 +185,12 @@ class PageServer:
 
     async def run(self) -> None:
         """Take snapshots and offer them to the pages, for ever."""
-        clock = self.source.clock
+        clock = pace_of(self.source.clock)
         due = clock.now()
         while True:
             await clock.sleep_until(due, Phase.WATCH)
             began = clock.now()
-            self._tick(began)
+            self._tick(self.source.clock.now())
             ended = clock.now()
             # Thousands of frames may take longer than a period: never more than half the time.
             due = max(due + self._period, ended + (ended - began))
@@ -314,10 +314,10 @@ class PageServer:
 
     async def _tell_past(self, socket: ServerConnection) -> None:
         """Send poses from all over the buffer, in no hurry: they are for trails."""
-        clock = self.source.clock
-        for moment in protocol.moments(self.source.buffer.snapshot(clock.now()).frames):
+        clock, now = pace_of(self.source.clock), self.source.clock.now()
+        for moment in protocol.moments(self.source.buffer.snapshot(now).frames):
             began = clock.now()
-            await socket.send(self._picture(began, moment).poses(0))
+            await socket.send(self._picture(now, moment).poses(0))
             await clock.sleep(self._period // 8 + 2 * (clock.now() - began), Phase.WATCH)
 
 
