@@ -341,12 +341,12 @@ class MovingRobot(RobotStatePublisher):
     def _swung(self, now: Stamp) -> dict[str, float]:
         if self.motion == "still":
             return {}
-        free = [one for one in self.robot.joints.values() if one.moves and one.mimic is None]
-        return {
-            joint.name: self._place(joint, number, now)
-            for number, joint in enumerate(free)
-            if joint.name not in self.joints
-        }
+        free = [
+            joint
+            for joint in self.robot.joints.values()
+            if joint.moves and joint.mimic is None and joint.name not in self.joints
+        ]
+        return {joint.name: self._place(joint, number, now) for number, joint in enumerate(free)}
 
     def _place(self, joint: RobotJoint, number: int, now: Stamp) -> float:
         lower, upper = joint.limits or (-1.0, 1.0)

@@ -24,7 +24,7 @@ from tftool.nodes.teleop import Teleop
 from tftool.nodes.turtlesim import Turtlesim
 from tftool.runtime.node import Node
 from tftool.runtime.world import World
-from tftool.scenario import document, values
+from tftool.scenario import document, robots, values
 from tftool.scenario.reading import Key, Reader, Reading
 
 
@@ -261,6 +261,7 @@ KINDS: Mapping[str, NodeKind] = MappingProxyType(
                 "period": values.period,
             },
         ),
+        "robot": NodeKind(robots.moving_robot, robots.FIELDS),
         "message_broadcaster": NodeKind(
             MessageBroadcaster,
             {

@@ -220,7 +220,7 @@ class RobotDescription:
 
 
 def load_description(
-    path: str | Path, arguments: Mapping[str, str] | None = None
+    path: str | Path, arguments: Mapping[str, str] | None = None, *, plain: bool = False
 ) -> RobotDescription:
     """Read a URDF file; a file that contains xacro is expanded first.
 
@@ -228,6 +228,7 @@ def load_description(
         path: The file.
         arguments: Values of xacro arguments, as `name:=value` gives them. A xacro file can
             evaluate Python expressions: do not expand files from strangers.
+        plain: Whether to refuse a file that contains xacro.
 
     Raises:
         InputError: If it cannot be read.
@@ -237,6 +238,11 @@ def load_description(
     """
     text = _text_of(Path(path))
     if is_xacro(text):
+        if plain:
+            raise InputError(
+                f"'{path}' contains xacro, which a scenario does not run: expand it first "
+                "(xacro FILE -o robot.urdf)"
+            )
         return parse_description(_expanded(Path(path), arguments or {}), f"{path} (expanded)")
     if arguments:
         given = ", ".join(f"{name}:={value}" for name, value in arguments.items())
