@@ -51,6 +51,7 @@ PROMISED = [
     "live",
     "load_urdf",
     "open_recording",
+    "plot",
     "quaternion_from_rpy",
     "rpy_from_quaternion",
     "run",

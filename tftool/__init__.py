@@ -40,6 +40,7 @@ if TYPE_CHECKING:
     from tftool.sources.robot import Robot, load_urdf
     from tftool.sources.writing.recording import RecordingWriter, write_recording
     from tftool.stamps import LATEST, as_seconds, seconds
+    from tftool.views.figure import plot
 
 __version__ = "0.1.0"
 
@@ -88,6 +89,7 @@ __all__ = [
     "live",
     "load_urdf",
     "open_recording",
+    "plot",
     "quaternion_from_rpy",
     "rpy_from_quaternion",
     "run",
@@ -132,6 +134,7 @@ _HOMES = {
     "tftool.sources.joint_states": ("JointStates",),
     "tftool.sources.robot": ("Robot", "load_urdf"),
     "tftool.sources.writing.recording": ("RecordingWriter", "write_recording"),
+    "tftool.views.figure": ("plot",),
     "tftool.stamps": ("LATEST", "as_seconds", "seconds"),
 }
 _HOME_OF = {name: home for home, names in _HOMES.items() for name in names}

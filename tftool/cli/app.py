@@ -35,6 +35,7 @@ COMMANDS = {
     "session": "Show who shares the session that runs here.",
     "info": "Show what a recording or robot description holds.",
     "export": "Write a pair over time, or links, to files of other tools.",
+    "plot": "Plot where SOURCE is in TARGET over time.",
     "diff": "Say what differs between two sets of frames, link by link.",
     "convert": "Write one rotation, or pose, in every notation.",
     "play": "Play a recording as a live session (ros2 bag play).",

@@ -13,7 +13,7 @@ from tftool.cli.connection import SESSION_OPTIONS
 GROUPS = {
     "Learn": ("demo", "teleop", "follow", "static"),
     "Ask": ("echo", "tree", "monitor", "explain", "doctor", "convert", "ros2"),
-    "Look": ("view", "robot"),
+    "Look": ("view", "plot", "robot"),
     "Work with files": ("info", "play", "export", "diff", "edit"),
     "Run your own nodes": ("new", "run", "launch", "session"),
     "Check": ("check",),

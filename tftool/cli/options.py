@@ -251,6 +251,13 @@ Every = Annotated[
     ),
 ]
 
+Pairs = Annotated[
+    list[str] | None,
+    typer.Option(
+        "--pair", metavar="TARGET:SOURCE", help="A pair of frames; again and again for several."
+    ),
+]
+
 StampsOf = Annotated[
     str | None,
     typer.Option(

@@ -121,6 +121,16 @@ def sample(buffer: Buffer, target: str, source: str, moments: Moments | None = N
     return Trajectory(path, _refusals(buffer, path), words)
 
 
+def trajectory_of(path: TransformArray) -> Trajectory:
+    """Poses that were looked up already, as a trajectory; why rows are missing is not known."""
+    turned = replace(path, rotations=continuous(path.rotations, path.valid))
+    runs = tuple(
+        RefusedRun(int(path.stamps[first]), int(path.stamps[end - 1]), end - first, "")
+        for first, end in _runs(~path.valid)
+    )
+    return Trajectory(turned, runs, "at given stamps")
+
+
 def links_between(buffer: Buffer, target: str, source: str) -> list[str]:
     """The children of all links on the way from one frame to another, as they hang at last.
 
@@ -227,17 +237,18 @@ def _ancestors(buffer: Buffer, frame: str) -> list[str]:
 
 
 def _refusals(buffer: Buffer, path: TransformArray) -> tuple[RefusedRun, ...]:
-    missing = ~path.valid
-    if not missing.any():
-        return ()
-    edges = np.diff(np.concatenate(([0], missing.astype(np.int8), [0])))
     runs: list[RefusedRun] = []
-    for first, end in zip(
-        np.flatnonzero(edges == 1).tolist(), np.flatnonzero(edges == -1).tolist(), strict=True
-    ):
+    for first, end in _runs(~path.valid):
         stamp = int(path.stamps[first])
         reason = ""
         if len(runs) < MOST_REASONS:
             reason = buffer.why_not(path.frame_id, path.child_frame_id, stamp)
         runs.append(RefusedRun(stamp, int(path.stamps[end - 1]), end - first, reason))
     return tuple(runs)
+
+
+def _runs(flags: npt.NDArray[np.bool_]) -> list[tuple[int, int]]:
+    """Where flags are set without a break: first place, and the one behind the last."""
+    edges = np.diff(np.concatenate(([0], flags.astype(np.int8), [0])))
+    firsts, ends = np.flatnonzero(edges == 1), np.flatnonzero(edges == -1)
+    return list(zip(firsts.tolist(), ends.tolist(), strict=True))

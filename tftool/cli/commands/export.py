@@ -12,6 +12,7 @@ from tftool.cli.options import (
     AtOption,
     Every,
     FromOption,
+    Pairs,
     Rate,
     RunFor,
     StampsOf,
@@ -22,9 +23,7 @@ from tftool.sinks.formats import Format, format_of
 from tftool.stamps import LATEST, seconds
 
 if TYPE_CHECKING:
-    from tftool.cli.hosting import StoredFrames
     from tftool.sinks.export import Exported
-    from tftool.trajectories.sampling import Moments
 
 
 def export(
@@ -58,14 +57,7 @@ def export(
             help="What to write; if not said, what -o ends in. EuRoC is written where it is said.",
         ),
     ] = None,
-    pairs: Annotated[
-        list[str] | None,
-        typer.Option(
-            "--pair",
-            metavar="TARGET:SOURCE",
-            help="A pair; again and again for several in one .csv, .npz or .parquet.",
-        ),
-    ] = None,
+    pairs: Pairs = None,
     first: FromOption = None,
     last: ToOption = None,
     every: Every = None,
@@ -129,6 +121,7 @@ def export(
     tftool export robot -o frames.mcap --foxglove
     """
     from tftool.cli.interrupting import interruptible
+    from tftool.cli.pairs import moments_of, pairs_and_place
     from tftool.cli.recorded import Bar
     from tftool.cli.stored import span, stored_frames
     from tftool.sinks.export import (
@@ -142,7 +135,7 @@ def export(
 
     if output is None:
         raise UsageError("Say where to write it: -o FILE.")
-    asked, place = _pairs(words or [], pairs or [])
+    asked, place = pairs_and_place(words or [], pairs or [])
     chosen = form or format_of(output)
     _refuse_misfits(chosen, asked, at is not None and not with_moving, root, stamps_of, every, rate)
     if not force and (output.exists() or output.is_symlink()):
@@ -156,7 +149,7 @@ def export(
     try:
         with interruptible():
             if chosen.is_trajectory:
-                moments = _moments(stored, span(stored, first, last), every, rate, stamps_of)
+                moments = moments_of(stored, span(stored, first, last), every, rate, stamps_of)
                 found = [sample(stored.buffer, *pair, moments) for pair in asked]
                 done = write_trajectories(found, output, chosen, style, force=force, progress=bar)
             else:
@@ -165,32 +158,6 @@ def export(
         bar.stop()
     _tell(done)
     return ExitStatus.DONE
-
-
-def _pairs(words: list[str], given: list[str]) -> tuple[list[tuple[str, str]], str | None]:
-    """The pairs that were named, and FROM."""
-    if len(words) > (1 if given else 3):
-        raise UsageError(
-            "With --pair, one word at most is FROM."
-            if given
-            else f"TARGET SOURCE [FROM] are three words at most, not {len(words)}."
-        )
-    if not given:
-        return (
-            ([], words[0] if words else None)
-            if len(words) < 2
-            else (
-                [(words[0], words[1])],
-                words[2] if len(words) > 2 else None,
-            )
-        )
-    pairs = []
-    for text in given:
-        target, colon, source = text.partition(":")
-        if not (colon and target and source):
-            raise UsageError(f"--pair {text}: write TARGET:SOURCE, as in map:base_link.")
-        pairs.append((target, source))
-    return pairs, words[0] if words else None
 
 
 def _refuse_misfits(
@@ -221,25 +188,6 @@ def _refuse_misfits(
         raise UsageError("--every, --rate and --at-stamps-of each choose the moments: give one.")
     if chosen and not form.is_trajectory:
         raise UsageError(f"{form} holds links, which are written once: leave out the moments.")
-
-
-def _moments(
-    stored: "StoredFrames",
-    ends: tuple[int | None, int | None],
-    every: int | None,
-    rate: float | None,
-    topic: str | None,
-) -> "Moments":
-    from tftool.sources.recording import Recording
-    from tftool.trajectories.sampling import Moments
-
-    if topic is not None:
-        if not isinstance(stored, Recording):
-            raise UsageError("--at-stamps-of goes with a recording.")
-        stamps = stored.headers(topic).stamps
-        return Moments(*ends, stamps=stamps, words=f"at the stamps of '{topic}'")
-    period = every if rate is None else seconds(1.0 / rate)
-    return Moments(*ends, period)
 
 
 def _tell(done: "Exported") -> None:

@@ -1,0 +1,284 @@
+"""`tftool plot`: a pair of frames over time, in the terminal or as a picture."""
+
+import sys
+from collections.abc import Sequence
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated
+
+import typer
+
+from tftool.cli.app import ExitStatus
+from tftool.cli.connection import Connection
+from tftool.cli.options import (
+    OUTPUT,
+    WHEN,
+    Ascii,
+    Every,
+    FromOption,
+    Light,
+    Pairs,
+    Rate,
+    RunFor,
+    StampsOf,
+    ToOption,
+    duration,
+    positive,
+)
+from tftool.errors import InputError, TransformException, UsageError
+from tftool.stamps import Duration, Stamp, as_seconds, seconds
+
+if TYPE_CHECKING:
+    from rich.text import Text
+
+    from tftool.cli.hosting import Session
+    from tftool.trajectories.sampling import Trajectory
+    from tftool.views.line_plot import PlotLook
+
+ON_ITS_WAY = seconds(1)
+"""What is no older than that may still arrive; a live plot ends where it has not."""
+
+
+def plot(
+    connection: Connection,
+    words: Annotated[
+        list[str] | None,
+        typer.Argument(
+            metavar="[TARGET SOURCE] [FROM]",
+            help="A pair of frames and whose they are; with --pair one word at most, FROM.",
+            show_default=False,
+        ),
+    ] = None,
+    pairs: Pairs = None,
+    output: Annotated[
+        Path | None,
+        typer.Option(
+            "-o",
+            "--output",
+            metavar="FILE",
+            rich_help_panel=OUTPUT,
+            help="Write a picture: .svg, .pdf or .png.",
+        ),
+    ] = None,
+    only: Annotated[
+        list[str] | None,
+        typer.Option(
+            metavar="WHAT,...",
+            help="Draw these alone: position (x, y, z), rotation (roll, pitch, yaw), distance, "
+            "speed, turn-rate, or single ones.",
+        ),
+    ] = None,
+    from_above: Annotated[
+        bool, typer.Option("--xy", help="Draw the path from above, in place of time.")
+    ] = False,
+    first: FromOption = None,
+    last: ToOption = None,
+    every: Every = None,
+    rate: Rate = None,
+    stamps_of: StampsOf = None,
+    window: Annotated[
+        Duration,
+        typer.Option(
+            metavar="SECONDS",
+            parser=duration(positive),
+            rich_help_panel=WHEN,
+            help="How far back a live plot reaches.",
+        ),
+    ] = seconds(20),
+    lasting: RunFor = None,
+    ascii_only: Ascii = False,
+    light: Light = False,
+    dark: Annotated[
+        bool, typer.Option("--dark", rich_help_panel=OUTPUT, help="With -o: on a dark ground.")
+    ] = False,
+    force: Annotated[
+        bool, typer.Option("--force", rich_help_panel=OUTPUT, help="Replace what is there.")
+    ] = False,
+) -> ExitStatus:
+    """Plot where SOURCE is in TARGET over time, in the terminal or as a picture.
+
+    Position, roll pitch yaw, distance, speed and turn rate; where a lookup refuses, the span
+    is shaded and the reason is told. A session that runs is drawn live; a recording or a
+    scenario as a whole. Times are seconds since the start of FROM.
+
+    tftool plot turtle2 turtle1
+    tftool plot map base_link run.mcap --only x,y,yaw --from 5 --to 20
+    tftool plot map base_link run.mcap --xy -o path.svg
+    tftool plot run.mcap --pair map:base_link --pair map:laser -o both.pdf --dark
+    """
+    from tftool.cli.pairs import moments_of, pairs_and_place
+    from tftool.trajectories.series import chosen
+
+    asked, place = pairs_and_place(words or [], pairs or [])
+    if not asked:
+        raise UsageError("Name what to plot: tftool plot TARGET SOURCE [FROM].")
+    quantities = chosen([one for text in only or () for one in text.split(",") if one.strip()])
+    if from_above and only:
+        raise UsageError("--xy draws the path, and --only what goes over time: leave one out.")
+    if output is None:
+        if dark or force:
+            raise UsageError("--dark and --force go with -o FILE.")
+        if place is None and sys.stdout.isatty():
+            if any(one is not None for one in (first, last, every, rate, stamps_of)):
+                raise UsageError(
+                    "A live plot shows the last --window of time: leave out the other moments, or "
+                    "name a FROM."
+                )
+            _live(connection, asked, quantities, from_above, window, lasting, ascii_only, light)
+            return ExitStatus.DONE
+    form = None if output is None else _form_of(output, force)
+
+    from tftool.cli.stored import span, stored_frames
+    from tftool.trajectories.sampling import sample
+
+    stored = stored_frames(connection, place, lasting)
+    moments = moments_of(stored, span(stored, first, last), every, rate, stamps_of)
+    found = [sample(stored.buffer, *pair, moments) for pair in asked]
+    start = stored.start or min(int(one.path.stamps[0]) for one in found)
+    if output is not None and form is not None:
+        _write(found, output, form, start, quantities, from_above, dark, force)
+    else:
+        _print(found, start, quantities, from_above, ascii_only, light)
+    return ExitStatus.DONE
+
+
+def _form_of(output: Path, force: bool) -> str:
+    from tftool.views.figure import FORMATS
+
+    form = output.suffix.lower().removeprefix(".")
+    if form not in FORMATS:
+        raise UsageError(f"'{output}' does not say what to draw: end it in .svg, .pdf or .png.")
+    if not force and (output.exists() or output.is_symlink()):
+        raise UsageError(f"'{output}' exists: --force replaces it.")
+    return form
+
+
+def _write(
+    found: "list[Trajectory]",
+    output: Path,
+    form: str,
+    start: Stamp,
+    quantities: Sequence[str],
+    from_above: bool,
+    dark: bool,
+    force: bool,
+) -> None:
+    from tftool.cli.interrupting import interruptible
+    from tftool.cli.notices import notice
+    from tftool.sinks.trajectory_files import whole_file
+    from tftool.views.escaping import visible
+    from tftool.views.figure import write
+
+    with interruptible(), whole_file(output, force=force) as file:
+        write(found, file, form, start=start, quantities=quantities, xy=from_above, dark=dark)
+    notice(visible(f"Drew {sum(len(one.path) for one in found)} moments to {output}."))
+
+
+def _print(
+    found: "list[Trajectory]",
+    start: Stamp,
+    quantities: Sequence[str],
+    from_above: bool,
+    ascii_only: bool,
+    light: bool,
+) -> None:
+    from rich.console import Console
+
+    from tftool.views.line_plot import PlotLook
+
+    console = Console()
+    width = console.width if console.is_terminal else 80
+    look = PlotLook(width, None, ascii_only or console.options.ascii_only, light)
+    picture = _picture(found, start, quantities, from_above, look)
+    if not console.is_terminal:
+        sys.stdout.write(picture.plain)
+        return
+    with console.capture() as captured:
+        console.print(picture, end="")
+    sys.stdout.write(captured.get())
+
+
+def _picture(
+    found: "list[Trajectory]",
+    start: Stamp,
+    quantities: Sequence[str],
+    from_above: bool,
+    look: "PlotLook",
+    span: tuple[float, float] | None = None,
+) -> "Text":
+    from tftool.views import line_plot as view
+
+    if from_above:
+        return view.from_above(found, look)
+    return view.over_time(found, start, quantities, look, span=span)
+
+
+def _live(
+    connection: Connection,
+    pairs: list[tuple[str, str]],
+    quantities: Sequence[str],
+    from_above: bool,
+    window: Duration,
+    lasting: Duration | None,
+    ascii_only: bool,
+    light: bool,
+) -> None:
+    """Draw a session as it goes on, until it is stopped."""
+    from rich.console import Console
+    from rich.live import Live
+    from rich.text import Text
+
+    from tftool.cli.hosting import open_session
+    from tftool.runtime.clock import Phase
+    from tftool.runtime.stopping import leave_screen
+    from tftool.trajectories.sampling import Moments, sample
+    from tftool.views.line_plot import PlotLook
+
+    console = Console()
+    session: Session = open_session(connection, None, cache_time=window + seconds(1))
+    world = session.world
+    world.clock.when_killed.add(leave_screen, "screen")
+    began = world.clock.now()
+    start = min(began, world.clock.epoch) or began
+
+    def arrived(target: str, source: str, now: Stamp) -> Stamp:
+        """Up to where there can be a pose: what is on its way is not missing yet."""
+        newest = world.buffer.newest_common(target, source)
+        return newest if now - ON_ITS_WAY < newest < now else now
+
+    def drawn() -> Text:
+        now = world.clock.now()
+        # Two moments for each column of dots.
+        period = max(seconds(0.001), window // max(20, 2 * console.width))
+        begin = -(-max(start, now - window) // period) * period
+        try:
+            found = [
+                sample(world.buffer, *pair, Moments(begin, arrived(*pair, now), period))
+                for pair in pairs
+            ]
+        except (TransformException, UsageError, InputError) as refusal:
+            return Text(f"Waiting: {refusal}", style="yellow", overflow="fold")
+        return _picture(
+            found,
+            start,
+            quantities,
+            from_above,
+            PlotLook(
+                console.width,
+                console.height,
+                ascii_only or console.options.ascii_only,
+                light,
+            ),
+            (as_seconds(begin - start), as_seconds(now - start)),
+        )
+
+    async def draw() -> None:
+        with Live(console=console, auto_refresh=False, screen=True) as live:
+            due = world.clock.now()
+            end = None if lasting is None else due + lasting
+            world.clock.limit(end)
+            while end is None or due <= end:
+                live.update(drawn(), refresh=True)
+                due = max(due + seconds(0.2), world.clock.now())
+                await world.clock.sleep_until(due, Phase.WATCH)
+
+    session.run(draw())

@@ -1,0 +1,78 @@
+"""The pairs of frames a command works on, and at which moments: its words become values."""
+
+from typing import TYPE_CHECKING
+
+from tftool.errors import UsageError
+from tftool.stamps import Duration, Stamp, seconds
+
+if TYPE_CHECKING:
+    from tftool.cli.hosting import StoredFrames
+    from tftool.trajectories.sampling import Moments
+
+
+def pairs_and_place(words: list[str], given: list[str]) -> tuple[list[tuple[str, str]], str | None]:
+    """The pairs that were named, and FROM.
+
+    Args:
+        words: TARGET SOURCE [FROM], or [FROM] alone.
+        given: What --pair said, as TARGET:SOURCE.
+
+    Raises:
+        UsageError: If they do not fit together.
+    """
+    if len(words) > (1 if given else 3):
+        raise UsageError(
+            "With --pair, one word at most is FROM."
+            if given
+            else f"TARGET SOURCE [FROM] are three words at most, not {len(words)}."
+        )
+    if not given:
+        return (
+            ([], words[0] if words else None)
+            if len(words) < 2
+            else (
+                [(words[0], words[1])],
+                words[2] if len(words) > 2 else None,
+            )
+        )
+    pairs = []
+    for text in given:
+        target, colon, source = text.partition(":")
+        if not (colon and target and source):
+            raise UsageError(f"--pair {text}: write TARGET:SOURCE, as in map:base_link.")
+        pairs.append((target, source))
+    return pairs, words[0] if words else None
+
+
+def moments_of(
+    stored: "StoredFrames",
+    ends: tuple[Stamp | None, Stamp | None],
+    every: Duration | None,
+    rate: float | None,
+    topic: str | None,
+) -> "Moments":
+    """At which moments a pair is asked for.
+
+    Args:
+        stored: Whose frames.
+        ends: First and last stamp.
+        every: The period, nanoseconds.
+        rate: The same, hertz.
+        topic: Ask at the stamps of its messages.
+
+    Raises:
+        InputError: If there is no such topic.
+        UsageError: If more than one of them is given, or a topic where nothing is recorded.
+    """
+    from tftool.sources.recording import Recording
+    from tftool.trajectories.sampling import Moments
+
+    if sum(one is not None for one in (every, rate, topic)) > 1:
+        raise UsageError("--every, --rate and --at-stamps-of each choose the moments: give one.")
+    if topic is not None:
+        if not isinstance(stored, Recording):
+            raise UsageError("--at-stamps-of goes with a recording.")
+        stamps = stored.headers(topic).stamps
+        return Moments(*ends, stamps=stamps, words=f"at the stamps of '{topic}'")
+    period = every if rate is None else seconds(1.0 / rate)
+    return Moments(*ends, period)
