@@ -31,6 +31,9 @@ class MemoryMiddleware:
     def start(self, loop, watcher=None):
         self.loop, self.watcher = loop, watcher
 
+    def tell_frames(self, names):
+        pass
+
     def settle(self):
         pass
 

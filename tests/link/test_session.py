@@ -18,6 +18,7 @@ from tftool.link.graph import Role, hosts
 from tftool.link.options import Options, Reach
 from tftool.link.session import Link
 from tftool.link.tf import TF, TRANSFORMS
+from tftool.link.zenoh import rendezvous
 from tftool.link.zenoh.keys import Token, quality
 from tftool.messages import (
     Clear,
@@ -861,3 +862,16 @@ def test_over_tls_only_who_has_a_certificate_is_let_in(session_dir, monkeypatch,
                 Link(Options("echo", reach=Reach(connect=plain)))
 
     play(reach())
+
+
+def test_the_frames_of_a_session_are_listed_for_command_lines_while_a_process_lives():
+    async def listed():
+        async with Two() as two:
+            static = TransformStamped(0, "world", "shelf", Transform((0.0, 0.0, 1.0)))
+            two.here.buffer.set_transform_static(static, "me")
+            await until(lambda: rendezvous.frames_known(0) == ["shelf", "world"])
+            assert rendezvous.frames_known(1) == []
+
+        assert rendezvous.frames_known(0) == []
+
+    play(listed())

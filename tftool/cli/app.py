@@ -122,6 +122,15 @@ def build(
         version: Annotated[
             bool, typer.Option("--version", "-V", help="Say which version this is, and stop.")
         ] = False,
+        install: Annotated[
+            bool,
+            typer.Option(
+                "--install-completion", help="Let Tab complete in the shell (bash, zsh, fish)."
+            ),
+        ] = False,
+        show: Annotated[
+            bool, typer.Option("--show-completion", help="Print the shell's script for that.")
+        ] = False,
     ) -> None:
         """TF2 without ROS: learn coordinate frames with two turtles, and ask the same
         tool about a real robot.
@@ -137,6 +146,16 @@ def build(
             from tftool.frames.native import BUILD
 
             sys.stdout.write(f"tftool {__version__} ({BUILD})\n")
+            raise typer.Exit
+        if install or show:
+            from tftool.cli import completion
+
+            shell = completion.shell_here()
+            if show:
+                sys.stdout.write(completion.SCRIPTS[shell])
+            else:
+                files = " and ".join(str(path) for path in completion.install(shell))
+                sys.stdout.write(f"Written: {files}. It works in every {shell} that starts now.\n")
             raise typer.Exit
         if context.invoked_subcommand is None:
             sys.stdout.write(context.get_help() + "\n")
@@ -207,6 +226,8 @@ def main(argv: "Sequence[str] | None" = None, providers: "Providers | None" = No
             _leave_on_signals()
             argv = sys.argv[1:]
         _prepare_output()
+        if "_TFTOOL_COMPLETE" in os.environ:
+            return _complete(list(argv))
         _require_descriptors()
         status = _run(list(argv), providers)
         sys.stdout.flush()
@@ -231,6 +252,15 @@ def main(argv: "Sequence[str] | None" = None, providers: "Providers | None" = No
         _complain("tftool", f"{what}: {error.strerror or error}.")
         status = ExitStatus.UNREADABLE
     return status
+
+
+def _complete(argv: list[str]) -> int:
+    """Print what the shell may offer behind these words."""
+    from tftool.cli import completion
+
+    completion.complete(argv, os.environ[completion.VARIABLE])
+    sys.stdout.flush()
+    return ExitStatus.DONE
 
 
 def _prepare_output() -> None:

@@ -473,7 +473,7 @@ def _read(
     return Connection(
         command,
         Mode.JOIN if join else Mode.HOST if host else Mode.AUTO,
-        _domain() if domain is None else domain,
+        domain_here() if domain is None else domain,
         tuple(listen or ()),
         tuple(connect or ()),
         tls,
@@ -529,7 +529,12 @@ def _check_endpoint(endpoint: str, *, has_files: bool) -> None:
         raise UsageError(f"'{endpoint}' needs --tls-cert, --tls-key and --tls-ca.")
 
 
-def _domain() -> int:
+def domain_here() -> int:
+    """The domain that ROS_DOMAIN_ID names, else 0.
+
+    Raises:
+        UsageError: If it is no domain.
+    """
     text = os.environ.get("ROS_DOMAIN_ID", "")
     if not text:
         return 0

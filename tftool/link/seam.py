@@ -7,7 +7,7 @@ middleware calls back, it calls on the event loop.
 """
 
 import asyncio
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from importlib import import_module
 from typing import Any, Final, NamedTuple, Protocol
 
@@ -115,6 +115,9 @@ class Middleware(Protocol):
 
     def start(self, loop: asyncio.AbstractEventLoop, watcher: Watcher | None = None) -> None:
         """Call back on `loop` from now on, and report changes of the graph."""
+
+    def tell_frames(self, names: Sequence[str]) -> None:
+        """List the frames this process knows where other commands of this machine find them."""
 
     def settle(self) -> None:
         """Let other processes of this machine join from now on."""

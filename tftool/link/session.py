@@ -61,6 +61,7 @@ class Link(LinkContext):
         self._since = 0
         self.departures = 0
         self._forgotten = 0
+        self._told = 0
 
     def settle(self) -> None:
         """Let other processes of this machine join from now on."""
@@ -84,6 +85,17 @@ class Link(LinkContext):
         self._stops.append(world.watch(self._world_changed, NAME))
         self._reconcile()
         self.settle()
+        self._tell_frames()
+
+    def _tell_frames(self) -> None:
+        """Keep the list of frames that command lines are completed from, a second behind."""
+        if self._closed or self._loop is None:
+            return
+        frames = self.world.buffer.frames()
+        if len(frames) != self._told:
+            self._told = len(frames)
+            self.middleware.tell_frames(frames)
+        self._loop.call_later(1.0, self._tell_frames)
 
     def _process(self, role: Role) -> Process:
         """This process, as the others see it."""

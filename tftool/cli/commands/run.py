@@ -13,7 +13,17 @@ from tftool.views.escaping import visible
 SIMULATED = "Simulated time is a world's own, and shares no session"
 
 if TYPE_CHECKING:
+    from tftool.ros.host.workspace import Workspace
     from tftool.runtime.log import LogRecord
+
+
+def workspace_here() -> "Workspace":
+    """The packages below this folder and those of the workspace it belongs to."""
+    from pathlib import Path
+
+    from tftool.ros.host.workspace import Workspace
+
+    return Workspace(Path.cwd())
 
 
 def misplaced(words: Sequence[str], own: Collection[str]) -> list[str]:

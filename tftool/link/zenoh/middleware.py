@@ -2,7 +2,7 @@
 
 import asyncio
 import contextlib
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from typing import TYPE_CHECKING, Final
 
 from tftool.errors import MalformedMessage
@@ -56,6 +56,10 @@ class ZenohMiddleware:
             # Every domain: a peer that talks in another one is worth a word.
             for pattern in (f"{keys.LIVELINESS}/*/**", f"{keys.OURS}/*/**"):
                 self._stops.append(self.wire.watch_tokens(pattern, self._on_token))
+
+    def tell_frames(self, names: Sequence[str]) -> None:
+        """List the frames this process knows where other commands of this machine find them."""
+        self._opening.tell_frames(names)
 
     def settle(self) -> None:
         """Let other processes of this machine join from now on."""

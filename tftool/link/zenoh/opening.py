@@ -2,7 +2,7 @@
 
 import contextlib
 import threading
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from typing import Final
 
 from tftool.errors import LinkError
@@ -83,6 +83,11 @@ class Opening:
         """Let other processes of this machine in from now on."""
         if self._place is not None:
             self._place.settle()
+
+    def tell_frames(self, names: Sequence[str]) -> None:
+        """List the frames this process knows where other commands of this machine find them."""
+        if self._place is not None:
+            self._place.tell_frames(names)
 
     def close(self) -> None:
         """Go out, and take away what this process put there."""

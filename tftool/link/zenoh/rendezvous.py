@@ -12,6 +12,7 @@ platform has no such sockets, ports of the loopback are guarded by a password in
 
 import contextlib
 import hashlib
+import json
 import os
 import secrets
 import socket
@@ -19,7 +20,7 @@ import stat
 import sys
 import tempfile
 import threading
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from pathlib import Path
 from types import TracebackType
 from typing import Any, Final
@@ -37,11 +38,16 @@ USER: Final = "tftool"
 PASSWORDS: Final = "members"
 """The file of a folder that holds the password."""
 
+FRAMES: Final = ".frames"
+"""Files of a folder that list the frames a member knows, for completing command lines."""
+
+_MOST_FRAMES = 5_000
 _LONGEST_SOCKET_PATH = 100  # 107 on Linux, 103 on macOS
 _LOCK_TRIES = 300
 _LOCK_PAUSE = 0.01
 _PROBE_TIMEOUT = 0.2
 _LONGEST_TEXT = 256
+_LONGEST_LIST = 2**24
 
 
 def folder(environment: Mapping[str, str] = os.environ) -> Path:
@@ -66,6 +72,28 @@ def has_members(domain: int, home: Path | None = None) -> bool:
     with contextlib.suppress(OSError):
         return next(_living(place, sweep=False), None) is not None
     return False
+
+
+def frames_known(domain: int, home: Path | None = None) -> list[str]:
+    """The frames that living members of the session on this machine know, sorted.
+
+    Read from the lists that members keep; opens no session.
+    """
+    place = _fitting((folder() if home is None else home) / str(domain))
+    found: set[str] = set()
+    with contextlib.suppress(OSError):
+        members = {_member(Path(endpoint)) for endpoint, _ in _living(place, sweep=False)}
+        for path in place.glob(f"*{FRAMES}"):
+            if _member(path) in members:
+                with contextlib.suppress(OSError, ValueError), path.open("rb") as file:
+                    listed = json.loads(file.read(_LONGEST_LIST))
+                    found.update(name for name in listed if isinstance(name, str))
+    return sorted(found)
+
+
+def _member(path: Path) -> str:
+    """Whose file it is, or whose socket."""
+    return path.name.partition(".")[0]
 
 
 class Rendezvous:
@@ -118,6 +146,14 @@ class Rendezvous:
             self._lock.close()
             self._lock = None
 
+    def tell_frames(self, names: Sequence[str]) -> None:
+        """List the frames this process knows, for `frames_known`; a list that fails is left out."""
+        path = self.folder / f"{self._name}{FRAMES}"
+        fresh = path.with_name(f"{self._name}.new")
+        with contextlib.suppress(OSError):
+            fresh.write_text(json.dumps(names[:_MOST_FRAMES]), encoding="utf-8")
+            fresh.replace(path)
+
     def leave(self) -> None:
         """Take away what this process put here."""
         self.settle()
@@ -168,6 +204,9 @@ def _living(folder: Path, *, sweep: bool = True) -> Iterator[tuple[str, int]]:
                 yield f"unixsock-stream/{path}", _pid_of(path)
             elif sweep:
                 _sweep(path, path.with_name(f"{path.name}.lock"))
+        elif path.suffix == FRAMES:
+            if sweep and not any(path.with_suffix(one).exists() for one in (".sock", ".port")):
+                _sweep(path)
         elif path.suffix == ".port":
             port = _port_in(path)
             if port and _answers(socket.AF_INET, ("127.0.0.1", port)):

@@ -1,0 +1,138 @@
+"""What the shell offers when Tab is pressed."""
+
+import subprocess
+import sys
+
+import pytest
+
+from tftool.cli import completion
+from tftool.cli.app import COMMANDS
+
+
+@pytest.fixture
+def offered(tftool, monkeypatch):
+    """What is offered behind words, the last of which is being typed."""
+
+    def ask(*words, shell="bash"):
+        monkeypatch.setenv(completion.VARIABLE, shell)
+        result = tftool(*words)
+        assert (result.status, result.err) == (0, "")
+        return result.out.splitlines()
+
+    return ask
+
+
+def test_commands_come_first_and_options_with_a_dash(offered):
+    assert offered("") == list(COMMANDS)
+    assert offered("ec") == ["echo"]
+    assert offered("--v") == ["--version"]
+    assert offered() == list(COMMANDS)
+
+
+def test_help_takes_a_command(offered):
+    assert offered("help", "mon") == ["monitor"]
+
+
+def test_options_of_a_command_are_offered_by_their_long_names(offered):
+    found = offered("echo", "a", "b", "--")
+
+    assert {"--once", "--at", "--precision", "--domain"} <= set(found)
+    assert all(word.startswith("--") for word in found)
+
+
+def test_a_value_that_is_one_of_a_few_is_offered(offered):
+    assert offered("doctor", "--fail-on", "") == ["error", "warning", "note", "never"]
+
+
+def test_scenarios_are_offered_where_one_may_stand_and_again_where_several_may(offered):
+    assert offered("demo", "tur") == ["turtles"]
+    assert offered("check", "turtles", "carr") == ["carrot"]
+    assert offered("echo", "map", "laser_link", "rob") == ["robot"]
+
+
+def test_frames_are_those_that_living_processes_listed(offered, tmp_path, monkeypatch):
+    monkeypatch.setattr("tftool.link.zenoh.rendezvous.frames_known", lambda domain: FRAMES[domain])
+
+    assert offered("echo", "") == ["base_link", "map"]
+    assert offered("echo", "map", "ba") == ["base_link"]
+    assert offered("explain", "--domain", "7", "la") == ["laser"]
+
+
+FRAMES = {0: ["base_link", "map", "two words", "$(reboot)", "a\x1b[2J"], 7: ["laser"]}
+
+
+def test_packages_and_their_nodes_and_launch_files_are_offered(
+    offered, tftool, tmp_path, monkeypatch
+):
+    monkeypatch.chdir(tmp_path)
+    tftool("new", "chase", "--example", "carrot")
+
+    assert offered("run", "ch") == ["chase"]
+    assert offered("run", "chase", "fixed") == ["fixed_carrot"]
+    assert offered("launch", "chase", "") == ["carrot.launch.py"]
+
+
+def test_what_is_no_command_offers_nothing_and_says_nothing(offered):
+    assert offered("nonsense", "") == []
+    assert offered("echo", "--domain", "x", "") == []
+
+
+def test_each_shell_gets_what_it_understands(offered):
+    assert offered("ech", shell="bash") == ["echo"]
+    assert offered("ech", shell="fish") == [f"echo\t{COMMANDS['echo']}"]
+    assert offered("ech", shell="zsh") == [f"echo:{COMMANDS['echo']}"]
+
+
+@pytest.mark.parametrize(("shell", "start"), [("bash", ".bashrc"), ("zsh", ".zshrc")])
+def test_it_is_installed_once_and_leaves_the_rest_of_a_start_file_alone(
+    tftool, tmp_path, monkeypatch, shell, start
+):
+    monkeypatch.setenv("HOME", str(tmp_path))
+    monkeypatch.setenv("SHELL", f"/bin/{shell}")
+    monkeypatch.delenv("XDG_DATA_HOME", raising=False)
+    (tmp_path / start).write_text("alias ll='ls -l'")
+
+    first, second = tftool("--install-completion"), tftool("--install-completion")
+
+    assert (first.status, second.status) == (0, 0)
+    lines = (tmp_path / start).read_text().splitlines()
+    assert lines[0] == "alias ll='ls -l'"
+    assert len(lines) == 2
+    script = tmp_path / ".local" / "share" / "tftool" / f"completion.{shell}"
+    assert str(script) in lines[1]
+    assert script.read_text() == tftool("--show-completion").out
+
+
+def test_fish_has_a_folder_for_it(tftool, tmp_path, monkeypatch):
+    monkeypatch.setenv("SHELL", "/usr/bin/fish")
+    monkeypatch.setenv("XDG_CONFIG_HOME", str(tmp_path))
+
+    assert tftool("--install-completion").status == 0
+    assert (tmp_path / "fish" / "completions" / "tftool.fish").is_file()
+
+
+@pytest.mark.parametrize("shell", ["", "/bin/tcsh"])
+def test_another_shell_is_told_which_there_are(tftool, monkeypatch, shell):
+    monkeypatch.setenv("SHELL", shell)
+
+    result = tftool("--install-completion")
+
+    assert result.status == 2
+    assert "bash, zsh, fish" in result.err
+
+
+@pytest.mark.skipif(sys.platform == "win32", reason="bash")
+def test_bash_takes_the_script_and_completes_with_it(tmp_path):
+    # What Tab does, without a terminal: the words as bash splits them, then the function.
+    (tmp_path / "tftool").write_text(f'#!/bin/sh\nexec "{sys.executable}" -m tftool "$@"\n')
+    (tmp_path / "tftool").chmod(0o755)
+    lines = f"""
+{completion.SCRIPTS["bash"]}
+PATH="{tmp_path}:$PATH"
+COMP_WORDS=(tftool check tur); COMP_CWORD=2
+_tftool
+echo "${{COMPREPLY[*]}}"
+"""
+    done = subprocess.run(["bash", "-c", lines], capture_output=True, text=True, check=True)
+
+    assert done.stdout == "turtles\n"
