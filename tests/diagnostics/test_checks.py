@@ -41,6 +41,8 @@ def test_two_parents_by_turns_are_a_fight_and_one_change_is_a_switch():
     made.moving("visual_odom", "base_link", hz=20)
     found_here = found(made, "two-parents")
     assert found_here.edges == (("odom", "base_link"), ("visual_odom", "base_link"))
+    assert ids(made) == ["two-parents"]
+    assert found(made, "split-tree").because_of == "two-parents"
 
     picked = robot()
     picked.moving("table", "cup", end=4.0)

@@ -82,6 +82,8 @@ def judge(
     ran = 0
     for name in CHECKS:
         if name not in chosen or name in left_out:
+            asked = "left out, as was asked" if name in left_out else "not selected"
+            skipped.append(Skipped(name, asked))
             continue
         check = CHECKS[name]
         missing = [need for need in check.needs if not _has(material, need)]
@@ -219,7 +221,9 @@ def _share(hit: Hit, cause: Hit, common: str) -> bool:
         case "child":
             children = {child for _, child in cause.edges}
             mine = {child for _, child in hit.edges} | set(hit.frames)
-            return bool(children & mine)
+            # A tree that one of two parents is left in is their doing, too.
+            parents = {parent for parent, _ in cause.edges}
+            return bool(children & mine) or bool(parents & set(hit.frames))
         case "frame":
             return bool(set(hit.frames) & set(cause.frames))
         case "path":
