@@ -89,3 +89,82 @@ def test_a_word_that_is_none_is_refused_with_what_was_meant(tftool, words, told)
     result = tftool("doctor", *words)
     assert result.status == 2
     assert told in result.err
+
+
+TWO_PARENTS = """
+duration: 8 s
+{doctor}
+nodes:
+  - static: {{parent: world, child: table}}
+  - static: {{parent: floor, child: table, name: other}}
+expect:
+  - {{at: 4 s, doctor: {expected}}}
+"""
+
+
+@pytest.mark.parametrize(
+    ("doctor", "expected", "status"),
+    [
+        ("", "clean", 1),
+        ("", "{ignore: [two-parents]}", 1),
+        ("", "{ignore: [two-parents, split-tree]}", 0),
+        ("", "{ignore: [publishers, shape]}", 0),
+        ("doctor: {ignore: [two-parents, split-tree]}", "clean", 0),
+        ("doctor: {ignore: [shape]}", "{ignore: [two-parents]}", 0),
+    ],
+)
+def test_a_scenario_expects_what_the_doctor_says(tftool, tmp_path, doctor, expected, status):
+    file = tmp_path / "two.yaml"
+    file.write_text(TWO_PARENTS.format(doctor=doctor, expected=expected), encoding="utf-8")
+    result = tftool("check", file, "--json")
+    assert result.status == status
+    assert ("two-parents: table gets its parent by turns" in result.out) is (
+        status == 1 and "two-parents" not in expected
+    )
+
+
+def test_what_is_clean_at_one_moment_need_not_be_at_another(tftool, tmp_path):
+    lost = Path(__file__).parents[2] / "scenarios" / "lost_leader.yaml"
+    text = lost.read_text(encoding="utf-8")
+    more = "  - {at: 4 s, doctor: clean}\n  - {at: 20 s, doctor: {ignore: [coverage]}}\n"
+    file = tmp_path / "lost.yaml"
+    file.write_text(text + more, encoding="utf-8")
+    assert tftool("check", file).status == 0
+    file.write_text(text + "  - {at: 20 s, doctor: clean}\n", encoding="utf-8")
+    result = tftool("check", file)
+    assert result.status == 1
+    assert "edge-stopped: turtle1 in world stops before the end" in result.out
+
+
+@pytest.mark.parametrize(
+    ("doctor", "told"),
+    [
+        ("{ignore: [two-parent]}", "did you mean 'two-parents'?"),
+        ("{limits: {gap.second: 2}}", "there is no threshold 'gap.second'; did you mean 'gap.sec"),
+        ("{limits: {gap.seconds: -2}}", "gap.seconds: -2"),
+        ("{ignored: []}", "doctor has no key 'ignored'; did you mean 'ignore'?"),
+    ],
+)
+def test_a_list_with_a_mistake_is_refused_with_its_place(tftool, tmp_path, doctor, told):
+    file = tmp_path / "two.yaml"
+    file.write_text(
+        TWO_PARENTS.format(doctor=f"doctor: {doctor}", expected="clean"), encoding="utf-8"
+    )
+    result = tftool("check", file)
+    assert (result.status, told in result.err) == (3, True)
+    assert f"{file}:3:" in result.err
+
+
+def test_a_scenario_s_own_list_is_kept_by_the_doctor(tftool, tmp_path):
+    file = tmp_path / "two.yaml"
+    rules = "doctor: {ignore: [two-parents], limits: {edge-stopped.seconds: 3}}"
+    file.write_text(TWO_PARENTS.format(doctor=rules, expected="clean"), encoding="utf-8")
+    result = tftool("doctor", file, "--json")
+    found = json.loads(result.out)
+    assert "two-parents" not in [one["id"] for one in found["findings"]]
+    assert {"id": "two-parents", "reason": "left out, as was asked"} in found["skipped"]
+
+
+def test_what_was_not_looked_at_is_not_called_fine(tftool):
+    result = tftool("doctor", "turtles", "--select", "shape")
+    assert "publishers: skipped, not selected · shape fine · names: skipped" in result.out

@@ -192,3 +192,19 @@ def test_transforms_of_a_namespace_are_looked_at_where_that_is_said(tftool, tmp_
     assert ids_of(tftool("doctor", run, "--tf-topic", "/r1/tf", "--json")) == []
     result = tftool("doctor", run, "--tf-topic", "/r2/tf")
     assert (result.status, "there is /r1/tf" in result.err) == (3, True)
+
+
+def test_the_list_beside_a_recording_is_followed(tftool, tmp_path):
+    run = write_mcap(tmp_path / "run.mcap", drive(scans_in="laser_frame"))
+    rules = tmp_path / "run.doctor.yaml"
+    rules.write_text("ignore: [unknown-frame]\n", encoding="utf-8")
+    result = tftool("doctor", run)
+    assert (result.status, result.err) == (0, f"Following {rules}.\n")
+    output = tmp_path / "found.jsonl"
+    assert tftool("doctor", run, "-o", output).status == 0
+
+    rules.write_text("ignore: [unknown-fram]\n", encoding="utf-8")
+    result = tftool("doctor", run)
+    assert (result.status, "did you mean 'unknown-frame'?" in result.err) == (3, True)
+    assert tftool("doctor", run, "-o", output).status == 3
+    assert "run.doctor.yaml" in output.read_text(encoding="utf-8")

@@ -4,18 +4,25 @@ from dataclasses import replace
 from typing import TYPE_CHECKING
 
 from tftool.cli.connection import Connection
-from tftool.cli.hosting import LISTEN, NO_SESSION, Session, join_session, named, open_session
+from tftool.cli.hosting import (
+    LISTEN,
+    NO_SESSION,
+    Session,
+    join_session,
+    named,
+    open_session,
+    scenario_named,
+)
 from tftool.cli.notices import notice
-from tftool.diagnostics.hearing import Hearing
 from tftool.diagnostics.model import Material
 from tftool.diagnostics.scope import Scope
 from tftool.errors import UsageError
+from tftool.scenario.doctoring import NO_RULES, DoctorRules, heard_in, rules_beside
 from tftool.sources.find import Kind
 from tftool.stamps import Duration, as_seconds, seconds
 from tftool.views.escaping import visible
 
 if TYPE_CHECKING:
-    from tftool.runtime.world import TransformMessage, World
     from tftool.stamps import Stamp
 
 WHOLE = Scope()
@@ -86,12 +93,8 @@ def _described(material: Material, scope: Scope) -> Material:
 
 def _heard(session: Session, lasting: Duration, kind: str) -> Material:
     """Listen to a world for so long."""
-    hearing = Hearing()
     world = session.world
-    stops = [
-        world.tf.subscribe(lambda message: _hear(hearing, world, message, is_static=False)),
-        world.tf_static.subscribe(lambda message: _hear(hearing, world, message, is_static=True)),
-    ]
+    hearing, stops = heard_in(world)
     began: Stamp = world.clock.now()
     try:
         session.run(session.lasting(lasting))
@@ -101,8 +104,18 @@ def _heard(session: Session, lasting: Duration, kind: str) -> Material:
     return hearing.material(session.name, kind, began, world.clock.now())
 
 
-def _hear(
-    hearing: Hearing, world: "World", message: "TransformMessage", *, is_static: bool
-) -> None:
-    now = world.clock.now()
-    hearing.hear(now, message.transforms, message.authority, is_static=is_static)
+def rules_of(word: str | None) -> DoctorRules:
+    """What a scenario, or the list beside a recording, asks of the doctor.
+
+    Raises:
+        InputError: If it cannot be read.
+    """
+    if word is None:
+        return NO_RULES
+    found = named(word)
+    if found.kind is Kind.SCENARIO:
+        return scenario_named(word).doctor
+    rules, file = rules_beside(found.name)
+    if file is not None:
+        notice(f"Following {visible(str(file))}.")
+    return rules

@@ -143,11 +143,18 @@ class Examination:
 
     def _examined(self, source: str, path: str) -> list[Row]:
         from tftool.diagnostics.judge import judge
+        from tftool.scenario.doctoring import rules_beside
         from tftool.sources.recording import open_recording
 
+        rules, _ = rules_beside(path)
         with open_recording(path) as recording:
             material = self.scope.material(recording)
-        diagnosis = judge(material, self.settings, select=self.select, ignore=self.ignore)
+        diagnosis = judge(
+            material,
+            rules.settings(self.settings),
+            select=self.select,
+            ignore=(*self.ignore, *rules.ignore),
+        )
         rows: list[Row] = []
         for one in diagnosis.findings:
             first = one.fixes[0] if one.fixes else None

@@ -238,3 +238,26 @@ class CountForm(Form):
     def make(self, given: Mapping[str, Any], reading: Reading, place: TextPlace) -> AnswerCheck:
         """Make the check, or note what is wrong."""
         return RangeCheck(values.NUMBER, equal=float(given["count"]), tolerance=0.0)
+
+
+@dataclass(frozen=True, slots=True)
+class CleanCheck(AnswerCheck):
+    """No findings at all."""
+
+    def judge(self, answer: Iterable[str]) -> Judged:
+        """Compare an answer."""
+        found = list(answer)
+        return Judged(not found, "; ".join(found) or "none")
+
+    def __str__(self) -> str:
+        return "are none"
+
+
+class CleanForm(Form):
+    """Nothing beside: the question says what is left out."""
+
+    fields: Mapping[str, Key] = {}
+
+    def make(self, given: Mapping[str, Any], reading: Reading, place: TextPlace) -> CleanCheck:
+        """Make the check."""
+        return CleanCheck()

@@ -9,7 +9,8 @@ from tftool.runtime.clock import Phase
 from tftool.runtime.node import Node
 from tftool.runtime.world import World
 from tftool.scenario.checks import Judged
-from tftool.scenario.questions import Logged, ScenarioWorld
+from tftool.scenario.doctoring import NO_RULES, DoctorRules, heard_in
+from tftool.scenario.questions import Diagnosed, Logged, ScenarioWorld
 from tftool.scenario.schema import Expectation
 from tftool.scenario.verdict import Outcome
 
@@ -32,15 +33,20 @@ class Expectations(Node):
 
     phase: ClassVar[Phase] = Phase.WATCH
 
-    def __init__(self, world: World, expected: Sequence[Expectation]) -> None:
-        """Watch over `world`; log lines count from now on."""
+    def __init__(
+        self, world: World, expected: Sequence[Expectation], rules: DoctorRules = NO_RULES
+    ) -> None:
+        """Watch over `world`; log lines and transforms count from now on."""
         super().__init__(world, "expectations")
         self.expected = tuple(expected)
         self.outcomes: list[Outcome | None] = [None] * len(self.expected)
-        self._scene = ScenarioWorld(world, world.clock.now())
+        self._scene = ScenarioWorld(world, world.clock.now(), rules)
         for expectation in self.expected:
             if isinstance(expectation.question, Logged):
                 self._scene.lines[expectation.question] = 0
+        if any(isinstance(expectation.question, Diagnosed) for expectation in self.expected):
+            self._scene.hearing, stops = heard_in(world)
+            self._stops += stops
         self._stops.append(world.log.listen(self._scene.count, self.name))
 
     async def run(self) -> None:

@@ -11,10 +11,10 @@ from pathlib import Path, PurePath
 from types import MappingProxyType
 from typing import Any
 
-from tftool.errors import InputError, ScenarioError, TftoolError, UsageError
+from tftool.errors import ScenarioError, TftoolError, UsageError
 from tftool.runtime.clock import SimClock
 from tftool.runtime.world import World
-from tftool.scenario import document, values
+from tftool.scenario import doctoring, document, values
 from tftool.scenario.actions import ACTIONS, StopNode
 from tftool.scenario.document import Document, Node, Scalar
 from tftool.scenario.kinds import KINDS
@@ -30,8 +30,8 @@ from tftool.scenario.reading import (
 )
 from tftool.scenario.schema import Expectation, NodeEntry, Scenario, Step, When
 from tftool.scenario.tagged import tagged
+from tftool.scenario.text_file import text_of
 from tftool.stamps import Duration, as_seconds, seconds
-from tftool.views.escaping import visible
 
 NO_ARGUMENTS: Mapping[str, str] = MappingProxyType({})
 
@@ -60,23 +60,7 @@ def load(path: Path | str, arguments: Mapping[str, str] = NO_ARGUMENTS) -> Scena
         InputError: If the file cannot be read; `ScenarioError` with every mistake in it.
         UsageError: If an argument is given that the scenario does not declare.
     """
-    try:
-        with Path(path).open("rb") as file:
-            raw = file.read(4 * document.LARGEST + 1)
-    except OSError as error:
-        raise InputError(
-            f"cannot read '{visible(str(path))}': {error.strerror or error}"
-        ) from error
-    except ValueError as error:
-        raise InputError(f"cannot read '{visible(str(path))}': {error}") from error
-    try:
-        text = raw.decode("utf-8")
-    except UnicodeDecodeError as error:
-        line = raw[: error.start].count(b"\n") + 1
-        raise InputError(
-            f"'{visible(str(path))}' is not UTF-8 text: byte {error.start + 1}, in line {line}"
-        ) from error
-    return parse(text, str(path), arguments)
+    return parse(text_of(path), str(path), arguments)
 
 
 def parse(text: str, name: str, arguments: Mapping[str, str] = NO_ARGUMENTS) -> Scenario:
@@ -124,6 +108,7 @@ class _ScenarioReader:
             "arguments": Key(self.arguments, NO_ARGUMENTS),
             "duration": Key(self.length),
             "cache_time": Key(values.time(), seconds(10)),
+            "doctor": Key(doctoring.rules, doctoring.NO_RULES),
             "nodes": Key(self.nodes, ()),
             "script": Key(self.script, ()),
             "expect": Key(self.expect, ()),
@@ -146,6 +131,7 @@ class _ScenarioReader:
             nodes=found["nodes"],
             script=found["script"],
             expect=found["expect"],
+            doctor=found["doctor"],
             source=reading.source.text,
         )
 

@@ -74,7 +74,9 @@ class Play:
         self._script = Script(self.world, steps) if steps else None
         # With a person in it a scenario promises nothing.
         expected = scenario.expect if script else ()
-        self._expectations = Expectations(self.world, expected) if expected else None
+        self._expectations = (
+            Expectations(self.world, expected, scenario.doctor) if expected else None
+        )
 
     async def live(self, until: Stamp | None = None, *, endless: bool = False) -> None:
         """Live through the scenario.

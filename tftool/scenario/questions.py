@@ -12,6 +12,10 @@ from dataclasses import dataclass
 from types import MappingProxyType
 from typing import Any, ClassVar
 
+from tftool.diagnostics.findings import Severity
+from tftool.diagnostics.hearing import Hearing
+from tftool.diagnostics.judge import judge
+from tftool.diagnostics.model import Settings
 from tftool.errors import LookupException
 from tftool.frames.sample import FrameInfo
 from tftool.frames.velocity import Velocity
@@ -23,6 +27,7 @@ from tftool.runtime.log import LEVELS, LogRecord
 from tftool.runtime.world import World
 from tftool.scenario import values
 from tftool.scenario.checks import (
+    CleanForm,
     CountForm,
     Form,
     FrameFacts,
@@ -31,6 +36,7 @@ from tftool.scenario.checks import (
     RangeCheck,
     RangeForm,
 )
+from tftool.scenario.doctoring import NO_RULES, DoctorRules, check_or_area
 from tftool.scenario.pose_checks import PoseForm, TurtlePoseForm
 from tftool.scenario.reading import reads
 from tftool.scenario.values import (
@@ -54,9 +60,11 @@ class ScenarioWorld:
         start: The moment it began.
     """
 
-    def __init__(self, world: World, start: Stamp) -> None:
+    def __init__(self, world: World, start: Stamp, rules: DoctorRules = NO_RULES) -> None:
         self.world = world
         self.start = start
+        self.rules = rules
+        self.hearing: Hearing | None = None
         self.lines: dict[Logged, int] = {}
 
     @property
@@ -481,6 +489,37 @@ class Logged(Subject):
         return f"log lines{by} with '{self.text}'"
 
 
+@dataclass(frozen=True, slots=True, kw_only=True)
+class Diagnosed(Subject):
+    """What the doctor finds in all transforms since the start."""
+
+    key: ClassVar[str] = "doctor"
+    form: ClassVar[Form] = CleanForm()
+    short: ClassVar[str] = "findings"
+    findings: str = reads(values.choice(("clean",), "what the doctor finds"), "clean")
+    ignore: tuple[str, ...] = reads(values.several(check_or_area, "checks"), ())
+
+    def answer(self, scene: ScenarioWorld) -> list[str]:
+        """Find the answer, now."""
+        if scene.hearing is None:
+            return []
+        given = Settings(scene.world.buffer.cache_time)
+        diagnosis = judge(
+            scene.hearing.material("scenario", "scenario", scene.start, scene.now),
+            scene.rules.settings(given),
+            ignore=(*scene.rules.ignore, *self.ignore),
+        )
+        return [
+            f"{one.id}: {one.message}"
+            for one in diagnosis.findings
+            if one.because_of is None and one.severity is not Severity.NOTE
+        ]
+
+    def __str__(self) -> str:
+        without = f" without {', '.join(self.ignore)}" if self.ignore else ""
+        return f"the doctor's findings{without}"
+
+
 SUBJECTS: Mapping[str, type[Subject]] = MappingProxyType(
     {
         kind.key: kind
@@ -500,6 +539,7 @@ SUBJECTS: Mapping[str, type[Subject]] = MappingProxyType(
             Turtles,
             PoseOf,
             Logged,
+            Diagnosed,
         )
     }
 )

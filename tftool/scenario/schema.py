@@ -5,6 +5,7 @@ from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any
 
 from tftool.scenario.checks import AnswerCheck
+from tftool.scenario.doctoring import NO_RULES, DoctorRules
 from tftool.stamps import Duration
 
 if TYPE_CHECKING:
@@ -102,6 +103,7 @@ class Scenario:
         nodes: What lives in it, in order.
         script: What happens.
         expect: What must hold.
+        doctor: What the doctor is to leave out, in expectations and in `tftool doctor`.
         source: The text it was read from, so that it can be read with other arguments.
     """
 
@@ -115,6 +117,7 @@ class Scenario:
     script: tuple[Step, ...]
     expect: tuple[Expectation, ...]
     source: str = field(repr=False)
+    doctor: DoctorRules = NO_RULES
 
 
 def _clock(duration: Duration) -> str:

@@ -194,7 +194,7 @@ def _diagnosed(
     """Each source with what was found in it; of several, one that is unreadable stops none."""
     from dataclasses import replace
 
-    from tftool.cli.examining import material_of
+    from tftool.cli.examining import material_of, rules_of
     from tftool.cli.fleet import expanded
     from tftool.diagnostics.judge import judge
     from tftool.sources.remote import fetched
@@ -207,6 +207,7 @@ def _diagnosed(
     for word in sources:
         try:
             with fetched(word or "") as path:
+                rules = rules_of(path or None)
                 material = material_of(connection, path or None, lasting, scope)
         except InputError as error:
             if len(sources) == 1:
@@ -216,7 +217,12 @@ def _diagnosed(
             continue
         if path != (word or ""):
             material = replace(material, name=word or "")
-        diagnosis = judge(material, settings, select=chosen, ignore=left_out)
+        diagnosis = judge(
+            material,
+            rules.settings(settings),
+            select=chosen,
+            ignore=(*left_out, *rules.ignore),
+        )
         rows.append((word or material.name, diagnosis))
     return rows
 
