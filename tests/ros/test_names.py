@@ -51,7 +51,7 @@ def test_the_tutorials_names_are_names():
     assert names.namespace_fault("robot").at == 0
     assert names.namespace_fault("/a-b").at == 2
     assert names.node_name_fault("").reason == "it must not be empty"
-    assert names.node_name_fault("2x").reason == "it must not start with a digit"
+    assert names.node_name_fault("2x").reason == "it must not start with a number"
 
 
 def test_ros_arguments_are_taken_out_of_a_nodes_own():
@@ -86,7 +86,8 @@ def test_a_rename_may_hold_for_one_node_alone():
     ("pattern", "fits"),
     [
         ("/**", True),
-        ("node", True),
+        # As in ROS 2, a node without a namespace.
+        ("node", False),
         ("/space/node", True),
         ("/*/node", True),
         ("/**/node", True),
@@ -156,9 +157,9 @@ def test_a_parameter_file_is_read_like_a_single_value(tmp_path):
     file.write_text("a:\n  ros__parameters: {day: 2024-01-05, at: 12:30, far: 1e3}\n")
 
     assert names.read_parameters(file) == [
-        ("a", "day", "2024-01-05"),
-        ("a", "at", "12:30"),
-        ("a", "far", 1000.0),
+        ("/a", "day", "2024-01-05"),
+        ("/a", "at", "12:30"),
+        ("/a", "far", 1000.0),
     ]
 
 

@@ -207,6 +207,10 @@ rcl_interfaces/srv/ListParameters = uint64 DEPTH_RECURSIVE=0; string[] prefixes;
 rcl_interfaces/srv/DescribeParameters = string[] names; ---; ParameterDescriptor[] descriptors
 rcl_interfaces/srv/SetParameters = Parameter[] parameters; ---; SetParametersResult[] results
 rcl_interfaces/srv/SetParametersAtomically = Parameter[] parameters; ---; SetParametersResult result
+rcl_interfaces/msg/LoggerLevel = uint8 LOG_LEVEL_UNKNOWN=0; uint8 LOG_LEVEL_DEBUG=10; uint8 LOG_LEVEL_INFO=20; uint8 LOG_LEVEL_WARN=30; uint8 LOG_LEVEL_ERROR=40; uint8 LOG_LEVEL_FATAL=50; string name; uint32 level
+rcl_interfaces/msg/SetLoggerLevelsResult = bool successful; string reason
+rcl_interfaces/srv/GetLoggerLevels = string[] names; ---; LoggerLevel[] levels
+rcl_interfaces/srv/SetLoggerLevels = LoggerLevel[] levels; ---; SetLoggerLevelsResult[] results
 """  # noqa: E501 -- one interface a line can be searched and compared
 
 _SAME = {"turtlesim_msgs": "turtlesim"}

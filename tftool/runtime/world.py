@@ -116,6 +116,8 @@ class World:
         self._topics: dict[str, Topic[Any]] = {}
         self._doors: dict[str, ValueTopic[Any]] = {}
         self._services: dict[str, Offer[Handler]] = {}
+        # Who serves a name that another serves already, by "service" and the name.
+        self._waiting: dict[str, list[Any]] = {}
         self._actions: dict[str, Offer[Acceptor]] = {}
         self._statics: dict[str, dict[str, TransformStamped]] = {}
         self._far_statics: dict[str, TransformStamped] = {}
@@ -289,6 +291,7 @@ class World:
         *,
         node: str = "",
         is_remote: bool = False,
+        shares: bool = False,
     ) -> Callable[[], None]:
         """Answer a service by `handler`; call what is returned to stop.
 
@@ -299,13 +302,15 @@ class World:
                 and gives values. None for one that stays inside this process.
             node: The node that answers.
             is_remote: Whether it answers from another process.
+            shares: Whether another may serve that name already, as in ROS: who came first
+                answers, and the next one from when that leaves.
 
         Raises:
             TftoolError: If a node here serves that name already.
         """
         take = serving(handler, kind) if kind in values.SERVICES else handler
         offer = Offer(take, values.interface_class(kind), node, is_remote)
-        return self._offer(self._services, name, offer, "service")
+        return self._offer(self._services, name, offer, "service", shares=shares)
 
     def has_service(self, name: str) -> bool:
         """Whether any node answers that service."""
@@ -416,17 +421,31 @@ class World:
         self._watchers.call()
 
     def _offer(
-        self, offers: dict[str, Offer[T]], name: str, offer: Offer[T], what: str
+        self,
+        offers: dict[str, Offer[T]],
+        name: str,
+        offer: Offer[T],
+        what: str,
+        *,
+        shares: bool = False,
     ) -> Callable[[], None]:
         name = name.removeprefix("/")
+        waiting = self._waiting.setdefault(f"{what} {name}", [])
         if name in offers and not offers[name].is_remote:
-            raise TftoolError(f"{what} '{name}' is served already")
-        offers[name] = offer
-        self._changed()
+            if not shares:
+                raise TftoolError(f"{what} '{name}' is served already")
+            waiting.append(offer)
+        else:
+            offers[name] = offer
+            self._changed()
 
         def stop() -> None:
+            if any(one is offer for one in waiting):
+                waiting.remove(offer)
             if offers.get(name) is offer:
                 del offers[name]
+                if waiting:
+                    offers[name] = waiting.pop(0)
                 self._changed()
 
         return stop

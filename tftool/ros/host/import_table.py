@@ -33,6 +33,11 @@ rclpy.timer: rclpy.time: Rate
 rclpy.timer: rclpy.timers: Timer TimerInfo
 rclpy.publisher: rclpy.topics: Publisher
 rclpy.subscription: rclpy.topics: Subscription MessageInfo
+rclpy.time_source: rclpy.time_source: TimeSource CLOCK_TOPIC USE_SIM_TIME_NAME
+rclpy.type_support: rclpy.type_support: check_for_type_support check_is_valid_msg_type
+rclpy.type_support: rclpy.type_support: check_is_valid_srv_type
+rclpy.type_description_service: rclpy.services: START_TYPE_DESCRIPTION_SERVICE_PARAM
+rclpy.type_hash: rclpy.endpoints: TypeHash
 rclpy.topic_endpoint_info: rclpy.endpoints: TopicEndpointInfo TopicEndpointTypeEnum
 rclpy.wait_for_message: rclpy.waiting: wait_for_message
 rclpy.client: rclpy.services: Client
@@ -45,6 +50,7 @@ rclpy.executors: rclpy.exceptions: TimeoutException ConditionReachedException
 rclpy.callback_groups: rclpy.groups: CallbackGroup MutuallyExclusiveCallbackGroup
 rclpy.callback_groups: rclpy.groups: ReentrantCallbackGroup
 rclpy.logging: rclpy.logging: get_logger LoggingSeverity set_logger_level initialize shutdown
+rclpy.logging: rclpy.logging: clear_config get_logging_directory _root_logger
 rclpy.logging: rclpy.logging: get_logger_effective_level get_logging_severity_from_string
 rclpy.impl.rcutils_logger: rclpy.logging: RcutilsLogger
 rclpy.impl.logging_severity: rclpy.logging: LoggingSeverity

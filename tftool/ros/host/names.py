@@ -4,7 +4,7 @@ World topics are full names without the leading slash.
 """
 
 import re
-from collections.abc import Callable, Iterable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from difflib import get_close_matches
 from functools import cache
@@ -74,8 +74,11 @@ class RosOptions:
 
 
 def _fits(pattern: str, full: str, name: str) -> bool:
+    if pattern == name:
+        # Of the command line; what a file says of a node without a namespace begins with '/'.
+        return True
     pattern = pattern.strip("/")
-    if pattern in ("", "**", name, full):
+    if pattern in ("", "**", full):
         return True
     parts = ["(?:.*/)?" if part == "**" else "[^/]+/" if part == "*" else re.escape(part) + "/"
              for part in pattern.split("/")]  # fmt: skip
@@ -87,23 +90,30 @@ def join(namespace: str, name: str) -> str:
     return f"{namespace.strip('/')}/{name}".strip("/")
 
 
+_STRANGE_CHARACTER = "it must not contain characters other than letters, digits, '_' and '/'"
+
+
 def node_name_fault(name: str) -> Fault | None:
     """Why ROS 2 refuses a node's name, None if it takes it."""
     strange = _STRANGE.search(name)
     if not name:
         return Fault("it must not be empty", 0)
     if strange is not None:
-        return Fault("only letters, digits and '_' are allowed", strange.start())
-    return Fault("it must not start with a digit", 0) if name[0].isdigit() else None
+        return Fault(
+            "it must not contain characters other than letters, digits and '_'", strange.start()
+        )
+    return Fault("it must not start with a number", 0) if name[0].isdigit() else None
 
 
 def namespace_fault(namespace: str) -> Fault | None:
     """Why ROS 2 refuses an absolute namespace, None if it takes it."""
+    if not namespace:
+        return Fault("it must not be empty", 0)
     if not namespace.startswith("/"):
-        return Fault("it must start with '/'", 0)
+        return Fault("it must be absolute: start with '/'", 0)
     strange = re.search(r"[^A-Za-z0-9_/]", namespace)
     if strange is not None:
-        return Fault("only letters, digits, '_' and '/' are allowed", strange.start())
+        return Fault(_STRANGE_CHARACTER, strange.start())
     return None if namespace == "/" else _fault_of_parts(namespace)
 
 
@@ -113,12 +123,12 @@ def topic_name_fault(name: str) -> Fault | None:
     if not name:
         return Fault("it must not be empty", 0)
     if strange is not None:
-        return Fault("only letters, digits, '_' and '/' are allowed", strange.start())
+        return Fault(_STRANGE_CHARACTER, strange.start())
     if "~" in name[1:] or (name.startswith("~") and not name.startswith("~/") and name != "~"):
         return Fault("'~' must come first, with a '/' behind it", name.rindex("~"))
     for found in _SUBSTITUTION.finditer(name):
         if found[1] not in ("node", "ns", "namespace"):
-            return Fault("of substitutions there are {node}, {ns} and {namespace}", found.start())
+            return Fault("unknown substitution: not {node}, {ns} or {namespace}", found.start())
     plain = _SUBSTITUTION.sub(lambda found: "_" * len(found[0]), name)
     if "{" in plain or "}" in plain:
         return Fault("a brace has no partner", re.search("[{}]", plain).start())  # type: ignore[union-attr]
@@ -131,7 +141,7 @@ def _fault_of_parts(name: str) -> Fault | None:
     if "//" in name:
         return Fault("there must be something between two '/'", name.index("//") + 1)
     digit = _DIGIT_FIRST.search(name)
-    return None if digit is None else Fault("no part may start with a digit", digit.start())
+    return None if digit is None else Fault("a part must not start with a number", digit.start())
 
 
 def check_node_name(name: str) -> None:
@@ -331,15 +341,14 @@ def read_parameters(
         reason = error.strerror if isinstance(error, OSError) else "it is not UTF-8 text"
         raise InputError(f"cannot read the parameter file '{path}': {reason}") from None
     try:
-        tree = yaml_guard.load(substitute(text), _loader())
+        tree = yaml_guard.compose(substitute(text), _loader())
+        found = list(_parameters_in(tree, ""))
     except (yaml.YAMLError, ValueError) as error:
         mark = getattr(error, "problem_mark", None)
         where = f":{mark.line + 1}:{mark.column + 1}" if mark is not None else ""
         problem = getattr(error, "problem", None) or str(error) or "not YAML"
         raise InputError(f"{path}{where}: {problem}") from None
-    found: list[tuple[str, str, Any]] = []
-    _walk(tree, "", found)
-    if not found and tree:
+    if not found and tree is not None:
         raise InputError(
             f"{path}: no parameters in it; the layout is 'node_name:', below it "
             "'ros__parameters:', below that 'name: value'"
@@ -347,14 +356,20 @@ def read_parameters(
     return found
 
 
-def _walk(tree: Any, node: str, found: list[tuple[str, str, Any]]) -> None:
-    if not isinstance(tree, Mapping):
+def _parameters_in(tree: Any, node: str) -> Iterator[tuple[str, str, Any]]:
+    """Each (node, name, value) of a tree of YAML's nodes, in which a key may come several times."""
+    import yaml
+
+    from tftool import yaml_guard
+
+    if not isinstance(tree, yaml.MappingNode):
         return
-    for key, value in tree.items():
-        if key == "ros__parameters":
-            found += [(node, name, one) for name, one in flatten(value or {})]
+    for key, value in tree.value:
+        if key.value == "ros__parameters":
+            settings = yaml_guard.construct(value, _loader())
+            yield from ((f"/{node}", name, one) for name, one in flatten(settings or {}))
         else:
-            _walk(value, join(node, str(key).strip("/")), found)
+            yield from _parameters_in(value, join(node, str(key.value).strip("/")))
 
 
 def flatten(tree: Any, prefix: str = "") -> list[tuple[str, Any]]:

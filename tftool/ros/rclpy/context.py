@@ -12,6 +12,7 @@ class Context:
     def __init__(self) -> None:
         self._program = program.current()
         self._valid = False
+        self._domain: int | None = None
         self._listeners: list[Callable[[], object]] = []
         self._on_shutdown: list[Callable[[], object]] = []
         self.options = self._program.options
@@ -25,14 +26,22 @@ class Context:
     ) -> None:
         """Start.
 
+        Args:
+            args: A command line; what follows `--ros-args` counts.
+            initialize_logging: As in ROS 2; there is nothing to initialize.
+            domain_id: What `get_domain_id` says. The session's own is chosen by `--domain`.
+
         Raises:
-            RuntimeError: If it has been started.
+            RuntimeError: If it has been started, or the domain is negative.
             UsageError: If what follows `--ros-args` is malformed.
         """
         if self._valid:
             raise RuntimeError("Context.init() must only be called once")
         if args is not None and "--ros-args" in args and list(args) != self._program.argv:
             self.options, _ = names.parse(list(args))
+        if domain_id is not None and domain_id < 0:
+            raise RuntimeError(f"Domain id ({domain_id}) must not be lower than zero.")
+        self._domain = domain_id
         self._valid = True
 
     def ok(self) -> bool:
@@ -71,12 +80,16 @@ class Context:
         self._listeners.append(callback)
 
     def get_domain_id(self) -> int:
-        """ROS 2's default domain, 0.
+        """The domain it was started with, else ROS 2's default domain, 0.
 
         A program does not know the domain of the session it lives in (`--domain`): that is the
         affair of the link to other processes.
         """
-        return 0
+        return self._domain or 0
+
+    def destroy(self) -> None:
+        """Be done with it."""
+        self.try_shutdown()
 
     def __enter__(self) -> "Context":
         if not self._valid:

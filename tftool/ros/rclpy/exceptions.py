@@ -44,7 +44,7 @@ class NoTypeSupportImportedException(Exception):
         super().__init__("no type_support imported", *args)
 
 
-class NameValidationException(Exception):
+class NameValidationException(ValueError):
     """A name is not valid; shown with a caret below the place."""
 
     def __init__(self, name_type: str, name: str, error_msg: str, invalid_index: int) -> None:

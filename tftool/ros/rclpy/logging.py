@@ -1,7 +1,9 @@
 """rclpy's loggers, speaking into the world's log."""
 
 import inspect
+import os
 from enum import IntEnum
+from pathlib import Path
 from typing import Any
 
 from tftool.ros.host import program
@@ -146,7 +148,7 @@ def _caller() -> tuple[str, int, int]:
     return frame.f_code.co_filename, frame.f_lineno, frame.f_lasti
 
 
-_root = RcutilsLogger()
+_root_logger = RcutilsLogger()
 
 
 def get_logger(name: str) -> RcutilsLogger:
@@ -171,8 +173,27 @@ def get_logger_effective_level(name: str) -> LoggingSeverity:
 
 
 def get_logging_severity_from_string(level: str) -> LoggingSeverity:
-    """The level of a name."""
-    return LoggingSeverity[level.upper()]
+    """The level of a name.
+
+    Raises:
+        RuntimeError: If there is none of that name.
+    """
+    try:
+        return LoggingSeverity[level.upper()]
+    except KeyError:
+        raise RuntimeError(f"'{level}' is no severity of logging") from None
+
+
+def clear_config() -> None:
+    """Forget every level that was set."""
+    program.current().log_levels.clear()
+
+
+def get_logging_directory() -> Path:
+    """Where ROS 2 writes its logs: `ROS_LOG_DIR`, else `log` in `ROS_HOME`, else `~/.ros/log`."""
+    told = os.environ.get("ROS_LOG_DIR")
+    home = os.environ.get("ROS_HOME") or "~/.ros"
+    return Path(told).expanduser() if told else Path(home).expanduser() / "log"
 
 
 def initialize() -> None:

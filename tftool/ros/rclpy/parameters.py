@@ -155,7 +155,8 @@ def parameter_dict_from_yaml_file(
     wanted = {one.strip("/") for one in target_nodes or ()}
     found = {}
     for node, name, value in names.read_parameters(Path(parameter_file)):
-        chosen = use_wildcard if node == "**" else not wanted or node in wanted
+        plain = node.strip("/")
+        chosen = use_wildcard if plain == "**" else not wanted or plain in wanted
         if chosen:
             full = f"{namespace}{PARAMETER_SEPARATOR_STRING}{name}" if namespace else name
             found[full] = Parameter(full, value=value).to_parameter_msg()

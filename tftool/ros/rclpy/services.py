@@ -16,6 +16,9 @@ from tftool.ros.rclpy.executors import wait_for
 from tftool.ros.rclpy.futures import Future
 from tftool.ros.rclpy.seat import NodeSeat, seat_of
 
+START_TYPE_DESCRIPTION_SERVICE_PARAM = "start_type_description_service"
+"""The parameter by which ROS 2's nodes are told to describe their types; here none does."""
+
 
 class Client(Requester):
     """Asks a service."""
@@ -108,7 +111,7 @@ class Service(WorkQueue):
         self.full = full
         self.callback = callback
         self._open: set[asyncio.Future[Any]] = set()
-        self._stop = seat.world.serve(full, self.asked, kind, node=seat.authority)
+        self._stop = seat.world.serve(full, self.asked, kind, node=seat.authority, shares=True)
 
     @property
     def service_name(self) -> str:

@@ -5,7 +5,7 @@ from enum import IntEnum
 from typing import Any
 
 from tftool.ros.host import program, values
-from tftool.ros.rclpy.exceptions import ROSInterruptException
+from tftool.ros.rclpy.exceptions import NotInitializedException, ROSInterruptException
 from tftool.stamps import NANOSECONDS
 
 S_TO_NS = NANOSECONDS
@@ -186,6 +186,10 @@ class Time:
 class Clock:
     """The world's clock, whatever its type: a simulated world has only one time."""
 
+    def __new__(cls, *, clock_type: ClockType = ClockType.SYSTEM_TIME) -> "Clock":
+        """Make the clock of that type; ROS time has a class of its own."""
+        return super().__new__(ROSClock if clock_type is ClockType.ROS_TIME else cls)
+
     def __init__(self, *, clock_type: ClockType = ClockType.SYSTEM_TIME) -> None:
         if not isinstance(clock_type, ClockType):
             raise TypeError("Clock type must be a ClockType enum")
@@ -210,11 +214,13 @@ class Clock:
         """Block until a moment; False if the program was ended meanwhile."""
         if until.clock_type != self._clock_type:
             raise ValueError("until's clock type does not match this clock's type")
+        _require_started(context)
         self._program.sleep(until.nanoseconds - self._program.clock.now())
         return not self._program.interrupted
 
     def sleep_for(self, rel_time: Duration, context: Any = None) -> bool:
         """Block for a while; False if the program was ended meanwhile."""
+        _require_started(context)
         self._program.sleep(rel_time.nanoseconds)
         return not self._program.interrupted
 
@@ -234,10 +240,20 @@ class Clock:
         return f"Clock(clock_type={self._clock_type.name})"
 
 
+def _require_started(context: Any) -> None:
+    """See that a context somebody is to sleep in has been started, and not ended."""
+    if context is not None and not context.ok():
+        raise NotInitializedException
+
+
 class ROSClock(Clock):
     """The clock nodes have."""
 
-    def __init__(self) -> None:
+    def __new__(cls, *, clock_type: ClockType = ClockType.ROS_TIME) -> "ROSClock":
+        """Make one."""
+        return object.__new__(cls)
+
+    def __init__(self, *, clock_type: ClockType = ClockType.ROS_TIME) -> None:
         super().__init__(clock_type=ClockType.ROS_TIME)
 
 
@@ -265,7 +281,7 @@ class JumpThreshold:
         if min_backward is not None and min_backward.nanoseconds >= 0:
             raise ValueError("min_backward must be a negative non-zero duration")
         if min_forward is None and min_backward is None and not on_clock_change:
-            raise ValueError("At least one threshold must be set")
+            raise ValueError("At least one threshold must be enabled")
         self.min_forward = min_forward
         self.min_backward = min_backward
         self.on_clock_change = on_clock_change

@@ -7,15 +7,22 @@ from typing import Any
 from tftool.ros.host.program import TICK
 from tftool.ros.rclpy.entities import NodeEntity, Work
 from tftool.ros.rclpy.seat import NodeSeat
-from tftool.ros.rclpy.time import Clock, Duration, Time
+from tftool.ros.rclpy.time import Clock, ClockType, Duration, Time
 
 
 class TimerInfo:
     """When a timer was due, and when it was called."""
 
-    def __init__(self, expected: Time, actual: Time) -> None:
-        self.expected_call_time = expected
-        self.actual_call_time = actual
+    def __init__(
+        self,
+        *,
+        expected_call_time: int = 0,
+        actual_call_time: int = 0,
+        clock_type: ClockType = ClockType.SYSTEM_TIME,
+    ) -> None:
+        """Note two moments in nanoseconds of a clock."""
+        self.expected_call_time = Time(nanoseconds=expected_call_time, clock_type=clock_type)
+        self.actual_call_time = Time(nanoseconds=actual_call_time, clock_type=clock_type)
 
 
 class Timer(NodeEntity):
@@ -78,7 +85,9 @@ class Timer(NodeEntity):
             if self.callback is None:
                 return None
             if self._takes_info:
-                return self.callback(TimerInfo(Time(nanoseconds=due), Time(nanoseconds=now)))
+                kind = self.clock.clock_type
+                info = TimerInfo(expected_call_time=due, actual_call_time=now, clock_type=kind)
+                return self.callback(info)
             return self.callback()
 
         return work

@@ -1,0 +1,179 @@
+"""What ROS 2's own tests of rclpy hold, and people's code uses."""
+
+import pytest
+
+
+def test_two_services_of_one_name_are_allowed_and_the_second_answers_once_the_first_has_left(node):
+    import rclpy
+    from std_srvs.srv import Trigger
+
+    def answering(text):
+        def answer(request, response):
+            response.message = text
+            return response
+
+        return answer
+
+    first = node.create_service(Trigger, "ask", answering("first"))
+    node.create_service(Trigger, "ask", answering("second"))
+    client = node.create_client(Trigger, "ask")
+
+    def ask():
+        future = client.call_async(Trigger.Request())
+        rclpy.spin_until_future_complete(node, future, timeout_sec=5.0)
+        return future.result().message
+
+    assert ask() == "first"
+    node.destroy_service(first)
+    assert ask() == "second"
+
+
+def test_a_parameter_file_may_name_a_node_several_times_and_is_read_as_ros_reads_it(node, tmp_path):
+    import rclpy
+
+    file = tmp_path / "wild.yaml"
+    file.write_text(
+        "/**:\n  ros__parameters:\n    everywhere: 1\n"
+        "/**:\n  talker:\n    ros__parameters:\n      by_name: 2\n"
+        "robot:\n  '*':\n    ros__parameters:\n      in_robot: 3\n"
+        "robot:\n  talker:\n    ros__parameters:\n      exact: 4\n"
+        "talker:\n  ros__parameters:\n    without_namespace: 5\n"
+        "other:\n  talker:\n    ros__parameters:\n      elsewhere: 6\n"
+    )
+
+    def given(namespace):
+        made = rclpy.create_node(
+            "talker",
+            namespace=namespace,
+            cli_args=["--ros-args", "--params-file", str(file)],
+            automatically_declare_parameters_from_overrides=True,
+        )
+        names = {"everywhere", "by_name", "in_robot", "exact", "without_namespace", "elsewhere"}
+        return {name for name in names if made.has_parameter(name)}
+
+    assert given("/robot") == {"everywhere", "by_name", "in_robot", "exact"}
+    assert given("") == {"everywhere", "by_name", "without_namespace"}
+
+
+def test_a_name_with_a_strange_character_is_refused_in_the_words_of_ros(node):
+    from rclpy.expand_topic_name import expand_topic_name
+    from rclpy.validate_namespace import validate_namespace
+    from rclpy.validate_topic_name import validate_topic_name
+
+    with pytest.raises(ValueError, match="must not contain characters"):
+        validate_topic_name("/chat?")
+    with pytest.raises(ValueError, match="must not start with a number"):
+        validate_topic_name("/chat/4")
+    with pytest.raises(ValueError, match="unknown substitution"):
+        validate_topic_name("chat/{bad}")
+    with pytest.raises(ValueError, match="empty"):
+        validate_namespace("")
+    with pytest.raises(ValueError, match="must be absolute"):
+        validate_namespace("robot")
+    with pytest.raises(ValueError, match="node name"):
+        expand_topic_name("chat", "bad?", "/")
+
+
+def test_a_topics_end_may_be_described_bit_by_bit(node):
+    from rclpy.topic_endpoint_info import TopicEndpointInfo, TopicEndpointTypeEnum
+    from rclpy.type_hash import TypeHash
+
+    info = TopicEndpointInfo(node_name="talker")
+    info.endpoint_type = TopicEndpointTypeEnum.PUBLISHER
+
+    assert info == TopicEndpointInfo(
+        node_name="talker", endpoint_type=TopicEndpointTypeEnum.PUBLISHER
+    )
+    told = str(info).splitlines()
+    assert told[0] == "Node name: talker"
+    assert "Endpoint type: PUBLISHER" in told
+    assert "  Reliability: UNKNOWN" in told
+    assert str(TypeHash()) == "INVALID"
+    assert str(TypeHash(version=1, value=b"\xab" * 32)) == "RIHS01_" + "ab" * 32
+
+
+def test_a_clock_of_ros_time_is_a_ros_clock_and_no_ended_context_sleeps(node):
+    import rclpy
+    from rclpy.clock import Clock, ROSClock
+    from rclpy.clock_type import ClockType
+    from rclpy.context import Context
+    from rclpy.duration import Duration
+    from rclpy.exceptions import NotInitializedException
+    from rclpy.time_source import CLOCK_TOPIC, TimeSource
+
+    assert isinstance(Clock(clock_type=ClockType.ROS_TIME), ROSClock)
+    assert not isinstance(Clock(), ROSClock)
+    with pytest.raises(NotInitializedException):
+        Clock().sleep_for(Duration(seconds=1), context=Context())
+    source = TimeSource(node=node)
+    source.attach_clock(ROSClock())
+    with pytest.raises(ValueError, match="ROS_TIME"):
+        source.attach_clock(Clock())
+    assert CLOCK_TOPIC == "/clock"
+    context = Context()
+    rclpy.init(context=context, domain_id=12)
+    assert context.get_domain_id() == 12
+    context.destroy()
+    assert not context.ok()
+
+
+def test_a_timers_info_has_the_nodes_time(node):
+    from rclpy.clock_type import ClockType
+    from rclpy.time import Time
+    from rclpy.timer import TimerInfo
+
+    from tests.ros.spinning import spin
+
+    told = []
+
+    def note(info: TimerInfo):
+        told.append(info)
+
+    node.create_timer(0.5, note)
+    spin(node, 0.75)
+
+    assert told[0].expected_call_time.clock_type is ClockType.ROS_TIME
+    assert TimerInfo(expected_call_time=5).expected_call_time == Time(nanoseconds=5)
+
+
+def test_types_can_be_told_apart(node):
+    from rclpy import type_support
+    from rclpy.exceptions import NoTypeSupportImportedException
+    from std_msgs.msg import String
+    from std_srvs.srv import Empty
+
+    class Kind(type):
+        _TYPE_SUPPORT = None
+
+    class Mock(metaclass=Kind):
+        pass
+
+    type_support.check_for_type_support(String)
+    type_support.check_for_type_support(Empty)
+    type_support.check_is_valid_msg_type(String)
+    type_support.check_is_valid_srv_type(Empty)
+    with pytest.raises(RuntimeError):
+        type_support.check_is_valid_msg_type(Empty)
+    with pytest.raises(RuntimeError):
+        type_support.check_is_valid_srv_type(String)
+    with pytest.raises(NoTypeSupportImportedException):
+        type_support.check_for_type_support(Mock)
+    with pytest.raises(AttributeError):
+        type_support.check_for_type_support(object())
+
+
+def test_levels_of_loggers_have_messages_and_can_be_forgotten(node, monkeypatch, tmp_path):
+    import rclpy.logging
+    from rcl_interfaces.msg import LoggerLevel
+    from rcl_interfaces.srv import GetLoggerLevels, SetLoggerLevels
+
+    asked = SetLoggerLevels.Request(levels=[LoggerLevel(name="talker", level=40)])
+    assert asked.levels[0].level == LoggerLevel.LOG_LEVEL_ERROR
+    assert GetLoggerLevels.Request(names=["talker"]).names == ["talker"]
+    rclpy.logging.set_logger_level("talker", rclpy.logging.LoggingSeverity.ERROR)
+    rclpy.logging.clear_config()
+    assert rclpy.logging.get_logger_effective_level("talker").name == "INFO"
+    with pytest.raises(RuntimeError):
+        rclpy.logging.get_logging_severity_from_string("LOUD")
+    monkeypatch.setenv("ROS_LOG_DIR", str(tmp_path))
+    assert rclpy.logging.get_logging_directory() == tmp_path
