@@ -1,5 +1,7 @@
 """TF2 without ROS: coordinate frames over time, and the turtles to learn them with."""
 
+import sys
+
 # Not from `typing`: this module is imported by every command before it can do anything,
 # and says nothing about types while it runs. Type checkers know the name.
 TYPE_CHECKING = False
@@ -152,3 +154,9 @@ def __getattr__(name: str) -> object:
 
 def __dir__() -> list[str]:
     return sorted({*globals(), *__all__})
+
+
+if "IPython" in sys.modules:
+    from tftool.notebook import register
+
+    register()

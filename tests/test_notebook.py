@@ -1,0 +1,81 @@
+"""What values look like in a notebook: the one in docs/ is run, in IPython's own kernel."""
+
+import importlib.util
+import json
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+NOTEBOOK = Path(__file__).parents[1] / "docs" / "learn" / "notebook.ipynb"
+
+RUN = """
+import json, sys, warnings
+warnings.simplefilter("ignore")
+import nbformat
+from nbclient import NotebookClient
+notebook = nbformat.read(sys.argv[1], as_version=4)
+NotebookClient(notebook, timeout=300, startup_timeout=300, kernel_name="python3").execute()
+print(json.dumps([cell.get("outputs", []) for cell in notebook.cells if cell.cell_type == "code"]))
+"""
+
+SHOWN = """
+from IPython.core.interactiveshell import InteractiveShell
+shell = InteractiveShell.instance()
+from tftool import Buffer, Transform, TransformStamped, diagnose
+buffer = Buffer()
+name = "<script>\\x1b[2J"
+buffer.set_transform(TransformStamped(10**9, "world", name, Transform()), "me")
+poses = buffer.lookup_transforms("world", name, [10**9])
+values = [buffer, buffer.snapshot(0), poses, *diagnose(buffer)]
+for value in values:
+    for kind, text in shell.display_formatter.format(value)[0].items():
+        if kind != "text/plain":
+            assert "<script" not in text and "\\x1b" not in text, text
+            print(type(value).__name__, kind)
+"""
+
+
+def told(code, *words, place):
+    done = subprocess.run(
+        [sys.executable, "-c", code, *words],
+        cwd=place,
+        capture_output=True,
+        text=True,
+        check=False,
+    )
+    assert done.returncode == 0, done.stderr
+    return done.stdout
+
+
+@pytest.mark.skipif(not importlib.util.find_spec("nbclient"), reason="nbclient is not installed")
+def test_the_notebook_of_the_docs_runs_and_shows_trees_and_tables(tmp_path):
+    buffer, poses, why = json.loads(told(RUN, str(NOTEBOOK), place=tmp_path))
+
+    (shown,) = [one["data"] for one in buffer if one["output_type"] == "execute_result"]
+    assert "laser" in "".join(shown["image/svg+xml"])
+    (shown,) = [one["data"] for one in poses if one["output_type"] == "execute_result"]
+    table = "".join(shown["text/html"])
+    assert "laser in world: 20 poses, 17 valid" in table
+    # The header, five rows of each end, and a row of dots between.
+    assert table.count("<tr>") == 12
+    assert "newest" in "".join(why[0]["text"]) or "ended" in "".join(why[0]["text"])
+
+
+@pytest.mark.skipif(not importlib.util.find_spec("IPython"), reason="IPython is not installed")
+def test_each_value_has_its_form_and_no_name_acts_in_it(tmp_path):
+    lines = told(SHOWN, place=tmp_path).splitlines()
+
+    assert lines[:3] == [
+        "Buffer image/svg+xml",
+        "Snapshot image/svg+xml",
+        "TransformArray text/html",
+    ]
+    assert set(lines[3:]) == {"Finding text/html"}
+
+
+def test_without_a_notebook_nothing_is_registered_and_nothing_is_imported(tmp_path):
+    code = "import sys, tftool; print('tftool.notebook' in sys.modules)"
+
+    assert told(code, place=tmp_path) == "False\n"
