@@ -40,6 +40,7 @@ COMMANDS = {
     "convert": "Write one rotation, or pose, in every notation.",
     "play": "Play a recording as a live session (ros2 bag play).",
     "edit": "Change the frames of a recording; repair, join, cut or convert it.",
+    "record": "Record a session (ros2 bag record).",
     "check": "Play scenarios on simulated time and judge what they expect.",
     "run": "Run a node written for ROS 2, unmodified, without ROS (ros2 run).",
     "launch": "Launch what a ROS 2 launch file says, without ROS (ros2 launch).",

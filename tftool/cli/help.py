@@ -14,7 +14,7 @@ GROUPS = {
     "Learn": ("demo", "teleop", "follow", "static"),
     "Ask": ("echo", "tree", "monitor", "explain", "doctor", "convert", "ros2"),
     "Look": ("view", "plot", "robot"),
-    "Work with files": ("info", "play", "export", "diff", "edit"),
+    "Work with files": ("info", "play", "record", "export", "diff", "edit"),
     "Run your own nodes": ("new", "run", "launch", "session"),
     "Check": ("check",),
     "Help": ("help",),

@@ -7,7 +7,7 @@ file takes the place of all of them.
 
 import sys
 from collections.abc import Callable, Sequence
-from contextlib import redirect_stdout
+from contextlib import nullcontext, redirect_stdout
 from dataclasses import dataclass, replace
 from difflib import get_close_matches
 
@@ -19,7 +19,7 @@ from tftool.ros.launch.engine import Launch
 from tftool.runtime.clock import SimClock, run
 from tftool.runtime.log import LogRecord
 from tftool.runtime.world import World
-from tftool.scenario.play import Play, StandIn
+from tftool.scenario.play import Play, StandIn, Watch
 from tftool.scenario.schema import Scenario
 from tftool.scenario.verdict import Verdict
 from tftool.views.escaping import visible
@@ -54,10 +54,14 @@ class Exercise:
     launch: Sequence[str] = ()
     tell: Callable[[LogRecord], object] = lambda record: None
 
-    def judge(self, scenario: Scenario) -> Verdict:
+    def judge(self, scenario: Scenario, *, watch: Watch = nullcontext) -> Verdict:
         """Play a scenario with these programs on simulated time, to its end, and judge it.
 
         A program that fails is part of the verdict; the others go on, as processes do.
+
+        Args:
+            scenario: What to play.
+            watch: What goes on around the play, such as a recording.
 
         Raises:
             UsageError: If there is no such node, package or executable.
@@ -77,7 +81,7 @@ class Exercise:
             if not one.node:
                 self._starter(one, failures)(play.world)
         # What is on stdout is the verdict's, not what programs print.
-        with redirect_stdout(sys.stderr):
+        with watch(play.world), redirect_stdout(sys.stderr):
             try:
                 run(clock, play.live())
             except NodeFailed as error:

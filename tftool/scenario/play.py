@@ -1,7 +1,7 @@
 """The one way a world is built and lived through, on simulated and on real time alike."""
 
 from collections.abc import Callable, Mapping
-from contextlib import suppress
+from contextlib import AbstractContextManager, nullcontext, suppress
 from types import MappingProxyType
 from typing import TypeAlias
 
@@ -21,6 +21,9 @@ from tftool.stamps import Stamp
 
 StandIn: TypeAlias = Callable[[World], object]
 """Starts in a world what takes the place of one of a scenario's nodes."""
+
+Watch: TypeAlias = Callable[[World], AbstractContextManager[object]]
+"""What goes on around a play, such as a recording of its world."""
 
 NO_STAND_INS: Mapping[str, StandIn] = MappingProxyType({})
 
@@ -149,14 +152,21 @@ def build(
     return Play(scenario, clock, script=script)
 
 
-def run_scenario(scenario: Scenario, arguments: Mapping[str, str] = NO_ARGUMENTS) -> Verdict:
+def run_scenario(
+    scenario: Scenario, arguments: Mapping[str, str] = NO_ARGUMENTS, *, watch: Watch = nullcontext
+) -> Verdict:
     """Play a scenario on simulated time, to its end, and judge it.
 
     A node that fails ends the play; that is part of the verdict.
+
+    Args:
+        scenario: What to play.
+        arguments: Values for arguments it declares.
+        watch: What goes on around the play, such as a recording.
     """
     clock = SimClock()
     play = build(scenario, clock, arguments)
     # The verdict says so.
-    with suppress(NodeFailed):
+    with watch(play.world), suppress(NodeFailed):
         run(clock, play.live())
     return play.verdict()

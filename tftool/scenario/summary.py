@@ -3,7 +3,7 @@
 import json
 import math
 from collections.abc import Mapping, Sequence
-from contextlib import suppress
+from contextlib import nullcontext, suppress
 from dataclasses import dataclass
 
 from tftool.errors import NodeFailed
@@ -11,7 +11,7 @@ from tftool.frames.sample import Snapshot
 from tftool.geometry.planar import heading
 from tftool.geometry.rigid import distance
 from tftool.runtime.clock import SimClock, run
-from tftool.scenario.play import build
+from tftool.scenario.play import Watch, build
 from tftool.scenario.schema import Scenario
 from tftool.scenario.verdict import Verdict
 from tftool.stamps import Duration, as_seconds
@@ -44,7 +44,11 @@ class Played:
 
 
 def play_through(
-    scenario: Scenario, defaults: Mapping[str, str], duration: Duration | None = None
+    scenario: Scenario,
+    defaults: Mapping[str, str],
+    duration: Duration | None = None,
+    *,
+    watch: Watch = nullcontext,
 ) -> Played:
     """Play a scenario with its own script on simulated time.
 
@@ -52,12 +56,13 @@ def play_through(
         scenario: What to play.
         defaults: What its arguments are unless they are set.
         duration: For how long; for the scenario's own duration when None.
+        watch: What goes on around the play, such as a recording.
     """
     clock = SimClock()
     play = build(scenario, clock)
     until = None if duration is None else clock.now() + duration
     # The verdict says so.
-    with suppress(NodeFailed):
+    with watch(play.world), suppress(NodeFailed):
         run(clock, play.live(until))
     snapshot = play.world.buffer.snapshot(clock.now())
     return Played(scenario, snapshot, play.verdict(), defaults)

@@ -57,6 +57,14 @@ def check(
         Path | None,
         typer.Option(metavar="FILE", help="Write a JUnit report for a build server."),
     ] = None,
+    recordings: Annotated[
+        Path | None,
+        typer.Option(
+            "--record",
+            metavar="FOLDER",
+            help="Keep a recording of each scenario in which something did not hold: NAME.mcap.",
+        ),
+    ] = None,
     verbose: Annotated[bool, typer.Option("--verbose", "-v", help="Show what held, too.")] = False,
     for_programs: Json = False,
 ) -> ExitStatus:
@@ -81,7 +89,7 @@ def check(
     from tftool.views.escaping import visible
 
     with _judge_of(programs or (), launched, force) as judge:
-        judged = [_judge(word, judge) for word in scenarios]
+        judged = [_judge(word, judge, recordings) for word in scenarios]
     reports = [report for report, _ in judged]
     if for_programs:
         sys.stdout.write(json.dumps(judgements.as_rows(reports), indent=2) + "\n")
@@ -110,7 +118,7 @@ def check(
 @contextmanager
 def _judge_of(
     programs: "Sequence[str]", launched: str | None, force: bool
-) -> "Iterator[Callable[[Scenario], Verdict]]":
+) -> "Iterator[Callable[..., Verdict]]":
     """Give what plays and judges a scenario: with its own nodes, or with the user's programs."""
     if not programs and launched is None:
         from tftool.scenario.play import run_scenario
@@ -161,7 +169,9 @@ def _words(option: str, text: str) -> tuple[str, ...]:
     return words
 
 
-def _judge(word: str, judge: "Callable[[Scenario], Verdict]") -> "tuple[Report, bool]":
+def _judge(
+    word: str, judge: "Callable[..., Verdict]", recordings: Path | None
+) -> "tuple[Report, bool]":
     """Report on one scenario, and whether it could be read; what could not is told at once."""
     from tftool.cli.hosting import scenario_named
     from tftool.errors import InputError
@@ -173,4 +183,32 @@ def _judge(word: str, judge: "Callable[[Scenario], Verdict]") -> "tuple[Report, 
     except InputError as error:
         sys.stderr.write(f"tftool: {visible_lines(str(error))}\n")
         return Report(Path(word).stem or word, word, (), failure=str(error)), False
-    return judge(scenario).report(), True
+    if recordings is None:
+        return judge(scenario).report(), True
+    return _recorded(scenario, judge, recordings).report(), True
+
+
+def _recorded(scenario: "Scenario", judge: "Callable[..., Verdict]", folder: Path) -> "Verdict":
+    """Judge a scenario; its recording stays if something did not hold."""
+    from functools import partial
+
+    from tftool.cli.notices import notice
+    from tftool.cli.recording import recorded
+    from tftool.errors import InputError
+    from tftool.views.escaping import visible
+
+    try:
+        folder.mkdir(parents=True, exist_ok=True)
+    except OSError as error:
+        reason = error.strerror or error
+        raise InputError(f"'{visible(str(folder))}' cannot be written to: {reason}.") from error
+    kept = folder / f"{re.sub(r'[^0-9A-Za-z_-]', '_', scenario.name)}.mcap"
+    # Beside its name until it is judged: one of an earlier run stays where nothing fails.
+    played = kept.with_name(f".{kept.name}")
+    verdict = judge(scenario, watch=partial(recorded, path=played, force=True))
+    if verdict.ok:
+        played.unlink(missing_ok=True)
+    else:
+        played.replace(kept)
+        notice(f"Recorded: {visible(str(kept))}")
+    return verdict

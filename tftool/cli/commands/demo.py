@@ -1,5 +1,7 @@
 """`tftool demo`: a scenario on the screen, or, without a terminal, played and summed up."""
 
+from contextlib import nullcontext
+from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
 import typer
@@ -56,6 +58,12 @@ def demo(
         list[str] | None,
         typer.Option("--set", metavar="NAME=VALUE", help="Set any argument of the scenario."),
     ] = None,
+    recording: Annotated[
+        Path | None,
+        typer.Option(
+            "--record", metavar="FILE", help="Record the world of the demo to an .mcap file."
+        ),
+    ] = None,
     ascii_only: Ascii = False,
     light: Light = False,
     for_programs: Json = False,
@@ -80,8 +88,11 @@ def demo(
         shared,
     )
     from tftool.cli.onscreen import driver_of, has_terminal, run_app, simulator_of
-    from tftool.scenario.play import build
+    from tftool.scenario.play import Watch, build
 
+    if recording is not None and recording.exists():
+        # Said before the screen comes up.
+        raise UsageError(f"'{recording}' exists: --record takes a name that is free.")
     arguments = _arguments(settings or (), source_frame)
     if scenario is not None and named(scenario).kind.is_recording:
         if arguments or rate != 1.0 or lasting is not None or for_programs:
@@ -102,7 +113,15 @@ def demo(
             )
         refuse_long_simulation(lasting)
         defaults = scenario_named(scenario or HOME).arguments if arguments else chosen.arguments
-        played = play_through(chosen, defaults, lasting)
+        if recording is None:
+            played = play_through(chosen, defaults, lasting)
+        else:
+            from functools import partial
+
+            from tftool.cli.recording import recorded
+
+            watch = partial(recorded, path=recording)
+            played = play_through(chosen, defaults, lasting, watch=watch)
         typer.echo(as_json(played) if for_programs else written(played))
         return ExitStatus.DONE if played.verdict.ok else ExitStatus.FAILED
 
@@ -112,6 +131,11 @@ def demo(
     wanted = scenario or (HOME if arguments or rate != 1.0 else None)
     found = look_around(connection, wanted, needs_turtles=True)
     joined = found.session
+    if recording is not None and joined is not None:
+        raise UsageError(
+            "A session runs here, which 'tftool record' records: --record is for a world of "
+            "the demo's own (--host)."
+        )
     if joined is not None:
         world, live = joined.world, joined.live
 
@@ -121,6 +145,13 @@ def demo(
         driver: Teleop | None = None if connection.read_only else driver_of(world, "turtle1")
         title = f"tftool demo, in {joined.name}"
     else:
+        around: Watch = nullcontext
+        if recording is not None:
+            from functools import partial
+
+            from tftool.cli.recording import recorded
+
+            around = partial(recorded, path=recording)
         play = build(left_to_a_person(chosen), connection.providers.wall_clock(rate))
         world = play.world
         if found.alone:
@@ -130,7 +161,7 @@ def demo(
         async def life() -> None:
             # Counted from here: the screen takes a while to come up.
             until = None if lasting is None else world.clock.now() + lasting
-            with shared(found.link, world):
+            with around(world), shared(found.link, world):
                 await play.live(until, endless=until is None)
 
         driver = None if simulator_of(world) is None else driver_of(world, "turtle1")

@@ -4,7 +4,6 @@ Source: the MCAP format specification, version 0.
 """
 
 import io
-import os
 import struct
 import zlib
 from array import array
@@ -150,6 +149,7 @@ class McapWriter:
         self._new_chunk()
         self.position = 0
         self._crc = 0
+        self._path = path
         self._file: io.FileIO = open(path, "wb", buffering=0)  # noqa: SIM115 -- `finish` closes it
         self._put(MCAP_MAGIC + record(HEADER, text(profile) + text(library)))
 
@@ -168,6 +168,11 @@ class McapWriter:
     def pending(self) -> int:
         """Bytes of messages that wait in the chunk."""
         return self._length
+
+    @property
+    def span(self) -> tuple[Stamp, Stamp]:
+        """First and last log time of what is in the file; 0 where there is none."""
+        return (0 if self._low == _NOTHING_YET else self._low), self._high
 
     # What is known
 
@@ -297,10 +302,9 @@ class McapWriter:
         self._new_chunk()
         if not indexes:
             low = high = 0
-        for channel, index in indexes.items():
-            self._count(channel, len(index) // 2, low, high)
         if not self._chunk_size:
             self._put(records)
+            self._count_all(indexes, low, high)
             return
         packed = self._pack(records)
         crc = zlib.crc32(records) if self._with_chunk_crc else 0
@@ -318,6 +322,7 @@ class McapWriter:
             parts.append(_index_record(channel, index))
             begin += len(parts[-1])
         self._put(b"".join(parts))
+        self._count_all(indexes, low, high)
         self._chunks.append(
             ChunkEntry(
                 low,
@@ -342,6 +347,10 @@ class McapWriter:
             self.flush()
         finally:
             self.method, self._pack, self._with_chunk_crc = before
+
+    def _count_all(self, indexes: "Mapping[int, array[int]]", low: int, high: int) -> None:
+        for channel, index in indexes.items():
+            self._count(channel, len(index) // 2, low, high)
 
     def _count(self, channel: int, count: int, low: int, high: int) -> None:
         self.counts[channel] = self.counts.get(channel, 0) + count
@@ -449,10 +458,14 @@ class McapWriter:
         """Write the rest of the messages and the summary, and close the file."""
         try:
             self.flush()
-            self._put(record(DATA_END, _U32.pack(self._crc if self._with_crc else 0)))
-            self._put(self._summary(self.position) + MCAP_MAGIC)
+            self._close()
         finally:
             self._file.close()
+
+    def _close(self) -> None:
+        end = record(DATA_END, _U32.pack(self._crc if self._with_crc else 0))
+        summary = self._summary(self.position + len(end))
+        self._put(end + summary + MCAP_MAGIC)
 
     def abandon(self) -> None:
         """Close the file as it is; what is in it can be read up to its end."""
@@ -466,12 +479,14 @@ class McapWriter:
         """
         self._new_chunk()
         whole = self.position
+        self._file.close()
         try:
-            os.ftruncate(self._file.fileno(), whole)
-            os.lseek(self._file.fileno(), whole, os.SEEK_SET)
+            self._file = open(self._path, "rb+", buffering=0)  # noqa: SIM115 -- closed below
+            self._file.truncate(whole)
+            self._file.seek(whole)
             self.finish()
         except OSError:
-            with open(self._file.name, "rb+") as file:
+            with open(self._path, "rb+") as file:
                 file.truncate(whole)
             return False
         return True

@@ -1,0 +1,204 @@
+"""`tftool record`: a session as a recording."""
+
+import json
+import re
+import sys
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated
+
+import typer
+
+from tftool.cli.app import ExitStatus
+from tftool.cli.connection import Connection
+from tftool.cli.options import OUTPUT, WHEN, Json, RunFor, duration, positive
+from tftool.errors import UsageError
+from tftool.stamps import Duration, seconds
+
+if TYPE_CHECKING:
+    from tftool.sources.writing.rolling import RollingRecording
+
+_SIZE = re.compile(r"(\d+(?:\.\d+)?)\s*([kMG]?)(?:i?B)?", re.ASCII)
+_UNITS = {"": 1, "k": 10**3, "M": 10**6, "G": 10**9}
+_LEAST_SIZE = 100_000
+RING = seconds(60)
+"""How much of the past is kept with `--on` where nothing is said."""
+
+
+def record(
+    connection: Connection,
+    output: Annotated[
+        Path,
+        typer.Option(
+            "--output",
+            "-o",
+            metavar="FILE",
+            rich_help_panel=OUTPUT,
+            help="What to write: a name ending in .mcap, or without a suffix a folder.",
+        ),
+    ],
+    topics: Annotated[
+        list[str] | None,
+        typer.Argument(
+            metavar="[TOPIC]...", help="Topics beside /tf and /tf_static.", show_default=False
+        ),
+    ] = None,
+    everything: Annotated[bool, typer.Option("--all", help="Record every topic.")] = False,
+    place: Annotated[
+        str | None,
+        typer.Option(
+            "--in", metavar="SCENARIO", help="Host this scenario, and record what it does."
+        ),
+    ] = None,
+    run_for: RunFor = None,
+    ring: Annotated[
+        Duration | None,
+        typer.Option(
+            metavar="SECONDS",
+            parser=duration(positive),
+            rich_help_panel=WHEN,
+            help="Keep only so much of the past, in memory, and write it in the end.",
+        ),
+    ] = None,
+    finding: Annotated[
+        str | None,
+        typer.Option(
+            "--on",
+            metavar="FINDING",
+            rich_help_panel=WHEN,
+            help="Write the last minute (--ring) when the doctor finds this, and stop.",
+        ),
+    ] = None,
+    max_size: Annotated[
+        str | None,
+        typer.Option(
+            metavar="SIZE",
+            rich_help_panel=OUTPUT,
+            help="Begin a new file from a size on: 500M, 2G.",
+        ),
+    ] = None,
+    max_duration: Annotated[
+        Duration | None,
+        typer.Option(
+            metavar="SECONDS",
+            parser=duration(positive),
+            rich_help_panel=OUTPUT,
+            help="Begin a new file after so long.",
+        ),
+    ] = None,
+    force: Annotated[
+        bool, typer.Option("--force", rich_help_panel=OUTPUT, help="Replace what FILE names.")
+    ] = False,
+    for_programs: Json = False,
+) -> ExitStatus:
+    """Record a session (ros2 bag record).
+
+    Every file begins with all statics. Ctrl-C ends it; what a recorder that was killed leaves,
+    a second is missing from at most, and 'tftool edit' makes it whole.
+
+    tftool record -o run.mcap
+    tftool record -o long --max-duration 600 --all
+    tftool record -o before.mcap --ring 30 --on two-parents
+    """
+    from tftool.cli.hosting import NO_SESSION, open_session
+    from tftool.cli.recording import RecordingRun, best_compression, tell
+    from tftool.nodes.recorder import Recorder
+    from tftool.runtime.clock import pace_of
+    from tftool.sources.writing.rolling import RecordLimits, RollingRecording
+    from tftool.views.escaping import visible
+
+    if finding is not None:
+        _check_finding(finding)
+        ring = ring or RING
+    if ring is not None and (max_size or max_duration):
+        raise UsageError(
+            "--ring writes one file in the end: leave out --max-size and --max-duration."
+        )
+    limits = RecordLimits(_size(max_size), max_duration or 0, ring or 0)
+    rolling = RollingRecording(output, limits, compression=best_compression(), force=force)
+    status = ExitStatus.DONE
+    try:
+        session = open_session(connection, place, needs_messages=True, because=NO_SESSION)
+    except BaseException:
+        rolling.discard()
+        raise
+    world = session.world
+    running: RecordingRun | None = None
+
+    async def recorded() -> None:
+        nonlocal running
+        # A scenario that ends ends its recording as well.
+        link = None if session.is_hosted else session.link
+        recorder = Recorder(world, rolling, link=link, names=topics or (), everything=everything)
+        clock = pace_of(world.clock)
+        running = RecordingRun(recorder, rolling, clock, finding)
+        try:
+            await running.run(run_for)
+        finally:
+            recorder.close()
+            running.clear()
+
+    try:
+        session.run(recorded())
+    except KeyboardInterrupt:
+        rolling.close()
+        sys.stdout.write(f"{_summed_up(rolling)}\n")
+        raise
+    finally:
+        # Whatever ends it: what was recorded is kept.
+        rolling.close()
+    assert running is not None
+    tell(rolling, running.recorder)
+    if running.found is not None:
+        status = ExitStatus.FAILED
+    if for_programs:
+        document = {
+            "output": str(output),
+            "files": rolling.files,
+            "messages": rolling.messages,
+            "transforms": rolling.transforms,
+            "topics": sorted(running.recorder.topics),
+            "finding": running.found.message if running.found is not None else None,
+        }
+        sys.stdout.write(json.dumps(document, indent=2) + "\n")
+    else:
+        if running.found is not None:
+            sys.stdout.write(f"{visible(running.found.message)}\n")
+        sys.stdout.write(f"{_summed_up(rolling)}\n")
+    return status
+
+
+def _summed_up(rolling: "RollingRecording") -> str:
+    from tftool.cli.recording import size_in_words
+    from tftool.views.escaping import visible
+
+    many = f" in {len(rolling.files)} files" if len(rolling.files) > 1 else ""
+    return (
+        f"{visible(str(rolling.path))}: {rolling.messages} messages, {rolling.transforms} "
+        f"transforms, {size_in_words(rolling.size)}{many}"
+    )
+
+
+def _size(text: str | None) -> int:
+    """A size as people write it."""
+    if text is None:
+        return 0
+    match = _SIZE.fullmatch(text.strip())
+    if match is None:
+        raise UsageError(f"--max-size takes a number and k, M or G, such as 500M, not '{text}'.")
+    found = int(float(match[1]) * _UNITS[match[2]])
+    if found < _LEAST_SIZE:
+        raise UsageError(f"--max-size {text} is less than a file needs: 100k at least.")
+    return found
+
+
+def _check_finding(name: str) -> None:
+    import difflib
+
+    from tftool.diagnostics.catalogue import CHECKS
+
+    if name not in CHECKS:
+        near = difflib.get_close_matches(name, CHECKS, n=3)
+        hint = (
+            f"did you mean {' or '.join(near)}?" if near else "'tftool doctor --list' names them."
+        )
+        raise UsageError(f"--on: the doctor has no finding '{name}'; {hint}")
