@@ -82,6 +82,8 @@ def test_one_option_is_spelt_alike_in_all_commands():
     other = {("demo", "--rate"), ("play", "--rate")}
     # A value of a node, and the pose of a link; the present, and what a recording knows.
     other |= {("edit", "--set"), ("edit", "--restamp")}
+    # One world's recording, and those of many.
+    other |= {("check", "--record")}
     spelt = {}
     for command in get_command(app.build(COMMANDS)).commands.values():
         for param in command.params:
