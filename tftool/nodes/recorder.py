@@ -6,15 +6,16 @@ from typing import Any, Final, Protocol
 
 from tftool.errors import InputError, MalformedMessage
 from tftool.frames.sample import TransformStamped
+from tftool.interfaces.classes import Message
 from tftool.link.seam import Arrived
 from tftool.link.session import Link
-from tftool.link.types import TRANSFORMS, MessageType, topic_type
 from tftool.runtime.clock import Clock, pace_of
 from tftool.runtime.endpoints import PUBLISHER
 from tftool.runtime.topics import Topic
 from tftool.runtime.world import TransformMessage, World
 from tftool.sources.writing.channel import Channel
-from tftool.sources.writing.recording import ros2_channel
+from tftool.sources.writing.recording import TRANSFORMS, ros2_channel
+from tftool.wire.codec import Codec, codec
 from tftool.wire.transforms import encode_transforms
 
 FRAMES: Final = ("tf", "tf_static")
@@ -141,21 +142,20 @@ class Recorder:
 
     def _subscribe(self, name: str, topic: Topic[Any]) -> None:
         try:
-            of_values: Any = topic.kind
-            kind = topic_type(of_values)
-            if kind is None:
+            if not issubclass(topic.kind, Message):
                 if name not in self._names:
                     self._inner.add(name)
                     return
                 raise InputError("it is nothing that travels between processes")
-            channel = self._channel(name, kind.ros_type, "")
+            channel = self._channel(name, topic.kind.interface__, "")
+            writer = codec(topic.kind)
         except InputError as error:
             self.left_out[name] = str(error).rstrip(".")
             return
         self.topics.add(name)
-        self._stops.append(topic.subscribe(partial(self._value, channel, kind), "recorder"))
+        self._stops.append(topic.subscribe(partial(self._value, channel, writer), "recorder"))
 
-    def _value(self, channel: Channel, kind: MessageType, value: Any) -> None:
+    def _value(self, channel: Channel, kind: Codec, value: Any) -> None:
         def put() -> None:
             try:
                 payload = kind.encode(value)
