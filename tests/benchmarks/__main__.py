@@ -9,6 +9,7 @@ from tests.benchmarks import (
     doctor,
     link,
     recordings,
+    robots,
     scalar,
     start_up,
     turtle_world,
@@ -25,6 +26,7 @@ REPORTS = {
     "demo": demo.report,
     "link": link.report,
     "recordings": recordings.report,
+    "robots": robots.report,
     "wire": wire.report,
     "doctor": doctor.report,
 }

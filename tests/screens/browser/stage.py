@@ -67,6 +67,10 @@ class Stage:
         """Show a robot on the page."""
         self.do(lambda world: self._page.show_robot(robot))
 
+    def pictures(self):
+        """How many pictures the open pages have been sent; none is sent before one is drawn."""
+        return self.do(lambda world: sum(client.sent for client in self._page.clients))
+
     def end(self):
         """End the session; its page is told."""
         if self._thread.is_alive():

@@ -1,0 +1,113 @@
+"""Robots: joint states to frames, and a robot of 130 links in a browser without a graphics card."""
+
+import asyncio
+import shutil
+import time
+
+import numpy as np
+
+from tftool.nodes.joints import MovingRobot
+from tftool.runtime.world import World
+from tftool.sources.joint_states import JointStates
+from tftool.sources.robot import Robot
+from tftool.sources.urdf import parse_description
+from tftool.stamps import seconds
+
+LINKS = 130
+ARMS = 10
+STATES, JOINTS = 200_000, 6
+WANTED_TRANSFORMS, WANTED_PICTURES = 3e6, 30.0
+LASTING = 10.0
+
+
+def arms(links: int, count: int) -> str:
+    """A robot of so many links in so many arms, each link a cylinder and a box."""
+    shapes = (
+        '<visual><origin xyz="0 0 0.1"/><geometry><cylinder radius="0.03" length="0.2"/>'
+        '</geometry></visual><visual><geometry><box size="0.08 0.08 0.08"/></geometry></visual>'
+    )
+    parts = [f'<link name="base">{shapes}</link>']
+    for n in range(links - 1):
+        arm, place = n % count, n // count
+        parent = f"link{n - count}" if place else "base"
+        origin = "0 0 0.2" if place else f"{0.5 * (arm % 5):.1f} {0.5 * (arm // 5):.1f} 0"
+        axis = ("0 0 1", "0 1 0", "1 0 0")[place % 3]
+        parts.append(
+            f'<link name="link{n}">{shapes}</link>'
+            f'<joint name="joint{n}" type="revolute"><origin xyz="{origin}"/><axis xyz="{axis}"/>'
+            f'<parent link="{parent}"/><child link="link{n}"/>'
+            '<limit lower="-0.5" upper="0.5" effort="1" velocity="1"/></joint>'
+        )
+    return f'<robot name="arms">{"".join(parts)}</robot>'
+
+
+def transforms_a_second() -> float:
+    """How many transforms a second joint states give, the buffer's own work included."""
+    robot = Robot(parse_description(arms(JOINTS + 1, 1)))
+    stamps = 10**9 + 10_000_000 * np.arange(STATES)
+    positions = np.random.default_rng(1).uniform(-0.5, 0.5, (STATES, JOINTS))
+    states = JointStates([f"joint{n}" for n in range(JOINTS)], stamps, positions)
+    times = []
+    for _ in range(7):
+        began = time.perf_counter()
+        robot.buffer(states)
+        times.append(time.perf_counter() - began)
+    return STATES * JOINTS / sorted(times)[len(times) // 2]
+
+
+def _moving(world: World, robot: Robot) -> MovingRobot:
+    return MovingRobot(world, file=robot, motion="sine", period=seconds(1 / 30))
+
+
+def pictures_a_second() -> float | None:
+    """How many pictures a second a headless browser draws of the robot; None without one."""
+    chromium, chromedriver = shutil.which("chromium"), shutil.which("chromedriver")
+    if not (chromium and chromedriver):
+        return None
+    from selenium import webdriver
+    from selenium.webdriver.chrome.service import Service
+
+    from tests.screens.browser.stage import Stage
+    from tests.screens.browser.test_page import FLAGS
+    from tftool.screens.browser.robots import ShownRobot
+
+    options = webdriver.ChromeOptions()
+    options.binary_location = chromium
+    for flag in FLAGS:
+        options.add_argument(flag)
+    robot = Robot(parse_description(arms(LINKS, ARMS)))
+    with Stage() as stage:
+        stage.do(lambda world: asyncio.ensure_future(_moving(world, robot).run()))
+        stage.show(ShownRobot(robot))
+        driver = webdriver.Chrome(options=options, service=Service(chromedriver))
+        try:
+            driver.get(f"{stage.url}#view=orbit&names=0")
+            while len(driver.execute_script("return tftool.robot().links")) < LINKS:
+                time.sleep(0.1)
+            time.sleep(2.0)
+            before, began = stage.pictures(), time.perf_counter()
+            time.sleep(LASTING)
+            return (stage.pictures() - before) / (time.perf_counter() - began)
+        finally:
+            driver.quit()
+
+
+def report() -> str:
+    """Measure, and say it in a few lines."""
+    rate = transforms_a_second()
+    lines = [
+        f"joint states to frames: {rate / 1e6:.1f} M transforms/s "
+        f"(wanted: {WANTED_TRANSFORMS / 1e6:.0f} M or more)"
+    ]
+    pictures = pictures_a_second()
+    lines.append(
+        "a robot in the browser: no chromium here"
+        if pictures is None
+        else f"a robot of {LINKS} links in headless Chromium: {pictures:.1f} pictures/s "
+        f"(wanted: {WANTED_PICTURES:.0f})"
+    )
+    return "\n".join(lines)
+
+
+if __name__ == "__main__":
+    print(report())  # noqa: T201
