@@ -2,6 +2,7 @@
 
 import asyncio
 import shutil
+import threading
 import time
 
 import numpy as np
@@ -18,6 +19,8 @@ ARMS = 10
 STATES, JOINTS = 200_000, 6
 WANTED_TRANSFORMS, WANTED_PICTURES = 3e6, 30.0
 LASTING = 10.0
+
+pause = threading.Event().wait
 
 
 def arms(links: int, count: int) -> str:
@@ -83,10 +86,10 @@ def pictures_a_second() -> float | None:
         try:
             driver.get(f"{stage.url}#view=orbit&names=0")
             while len(driver.execute_script("return tftool.robot().links")) < LINKS:
-                time.sleep(0.1)
-            time.sleep(2.0)
+                pause(0.1)
+            pause(2.0)
             before, began = stage.pictures(), time.perf_counter()
-            time.sleep(LASTING)
+            pause(LASTING)
             return (stage.pictures() - before) / (time.perf_counter() - began)
         finally:
             driver.quit()

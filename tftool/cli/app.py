@@ -65,11 +65,11 @@ ALONE = ("check", "convert", "edit", "help", "new")
 """Commands that share no session."""
 
 
-DESCRIBING = ("echo", "tree", "view", "info", "robot")
+DESCRIBING = ("echo", "tree", "view", "info", "robot", "export", "diff")
 """Commands whose FROM may be a robot description."""
 
 
-RECORDED_ROBOTS = ("echo", "tree", "view", "info", "doctor")
+RECORDED_ROBOTS = ("echo", "tree", "view", "info", "doctor", "export", "diff")
 """Commands whose FROM may be a recording without the description of its robot."""
 
 
