@@ -7,6 +7,7 @@ from tests.benchmarks import (
     batch,
     demo,
     doctor,
+    export,
     link,
     recordings,
     robots,
@@ -29,6 +30,7 @@ REPORTS = {
     "robots": robots.report,
     "wire": wire.report,
     "doctor": doctor.report,
+    "export": export.report,
 }
 """What is measured; add yours."""
 
