@@ -415,6 +415,16 @@ def test_an_interrupt_leaves_nothing(tftool, run, tmp_path, monkeypatch, number)
     assert sorted(tmp_path.iterdir()) == before
 
 
+def test_where_there_is_nothing_nothing_is_written(tmp_path):
+    with pytest.raises(library.UsageError, match="no frame"):
+        library.export(Buffer(), tmp_path / "a.mcap")
+    moving = Buffer()
+    moving.set_transform(TransformStamped(START, "odom", "base", Transform()))
+    with pytest.raises(library.UsageError, match="--with-moving adds those that move"):
+        library.export(moving, tmp_path / "a.urdf")
+    assert list(tmp_path.iterdir()) == []
+
+
 def test_in_python_a_file_is_written_in_one_line(buffer, tmp_path):
     done = library.export(buffer, tmp_path / "a.csv", pairs=[("odom", "base"), ("odom", "camera")])
 

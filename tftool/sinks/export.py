@@ -238,6 +238,8 @@ def write_links(
         InputError: If it cannot be written.
         UsageError: If there is nothing to write, or it does not fit the format.
     """
+    if not buffer.frames():
+        raise UsageError("There is no frame: there is nothing to write.")
     if form is Format.mcap:
         count = frame_messages.write_frames(
             buffer, path, foxglove=style.foxglove, force=force, progress=progress
@@ -252,7 +254,8 @@ def write_links(
     )
     if not links:
         below = "" if style.root is None else f" below '{style.root}'"
-        raise UsageError(f"No link{below} holds at all times: there is nothing to write.")
+        moving = " --with-moving adds those that move." if form is Format.urdf else ""
+        raise UsageError(f"No link{below} holds at all times: there is nothing to write.{moving}")
     name = path.name.partition(".")[0] or "robot"
     text = {
         Format.urdf: lambda: static_files.urdf(links, name),
