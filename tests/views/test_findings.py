@@ -46,6 +46,8 @@ def test_a_report_says_what_was_read_what_is_wrong_what_is_fine_and_how_much():
         "       so:  a player that publishes them from one node keeps only the last for late "
         "listeners",
         "       fix: start listeners before playing",
+        "            or bring them into one message:",
+        "            tftool edit RECORDING -o WHOLE --statics-first",
         "",
         "warning  teleport: base_link in odom jumps 2.51 m within 20 ms",
         "       base_link in odom: 2.51 m and 0° at 1750000005.020, once; usual 0.5 m/s",
@@ -54,7 +56,8 @@ def test_a_report_says_what_was_read_what_is_wrong_what_is_fine_and_how_much():
         "       fix: look at the source at that moment: encoder overflow, a reset of the filter, "
         "wheel slip",
         "",
-        "publishers fine · names fine · clocks fine (latency 5 ms tf, 15 ms /scan, 15 ms /image)",
+        "publishers fine · names fine · clocks fine (latency 5 ms tf, 15 ms /scan, 15 ms /image)"
+        " · robot description: skipped, no URDF given",
         "1 error, 1 warning, 1 note. `tftool doctor --explain split-tree` tells more; "
         "`--markdown` prints this for an issue.",
     ]
@@ -63,7 +66,7 @@ def test_a_report_says_what_was_read_what_is_wrong_what_is_fine_and_how_much():
 def test_a_clean_report_counts_the_checks():
     diagnosis = robot().judged()
     last = shown(findings.render(diagnosis)).splitlines()[-1]
-    assert last == f"nothing found; {diagnosis.ran} checks ran, 1 skipped (--verbose says why)"
+    assert last == f"nothing found; {diagnosis.ran} checks ran, 6 skipped (--verbose says why)"
     assert "skipped: static-not-latched: what publishers offer" in shown(
         findings.render(diagnosis, verbose=True)
     )

@@ -18,7 +18,7 @@ NEEDS = {
     "headers": "there are no messages with headers",
     "durability": "what publishers offer to late subscribers is not recorded",
     "odometry": "there are no odometry messages",
-    "description": "no robot description was given (--urdf FILE)",
+    "description": "no URDF given",
     "valid description": "the robot description has mistakes",
     "joint states": "there are no joint states",
 }
