@@ -161,3 +161,35 @@ def test_a_terminal_that_goes_is_left_as_it_was(tftool, simulated, monkeypatch):
 
     assert out.count("\x1b[?1049h") == out.count("\x1b[?1049l") == 1
     assert out.rindex("\x1b[?25h") > out.rindex("\x1b[?25l")
+
+
+TROUBLE = """
+duration: 12 s
+nodes:
+  - static: {parent: world, child: table}
+script:
+  - {at: 0 s, broadcast: {parent: world, child: cart, x: 1}, every: 0.1 s, for: 12 s}
+  - {at: 0 s, broadcast: {parent: cart, child: lamp, x: 1}, every: 0.1 s, for: 3 s}
+  - {at: 0 s, broadcast: {parent: world, child: cup, x: 1}, every: 0.1 s, for: 12 s}
+  - {at: 0.05 s, broadcast: {parent: cart, child: cup, x: 1}, every: 0.1 s, for: 11 s}
+"""
+
+
+def test_what_is_wrong_stands_beside_the_frame(tftool, tmp_path):
+    file = tmp_path / "trouble.yaml"
+    file.write_text(TROUBLE, encoding="utf-8")
+    result = tftool("tree", file, "--at", "8")
+    assert "lamp (edge-stopped) " in result.out
+    assert "cup (two-parents) " in result.out
+    assert "'tftool doctor --explain " in result.out
+    told = json.loads(tftool("tree", file, "--at", "8", "-f", "json").out)["frames"]
+    assert {one["frame"]: one["marks"] for one in told if one["marks"]} == {
+        "lamp": ["edge-stopped"], "cup": ["two-parents"],
+    }  # fmt: skip
+    # Three seconds in, the lamp is still there.
+    assert "edge-stopped" not in tftool("tree", file, "--at", "3").out
+
+
+def test_nothing_stands_beside_frames_that_are_as_they_should_be(tftool):
+    for name in ("turtles", "robot", "square"):
+        assert "doctor" not in tftool("tree", name).out

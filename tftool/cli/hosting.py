@@ -506,6 +506,14 @@ class Observed:
         """All frames as they were then, each at the latest moment of its chain."""
         return self.buffer.snapshot(self.now)
 
+    def marks(self) -> dict[str, tuple[str, ...]]:
+        """The frames that something is wrong with, and the ids of the doctor's checks."""
+        if self.moving is not None:
+            return {}  # a description at rest sends nothing
+        from tftool.diagnostics.asking import marks
+
+        return marks(self.buffer)
+
 
 def observe(
     connection: Connection,

@@ -1,9 +1,10 @@
 """Every tree of frames: as text for people, as data for programs."""
 
 import math
-from collections.abc import Collection, Iterator
+from collections.abc import Collection, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
-from typing import Any
+from types import MappingProxyType
+from typing import Any, TypeAlias
 
 from rich.cells import cell_len
 from rich.text import Text
@@ -39,6 +40,11 @@ class _Guides:
     blank: str = "    "
 
 
+Marks: TypeAlias = Mapping[str, Sequence[str]]
+"""Ids of the doctor's checks by frame."""
+
+NO_MARKS: Marks = MappingProxyType({})
+
 UNICODE = _Guides()
 ASCII = _Guides("|-- ", "`-- ", "|   ", "    ")
 
@@ -49,6 +55,7 @@ def render(
     width: int | None = None,
     ascii_only: bool = False,
     moving: Collection[str] | None = None,
+    marks: Marks = NO_MARKS,
 ) -> Text:
     """Draw every tree: one line a frame where that fits, else three.
 
@@ -57,6 +64,7 @@ def render(
         width: Columns there are; None for as many as it takes.
         ascii_only: Whether to keep to ASCII for the branches.
         moving: Of a robot description, the frames whose joint moves; None for other frames.
+        marks: What is wrong with frames: ids of the doctor's checks.
 
     Returns:
         Lines; nothing in a name acts on the terminal.
@@ -81,6 +89,9 @@ def render(
         text.append(f"\n{len(forest.roots)} separate trees: {listed}", style="yellow")
     text.append("\n")
 
+    for frame, ids in marks.items():
+        if frame in names:
+            names[frame] += f" ({', '.join(ids)})"
     branches = list(_branches(forest, names, ASCII if ascii_only else UNICODE))
     if moving is not None:
         branches = [_of_robot(branch, moving) for branch in branches]
@@ -89,13 +100,19 @@ def render(
         lines = list(_stacked(branches))
     for line in lines:
         text.append("\n").append_text(line)
+    if marks:
+        first = next(iter(marks.values()))[0]
+        told = f"What is in brackets is wrong: 'tftool doctor --explain {first}' tells more."
+        text.append(f"\n\n{told}", style="yellow")
     return text
 
 
-def as_object(snapshot: Snapshot, moving: Collection[str] | None = None) -> dict[str, Any]:
+def as_object(
+    snapshot: Snapshot, moving: Collection[str] | None = None, marks: Marks = NO_MARKS
+) -> dict[str, Any]:
     """The same for programs; stamps in nanoseconds, no fact as null."""
     if moving is not None:
-        told = as_object(snapshot)
+        told = as_object(snapshot, marks=marks)
         for frame in told["frames"]:
             frame["moves"] = frame["frame"] in moving
         return told
@@ -103,7 +120,10 @@ def as_object(snapshot: Snapshot, moving: Collection[str] | None = None) -> dict
         "recorded_at_ns": snapshot.now,
         "shown_at_ns": snapshot.at,
         "roots": list(snapshot.roots()),
-        "frames": [_frame_object(info) for info in snapshot.frames],
+        "frames": [
+            _frame_object(info) | {"marks": list(marks.get(info.frame, ()))}
+            for info in snapshot.frames
+        ],
     }
 
 

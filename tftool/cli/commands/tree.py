@@ -19,6 +19,7 @@ if TYPE_CHECKING:
     from tftool.cli.hosting import Session
     from tftool.frames.sample import Snapshot
     from tftool.runtime.log import LogRecord
+    from tftool.views.frame_tree import Marks
 
     Moving = frozenset[str] | None
 
@@ -74,7 +75,9 @@ def tree(
     """Show which frame hangs from which (rqt_tf_tree, view_frames).
 
     Every tree there is, and for every link: whether it is static, who broadcasts it, how
-    often, how long a past the buffer holds of it, and how old its newest data is.
+    often, how long a past the buffer holds of it, and how old its newest data is. Beside
+    a frame with two parents by turns, that is sent no more, or has another clock than the
+    others, stands the id of the doctor's check.
     A scenario is shown 5 s after its start, a recording at its end, if --at does not say.
 
     tftool tree                   the tree of what runs here
@@ -95,7 +98,8 @@ def tree(
     if run_for is not None:
         raise UsageError("--for goes with --watch; without it the tree is written once.")
     seen = observe(connection, place, at, cache_time=cache_time)
-    _write(seen.snapshot(), seen.moving, form, output)
+    marks = seen.marks() if form in (Format.tree, Format.json) else {}
+    _write(seen.snapshot(), seen.moving, form, output, marks)
     return ExitStatus.DONE
 
 
@@ -116,8 +120,10 @@ def _form_of(output: Path | None) -> Format:
     return known[suffix]
 
 
-def _write(snapshot: "Snapshot", moving: "Moving", form: Format, output: Path | None) -> None:
-    content = _content(snapshot, moving, form, to_file=output is not None)
+def _write(
+    snapshot: "Snapshot", moving: "Moving", form: Format, output: Path | None, marks: "Marks"
+) -> None:
+    content = _content(snapshot, moving, form, marks, to_file=output is not None)
     if output is None or str(output) == "-":
         if isinstance(content, bytes):
             if sys.stdout.isatty():
@@ -135,18 +141,21 @@ def _write(snapshot: "Snapshot", moving: "Moving", form: Format, output: Path | 
         raise InputError(f"'{output}' cannot be written: {error.strerror or error}.") from error
 
 
-def _content(snapshot: "Snapshot", moving: "Moving", form: Format, *, to_file: bool) -> str | bytes:
+def _content(
+    snapshot: "Snapshot", moving: "Moving", form: Format, marks: "Marks", *, to_file: bool
+) -> str | bytes:
     from tftool.cli.notices import notice
     from tftool.views import frame_tree
 
     if form is Format.json:
         import json
 
-        return json.dumps(frame_tree.as_object(snapshot, moving), indent=2, allow_nan=False) + "\n"
+        told = frame_tree.as_object(snapshot, moving, marks)
+        return json.dumps(told, indent=2, allow_nan=False) + "\n"
     if form is Format.yaml:
         return frame_tree.as_yaml(snapshot)
     if form is Format.tree:
-        return _drawn(snapshot, moving, to_file=to_file)
+        return _drawn(snapshot, moving, marks, to_file=to_file)
     from tftool.views.drawing import draw
 
     drawing = draw(snapshot, form.value)
@@ -155,7 +164,7 @@ def _content(snapshot: "Snapshot", moving: "Moving", form: Format, *, to_file: b
     return drawing.content
 
 
-def _drawn(snapshot: "Snapshot", moving: "Moving", *, to_file: bool) -> str:
+def _drawn(snapshot: "Snapshot", moving: "Moving", marks: "Marks", *, to_file: bool) -> str:
     """The tree as this terminal shows it; in full where there is none."""
     from rich.console import Console
 
@@ -168,6 +177,7 @@ def _drawn(snapshot: "Snapshot", moving: "Moving", *, to_file: bool) -> str:
         width=console.width if terminal else None,
         ascii_only=not to_file and console.options.ascii_only,
         moving=moving,
+        marks=marks,
     )
     if not terminal:
         return picture.plain + "\n"
@@ -182,6 +192,7 @@ def _watch(open_session: "Callable[[], Session]", duration: Duration | None) -> 
     from rich.text import Text
 
     from tftool.cli.notices import is_news
+    from tftool.diagnostics.asking import marks
     from tftool.runtime.clock import Phase, pace_of
     from tftool.runtime.stopping import leave_screen
     from tftool.views import frame_tree
@@ -212,6 +223,7 @@ def _watch(open_session: "Callable[[], Session]", duration: Duration | None) -> 
             while end is None or due <= end:
                 picture = frame_tree.render(
                     world.buffer.snapshot(world.clock.now()),
+                    marks=marks(world.buffer),
                     width=console.width,
                     ascii_only=console.options.ascii_only,
                 )
