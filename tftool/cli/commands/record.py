@@ -2,7 +2,9 @@
 
 import json
 import re
+import signal
 import sys
+import threading
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
@@ -137,6 +139,9 @@ def record(
             recorder.close()
             running.clear()
 
+    # A terminal that is closed ends it as Ctrl-C does.
+    if hasattr(signal, "SIGHUP") and threading.current_thread() is threading.main_thread():
+        signal.signal(signal.SIGHUP, lambda *_: signal.raise_signal(signal.SIGTERM))
     try:
         session.run(recorded())
     except KeyboardInterrupt:

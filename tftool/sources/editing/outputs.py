@@ -25,28 +25,8 @@ from tftool.sources.writing.rosbag1 import Rosbag1Writer
 from tftool.sources.writing.sqlite import SqliteWriter
 from tftool.stamps import Stamp
 
-CONTAINERS: Final = {".mcap": "mcap", ".db3": "db3", ".bag": "bag"}
-"""The container that each suffix names."""
-
 _LARGEST_CHUNK: Final = 1 << 26
 _HEAD = struct.Struct("<qqQ")
-
-
-def container_of(path: Path) -> str:
-    """The container that a name asks for; "" for a folder.
-
-    Raises:
-        UsageError: If it asks for one that is not written.
-    """
-    if not path.suffix:
-        return ""
-    found = CONTAINERS.get(path.suffix)
-    if found is None:
-        raise UsageError(
-            f"'{path.name}' names no container to write: .mcap, .db3 and .bag do, and a name "
-            "without a suffix is a folder as rosbag2 records it."
-        )
-    return found
 
 
 @dataclass(slots=True)

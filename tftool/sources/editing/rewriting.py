@@ -32,14 +32,15 @@ from tftool.sources.editing.changes import (
 )
 from tftool.sources.editing.inputs import EditedInput, open_input, open_tape
 from tftool.sources.editing.mcap_tape import McapChunk
-from tftool.sources.editing.outputs import EditedFile, container_of, digest
+from tftool.sources.editing.outputs import EditedFile, digest
 from tftool.sources.editing.rosbag1_tape import Rosbag1Chunk
 from tftool.sources.editing.tape import Block, Taken, Tape
 from tftool.sources.recording import Recording, open_recording
 from tftool.sources.writing.channel import Channel
+from tftool.sources.writing.containers import container_of
 from tftool.sources.writing.folder import FileFacts, metadata_text, write_metadata
 from tftool.sources.writing.recording import TRANSFORMS, ros2_channel
-from tftool.sources.writing.target import Target, check_room, failed
+from tftool.sources.writing.target import PART, Target, check_room, failed
 from tftool.stamps import Stamp
 from tftool.wire.splicing import TransformRow, TransformRows, encode_rows
 
@@ -112,6 +113,11 @@ def _refuse_the_input(inputs: Sequence[EditedInput], output: Path) -> None:
         for path in [Path(one.name), *one.paths]:
             if output.exists() and path.exists() and output.samefile(path):
                 raise UsageError(f"'{output}' is the input: name another output.")
+            part = output.with_name(output.name + PART)
+            if part.exists() and path.exists() and part.samefile(path):
+                raise UsageError(
+                    f"'{path}' is where '{output}' would be written: rename it before."
+                )
             if path.parent.resolve() == output.resolve() and output.exists():
                 raise UsageError(f"'{output}' holds the input: name another output.")
 

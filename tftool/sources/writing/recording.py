@@ -7,12 +7,11 @@ from pathlib import Path
 from types import TracebackType
 from typing import Any, Final
 
-from tftool.errors import UsageError
 from tftool.frames.sample import TransformStamped
 from tftool.interfaces.classes import INTERFACES, Message
 from tftool.sources.writing.channel import Channel, ContainerWriter
+from tftool.sources.writing.containers import container_of, open_container
 from tftool.sources.writing.definitions import known_hash, ros2_definition
-from tftool.sources.writing.mcap import McapWriter
 from tftool.sources.writing.offers import offers_text
 from tftool.sources.writing.target import Target, failed
 from tftool.stamps import Stamp
@@ -177,11 +176,12 @@ class RecordingWriter:
 def write_recording(
     path: "str | os.PathLike[str]",
     *,
-    compression: str = "zstd",
+    compression: str | None = None,
+    storage: str = "mcap",
     profile: str = "ros2",
     force: bool = False,
 ) -> RecordingWriter:
-    """Begin a recording: an MCAP file, of a name that ends in ".mcap".
+    """Begin a recording: MCAP, rosbag2 or a ROS 1 bag, as its name asks for.
 
         with tftool.write_recording("run.mcap") as recording:
             recording.static_transforms([laser_in_base])
@@ -190,23 +190,29 @@ def write_recording(
     It is written beside its place and comes to its name when it is whole.
 
     Args:
-        path: Where it comes to stand.
-        compression: "zstd", "lz4" or "none".
-        profile: Whose rules its channels follow: "ros2", "ros1", or "" for none.
+        path: A name that ends in ".mcap", ".db3" or ".bag"; without a suffix it is a folder as
+            rosbag2 records it.
+        compression: "zstd", "lz4" or "none" in MCAP (zstd if None), "bz2", "lz4" or "none" in
+            ROS 1 bags (none if None).
+        storage: What a folder holds: "mcap" or "sqlite3".
+        profile: Whose rules the channels of an MCAP file follow: "ros2", or "" for none.
         force: Whether it may replace what stands there.
 
     Raises:
         UsageError: If something stands there and `force` is not given, the name ends otherwise,
-            or the compression is not installed.
+            or the compression is not known or not installed.
         InputError: If it cannot be written there.
     """
     place = Path(path)
-    if place.suffix != ".mcap":
-        raise UsageError(f"'{place}' names no container to write: '.mcap' does.")
-    target = Target(place, force=force)
+    target = Target(place, folder=not container_of(place), force=force)
     try:
-        container = McapWriter(
-            target.part, profile=profile, library=library_name(), compression=compression
+        container = open_container(
+            target.part,
+            place,
+            storage=storage,
+            compression=compression,
+            profile=profile,
+            library=library_name(),
         )
     except OSError as error:
         target.discard()
