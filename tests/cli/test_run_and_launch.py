@@ -405,3 +405,24 @@ def test_ros2s_words_ask_the_session_and_are_refused_with_a_sentence(capsys):
     assert "invalid choice: 'topik'" in capsys.readouterr().err
     assert main(["ros2", "run", "turtlesim", "turtlesim_node"]) == 2
     assert "'ros2 run' is 'tftool run' here" in capsys.readouterr().err
+
+
+@pytest.mark.parametrize(
+    ("words", "said"),
+    [
+        (["launch"], "See it from another terminal: tftool demo --join · tftool view\n"),
+        (["launch", "--domain", "3"], "tftool demo --join --domain 3 · tftool view --domain 3\n"),
+        (["launch", "--simulated"], None),
+    ],
+)
+def test_a_person_is_told_once_where_to_look(capsys, monkeypatch, words, said):
+    def run(*, is_terminal):
+        monkeypatch.setattr(sys.stderr, "isatty", lambda: is_terminal)
+        file = ["pkg_tf", "carrot.launch.yaml", "--for", "0.1"]
+        assert main([words[0], *file, *words[1:]]) == 0
+        return capsys.readouterr().err
+
+    assert "another terminal" not in run(is_terminal=False)
+    shown = run(is_terminal=True)
+    assert shown.count("another terminal") == (said is not None)
+    assert (said or "") in shown

@@ -33,6 +33,7 @@ To work in a world while it lives (``echo``, ``monitor``, ``view``)::
 """
 
 import asyncio
+import sys
 from collections.abc import Awaitable, Callable, Coroutine, Iterator, Mapping
 from contextlib import contextmanager
 from dataclasses import dataclass, replace
@@ -600,6 +601,14 @@ def open_empty_session(connection: Connection, *, simulated: bool = False) -> Se
     else:
         world, link = World(connection.providers.wall_clock()), _open_link(connection)[0]
     return Session(world, True, "an empty world", lived(world, link, "source"), link=link)
+
+
+def tell_where_to_look(connection: Connection, session: Session) -> None:
+    """Say, to a person, how another terminal shows what runs here from now on."""
+    if session.link is None or not sys.stderr.isatty():
+        return
+    domain = f" --domain {connection.domain}" if connection.domain else ""
+    notice(f"See it from another terminal: tftool demo --join{domain} · tftool view{domain}")
 
 
 def refuse_to_share(connection: Connection, word: str | None) -> None:

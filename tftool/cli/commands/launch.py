@@ -45,7 +45,7 @@ def launch(
     import sys
     from pathlib import Path
 
-    from tftool.cli.hosting import open_empty_session, open_session
+    from tftool.cli.hosting import open_empty_session, open_session, tell_where_to_look
     from tftool.cli.notices import notice, tell_record
     from tftool.errors import NodeFailed, TftoolError, UsageError
     from tftool.ros.host import hosting
@@ -69,6 +69,7 @@ def launch(
             # It brings all there is to it, and shares a session that runs all the same.
             session = open_empty_session(connection, simulated=simulated)
         connection.tell_read_only()
+        tell_where_to_look(connection, session)
         world = session.world
 
         def say(level: str, who: str, text: str) -> None:

@@ -91,7 +91,7 @@ def run(
     """
     from pathlib import Path
 
-    from tftool.cli.hosting import NO_SESSION, open_empty_session, open_session
+    from tftool.cli.hosting import NO_SESSION, open_empty_session, open_session, tell_where_to_look
     from tftool.cli.notices import notice, tell_record
     from tftool.errors import UsageError
     from tftool.ros.host import hosting
@@ -123,6 +123,7 @@ def run(
                 because=SIMULATED if simulated else NO_SESSION,
             )
         connection.tell_read_only()
+        tell_where_to_look(connection, session)
         world = session.world
 
         def tell(record: "LogRecord") -> None:
