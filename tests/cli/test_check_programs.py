@@ -12,7 +12,7 @@ LISTENER = TUTORIAL / "pkg_tf" / "pkg_tf" / "turtle_following.py"
 BROADCASTER = TUTORIAL / "pkg_tf" / "pkg_tf" / "turtle_tf_broadcaster.py"
 
 ROOT = TUTORIAL.parent.parent
-README = (ROOT / "README.md").read_text(encoding="utf-8")
+PAGE = (ROOT / "docs" / "do" / "nodes.md").read_text(encoding="utf-8")
 EXERCISE = re.findall(
     r"^```yaml\n(about: Write the listener.*?)^```$",
     (ROOT / "scenarios" / "README.md").read_text(encoding="utf-8"),
@@ -93,7 +93,7 @@ def test_a_listener_that_looks_the_wrong_way_round_fails_with_what_was_found(tft
 def test_the_readme_shows_what_a_wrong_listener_is_told(tftool, broken):
     file = broken("math.atan2", "-math.atan2")
     result = tftool("check", "turtles", "--run", f"follower={file}")
-    shown = re.findall(r"^```text\n(turtles  FAILED.*?)^```$", README, re.MULTILINE | re.DOTALL)
+    shown = re.findall(r"^```text\n(turtles  FAILED.*?)^```$", PAGE, re.MULTILINE | re.DOTALL)
 
     assert result.status == 1
     assert [result.out.startswith(block) for block in shown] == [True]

@@ -153,12 +153,12 @@ NODE = "import rclpy\nrclpy.init()\nnode = rclpy.create_node('mine')\n"
         (
             "import rclpy.waitable\n",
             1,
-            "rclpy.waitable is not covered. The section 'What is covered'",
+            "rclpy.waitable is not covered. The page 'What of ROS is covered'",
         ),
         (
             "from rclpy.node import ActionClient\n",
             1,
-            "'ActionClient' of rclpy.node is not covered; rclpy.action has it. The section",
+            "'ActionClient' of rclpy.node is not covered; rclpy.action has it. The page",
         ),
         (
             "from geometry_msgs.msg import Pose3\n",
@@ -232,11 +232,10 @@ def test_where_a_real_ros_is_sourced_we_stand_back_unless_told(tmp_path, capsys,
     assert main(["launch", "pkg_tf", "turtle_following.launch.py", *SIMULATED, "--ros-free"]) == 0
 
 
-README = (TUTORIAL.parent.parent / "README.md").read_text(encoding="utf-8")
-SECTION = README.partition("## The tutorial, line by line\n")[2].partition("\n## ")[0]
+PAGE = (TUTORIAL.parent.parent / "docs" / "do" / "nodes.md").read_text(encoding="utf-8")
 LINES = [
     command
-    for row in re.findall(r"^\| `.*\| (.*) \|$", SECTION, re.MULTILINE)
+    for row in re.findall(r"^\| `.*\| (.*) \|$", PAGE, re.MULTILINE)
     for command in re.findall(r"`(tftool [^`]*)`", row)
 ]
 
@@ -246,7 +245,7 @@ STAYING = {"tftool teleop", "tftool view"}
 
 
 @pytest.mark.parametrize("line", [line for line in LINES if line not in STAYING])
-def test_every_line_of_the_readmes_table_works(line, tftool, simulated):
+def test_every_line_of_the_pages_table_works(line, tftool, simulated):
     command, *words = shlex.split(line)[1:]
     if command in ("run", "launch") and "--show-args" not in words:
         words = [*SIMULATED, *words]

@@ -252,7 +252,7 @@ def test_what_is_not_covered_is_named_with_where_to_look(tmp_path, line, told):
         launch(file, seconds=1)
 
     assert told in str(refused.value)
-    assert "section 'What is covered' of tftool's README" in str(refused.value)
+    assert "page 'What of ROS is covered' in tftool's docs" in str(refused.value)
     assert f"a.launch.py:1, in <module>: {line}" in str(refused.value)
 
 

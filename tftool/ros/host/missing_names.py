@@ -10,7 +10,7 @@ FEW = 12
 """So many names are told in a sentence; more would hide what it says."""
 
 WHERE_TO_LOOK = (
-    "the section 'What is covered' of tftool's README lists what runs without ROS; "
+    "the page 'What of ROS is covered' in tftool's docs lists what runs without ROS; "
     "with a sourced ROS 2 the real module is used"
 )
 
