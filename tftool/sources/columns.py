@@ -1,12 +1,13 @@
 """Recorded messages in, transforms out: columns per edge that grow as a file is read."""
 
-import struct
 from array import array
 from collections import Counter
+from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import Final
+from typing import Any, Final
 
 import numpy as np
+import numpy.typing as npt
 
 from tftool.errors import MalformedMessage, TftoolError
 from tftool.sources.contract import Edge, Indexes, Publisher, Stamps, Transforms
@@ -32,7 +33,7 @@ _TEMPLATE_BYTES: Final = 16_000_000
 _WORTH_A_TEMPLATE: Final = 4
 _FEW: Final = 256  # messages that wait for others: an array operation costs a microsecond
 _LITTLE_HEADER: Final = 0x00000100
-_RECORD: Final = struct.Struct("<q7d")
+_MOST_AHEAD: Final = 16  # times as many rows as have come, at most, are made room for
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -72,31 +73,97 @@ class Batch:
         )
 
 
-class _Growing:
-    """One edge while it is read: arrays that grow in place, which numpy's do not."""
+class _Column:
+    """An array that grows in place: room that is not written yet costs no memory.
 
-    __slots__ = ("child", "messages", "ordered", "parent", "records", "slashed", "static")
+    Attributes:
+        count: Rows that are in it.
+    """
+
+    __slots__ = ("_rows", "count")
+
+    def __init__(self, kind: type, *width: int) -> None:
+        self._rows: npt.NDArray[Any] = np.empty((0, *width), dtype=kind)
+        self.count = 0
+
+    def room(self, count: int, share: float = 1.0) -> npt.NDArray[Any]:
+        """So many rows more, to be written.
+
+        Args:
+            count: How many.
+            share: How much of all has come with them, from 0 to 1.
+        """
+        first = self.count
+        self.count = needed = first + count
+        if needed > len(self._rows):
+            # What is there to come is known roughly; to copy what has come costs more than
+            # addresses that are never used.
+            most = needed * _MOST_AHEAD
+            likely = int(needed / share * 1.02) if share * most > needed else most
+            before = self._rows
+            rows = self._made(max(likely, needed * 3 // 2, 16))
+            rows[:first] = before[:first]
+            self._rows = rows
+        return self._rows[first:needed]
+
+    def _made(self, count: int) -> npt.NDArray[Any]:
+        return np.empty((count, *self._rows.shape[1:]), dtype=self._rows.dtype)
+
+    def all(self) -> npt.NDArray[Any]:
+        """What is in it."""
+        return self._rows[: self.count]
+
+
+class _RecordColumn(_Column):
+    """The same of records, as the buffer's histories keep them: they take them uncopied."""
+
+    __slots__ = ("_words",)
+
+    def __init__(self) -> None:
+        super().__init__(np.int64, 8)
+        self._words = array("q")
+
+    def _made(self, count: int) -> npt.NDArray[Any]:
+        self._words = array("q", [0]) * (count * 8)
+        return np.frombuffer(self._words, dtype=np.int64).reshape(-1, 8)
+
+    def all(self) -> npt.NDArray[Any]:
+        """What is in it; nothing is written behind it any more."""
+        self._rows = np.empty((0, 8), dtype=np.int64)
+        try:
+            del self._words[self.count * 8 :]
+        except BufferError:  # something still looks at the room that is left
+            self._words = self._words[: self.count * 8]
+        return np.frombuffer(self._words, dtype=np.int64).reshape(-1, 8)
+
+
+class _Growing:
+    """One edge while it is read."""
+
+    __slots__ = ("child", "last", "messages", "ordered", "parent", "records", "slashed", "static")
 
     def __init__(self, parent: str, child: str, static: bool) -> None:
         self.parent = parent
         self.child = child
         self.static = static
         self.slashed = 0
-        self.records = array("q")
-        self.messages = array("i")
+        self.records = _RecordColumn()
+        self.messages = _Column(np.int32)
         self.ordered = True
+        self.last = -1
 
-    def append(self, records: Records, messages: Indexes) -> None:
-        """Append transforms, and the message each came in."""
-        if self.ordered and self.messages and self.messages[-1] > messages[0]:
+    def room(self, messages: Indexes, share: float) -> Records:
+        """Where to write a transform of each of some messages."""
+        if self.last > int(messages[0]):
             self.ordered = False
-        self.records.frombytes(records.view(np.uint8).data)
-        self.messages.frombytes(np.ascontiguousarray(messages).view(np.uint8).data)
+        self.last = int(messages[-1])
+        self.messages.room(len(messages), share)[:] = messages
+        found: Records = self.records.room(len(messages), share)
+        return found
 
     def finished(self) -> Edge:
         """As a value, in the order of the messages."""
-        records: Records = np.frombuffer(self.records, dtype=np.int64).reshape(-1, 8)
-        messages: Indexes = np.frombuffer(self.messages, dtype=np.int32)
+        records, messages = self.records.all(), self.messages.all()
         if not self.ordered:
             # Stable: one message may bring an edge twice.
             order = np.argsort(messages, kind="stable")
@@ -107,20 +174,31 @@ class _Growing:
 class Table:
     """All edges of a source while it is read, and the messages they came in."""
 
-    def __init__(self) -> None:
+    def __init__(self, expected: int = 0) -> None:
+        """Begin with none.
+
+        Args:
+            expected: About how many messages are to come.
+        """
         self._edges: dict[tuple[str, str, bool], _Growing] = {}
-        self._log_times = array("q")
-        self._senders = array("i")
+        self._expected = expected
+        self._log_times = _Column(np.int64)
+        self._senders = _Column(np.int32)
         self._left_out = 0
         self.refused: Counter[str] = Counter()
         """How many messages were refused, by the reason."""
 
     def note(self, log_times: Stamps, senders: Indexes) -> int:
         """Number messages; the number of the first."""
-        first = len(self._log_times)
-        self._log_times.frombytes(np.ascontiguousarray(log_times).view(np.uint8).data)
-        self._senders.frombytes(np.ascontiguousarray(senders).view(np.uint8).data)
+        first = self._log_times.count
+        share = self.share(first + len(log_times))
+        self._log_times.room(len(log_times), share)[:] = log_times
+        self._senders.room(len(senders), share)[:] = senders
         return first
+
+    def share(self, messages: int) -> float:
+        """How much of all has come with so many messages."""
+        return min(messages / self._expected, 1.0) if self._expected else 1.0
 
     def edge(self, parent: str, child: str, static: bool, count: int) -> "_Growing | None":
         """The edge to which to append so many transforms; None where there are too many."""
@@ -149,10 +227,13 @@ class Table:
         edge = self.edge(parent, child, static, 1)
         if edge is None:
             return
-        if edge.ordered and edge.messages and edge.messages[-1] > message:
+        if edge.last > message:
             edge.ordered = False
-        edge.records.frombytes(_RECORD.pack(stamp, *seven))
-        edge.messages.append(message)
+        edge.last = message
+        edge.messages.room(1)[0] = message
+        record = edge.records.room(1)[0]
+        record[0] = stamp
+        record.view(np.float64)[1:] = seven
 
     def finished(self, publishers: tuple[Publisher, ...]) -> Transforms:
         """Everything as columns."""
@@ -167,8 +248,8 @@ class Table:
             )
         return Transforms(
             tuple(edge.finished() for edge in self._edges.values()),
-            np.frombuffer(self._log_times, dtype=np.int64),
-            np.frombuffer(self._senders, dtype=np.int32),
+            self._log_times.all(),
+            self._senders.all(),
             publishers,
             tuple(damage),
         )
@@ -182,6 +263,8 @@ class Cutter:
         self._layout = layout
         self._static = static
         self._templates: dict[int, list[Template]] = {}
+        # Of a length: for how many layouts, which word tells them apart, and which part of it.
+        self._told: dict[int, tuple[int, int, int]] = {}
         self._bytes = 0
         self._waiting: list[tuple[Batch, Indexes]] = []
         self._count = 0
@@ -234,28 +317,30 @@ class Cutter:
     def _cut_equal(self, batch: Batch, numbers: Indexes, length: int) -> None:
         """Cut messages that are equally long."""
         begin, width = row_span(self._layout, length)
-        starts = batch.starts + begin
-        if width < 72 or int(starts.min()) < 0:
+        if width < 72:
             self._walk(batch, numbers)
             return
-        if self._layout is CDR:
-            heads = words_at(batch.buffer, batch.starts, "<u4")
-            odd = np.flatnonzero(heads != _LITTLE_HEADER)
-            if len(odd):
-                self._walk(batch.chosen(odd), numbers[odd])
-                plain = np.flatnonzero(heads == _LITTLE_HEADER)
-                batch, numbers, starts = batch.chosen(plain), numbers[plain], starts[plain]
-                if not len(plain):
-                    return
-        rows = rows_of(batch.buffer, starts, width)
+        if int(batch.starts.min()) + begin < 0:
+            buffer = np.concatenate([np.zeros(8, dtype=np.uint8), batch.buffer])
+            batch = Batch(buffer, batch.starts + 8, batch.lengths, batch.log_times, batch.senders)
         templates = self._templates.setdefault(length, [])
+        if len(templates) > 1:
+            batch, numbers = self._cut_told(batch, numbers, length)
+            if not len(batch):
+                return
+        rows = rows_of(batch.buffer, batch.starts + begin, width)
         tried = 0
         while len(rows):
-            if tried == len(templates) and (
-                tried >= _PER_LENGTH or not self._learn(batch.payload(0), length)
-            ):
-                self._walk(batch, numbers)
-                return
+            if tried == len(templates):
+                if self._layout is CDR and int(rows[0, 0]) >> 32 != _LITTLE_HEADER:
+                    odd = rows[:, 0] >> np.uint64(32) != _LITTLE_HEADER
+                    self._walk(batch.chosen(np.flatnonzero(odd)), numbers[odd])
+                    rest = np.flatnonzero(~odd)
+                    rows, numbers, batch = rows[rest], numbers[rest], batch.chosen(rest)
+                    continue
+                if tried >= _PER_LENGTH or not self._learn(batch.payload(0), length):
+                    self._walk(batch, numbers)
+                    return
             template = templates[tried]
             fits = template.fits(rows)
             if fits is None:
@@ -269,6 +354,38 @@ class Cutter:
                 rows, numbers, batch = rows[rest], numbers[rest], batch.chosen(rest)
             tried += 1
 
+    def _cut_told(self, batch: Batch, numbers: Indexes, length: int) -> tuple[Batch, Indexes]:
+        """Cut messages of layouts that one word tells apart: each row is copied only once.
+
+        Returns:
+            What is left, of layouts that are not known yet, in a batch and its numbers.
+        """
+        templates = self._templates[length]
+        told = self._told.get(length)
+        if told is None or told[0] != len(templates):
+            told = self._told[length] = (len(templates), *telling_word(templates))
+        _, word, mask = told
+        if not mask:
+            return batch, numbers
+        begin, width = row_span(self._layout, length)
+        starts = batch.starts + begin
+        found = words_at(batch.buffer, starts + 8 * word, "<u8")
+        found &= np.uint64(mask)
+        left = np.ones(len(batch), dtype=np.bool_)
+        for template in templates:
+            which = np.flatnonzero(found == np.uint64(template.value(word, mask)))
+            if not len(which):
+                continue
+            rows = rows_of(batch.buffer, starts[which], width)
+            fits = template.fits(rows)
+            if fits is not None:
+                which, rows = which[fits], rows[fits]
+            if len(which):
+                self._append(template, rows, numbers[which])
+                left[which] = False
+        rest = np.flatnonzero(left)
+        return batch.chosen(rest), numbers[rest]
+
     def _learn(self, payload: bytes, length: int) -> bool:
         """Make a template of a message; whether it could be one."""
         try:
@@ -279,6 +396,7 @@ class Cutter:
         if self._bytes > _TEMPLATE_BYTES:
             self._bytes = 0
             self._templates = {length: self._templates[length]}
+            self._told.clear()
         self._templates[length].append(Template(self._layout, payload, walked))
         return True
 
@@ -286,7 +404,8 @@ class Cutter:
         for place in template.places:
             edge = self._table.edge(place.parent, place.child, self._static, len(rows))
             if edge is not None:
-                edge.append(template.cut(rows, place), numbers)
+                share = self._table.share(int(numbers[-1]) + 1)
+                template.cut(rows, place, edge.room(numbers, share))
 
     def _walk(self, batch: Batch, numbers: Indexes) -> None:
         """Read messages one by one, whatever is odd about them."""
@@ -323,6 +442,15 @@ class Decoding:
 
     def flush(self) -> None:
         """Nothing waits."""
+
+
+def telling_word(templates: Sequence[Template]) -> tuple[int, int]:
+    """A word that differs between all of some templates, and which part of it; 0 for none."""
+    for word, mask in templates[0].constants():
+        values = [template.value(word, mask) for template in templates]
+        if -1 not in values and len(set(values)) == len(values):
+            return word, mask
+    return 0, 0
 
 
 def words_at(buffer: Bytes, places: Stamps, kind: str) -> Stamps:

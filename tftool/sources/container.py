@@ -102,6 +102,9 @@ class Container(Protocol):
     def counts(self) -> list[int]:
         """How many messages each stream has."""
 
+    def expected(self, wanted: Collection[int]) -> int:
+        """About how many messages some streams have; 0 where that is not known."""
+
     @property
     def damage(self) -> list[str]:
         """What is wrong with it, as sentences; reading may add to them."""

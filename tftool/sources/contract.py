@@ -228,6 +228,10 @@ class Source(Protocol):
         """Log time of the last message; 0 where there is none."""
 
     @property
+    def names(self) -> frozenset[str]:
+        """Names of its topics; to count their messages may take a while, and this does not."""
+
+    @property
     def topics(self) -> tuple[RecordedTopic, ...]:
         """Every topic, by name; each name once."""
 

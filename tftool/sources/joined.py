@@ -55,6 +55,10 @@ class Joined:
             *(f"{name}: {damage}" for name, part in self._parts for damage in part.damage),
         ]
 
+    def expected(self, wanted: Collection[int]) -> int:
+        """Not known before every part is read."""
+        return 0
+
     def batches(
         self, wanted: Collection[int], progress: Progress | None = None, head: int | None = None
     ) -> Iterator[Batch]:

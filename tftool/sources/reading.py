@@ -112,6 +112,11 @@ class Recorded:
             self._notes.append(damage)
 
     @property
+    def names(self) -> frozenset[str]:
+        """Names of its topics."""
+        return frozenset(stream.topic for stream in self._container.streams)
+
+    @property
     def topics(self) -> tuple[RecordedTopic, ...]:
         """Every topic, by name; each name once."""
         first: dict[str, MessageStream] = {}
@@ -143,7 +148,8 @@ class Recorded:
         self, topics: Collection[str] | None = None, progress: Progress | None = None
     ) -> Transforms:
         """Every transform; of topics that are named, else of all whose type carries them."""
-        table = Table()
+        chosen = [n for n, one in enumerate(self._container.streams) if self._gives(one, topics)]
+        table = Table(self._container.expected(chosen))
         cutters: dict[tuple[Layout, bool], Cutter] = {}
         of_stream: dict[int, Cutter | Decoding] = {}
         for number, stream in enumerate(self._container.streams):
@@ -172,6 +178,10 @@ class Recorded:
         for cutter in cutters.values():
             cutter.flush()
         return table.finished(self._senders)
+
+    def _gives(self, stream: MessageStream, topics: Collection[str] | None) -> bool:
+        """Whether a stream's messages are read for their transforms."""
+        return _has_transforms(stream) if topics is None else stream.topic in topics
 
     def headers(
         self, topics: Collection[str] | None = None, progress: Progress | None = None

@@ -33,6 +33,7 @@ from tftool.sources.contract import (
     Transforms,
 )
 from tftool.sources.described import (
+    DESCRIPTION,
     DescribedFrames,
     add_described,
     description_topics,
@@ -270,6 +271,8 @@ class Recording:
         """
         if self._robot is not None:
             return self._robot
+        if not any(name.rpartition("/")[2] == DESCRIPTION for name in self.source.names):
+            return None
         for topic in description_topics(self.topics):
             try:
                 return read_description(self.source, topic)

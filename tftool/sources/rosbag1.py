@@ -254,6 +254,10 @@ class Rosbag1:
 
     # Messages
 
+    def expected(self, wanted: Collection[int]) -> int:
+        """How many messages some streams have, by what the file tells."""
+        return sum(self.counts[number] for number in wanted)
+
     def batches(
         self, wanted: Collection[int], progress: Progress | None = None, head: int | None = None
     ) -> Iterator[Batch]:

@@ -177,6 +177,7 @@ class _Unpacked:
         self.streams = self._inner.streams
         self.damage = self._inner.damage
         self.batches = self._inner.batches
+        self.expected = self._inner.expected
 
     @property
     def counts(self) -> list[int]:

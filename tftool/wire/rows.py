@@ -7,7 +7,7 @@ length it is only checked, word by word, that everything else is the same.
 
 import struct
 from dataclasses import dataclass
-from typing import Final, TypeAlias
+from typing import Any, Final, TypeAlias
 
 import numpy as np
 import numpy.typing as npt
@@ -146,12 +146,12 @@ def row_span(layout: Layout, length: int) -> tuple[int, int]:
     """How the row of a message of that length lies to its bytes, in whole words.
 
     Returns:
-        Where the row begins, from the first byte of the message on, and its length. ROS 1's
-        rows begin before the message, up to 7 bytes; ROS 2's behind the header, on whose
-        grid of 8 all doubles lie.
+        Where the row begins, from the first byte of the message on, and its length. Rows begin
+        before the message: ROS 1's up to 7 bytes; ROS 2's 4, so that its doubles, which lie on
+        a grid of 8 behind the header, do so in the row.
     """
     if layout is CDR:
-        return 4, max(0, length - 4) & ~7
+        return -4, (length + 4) & ~7
     before = -length % 8
     return -before, length + before
 
@@ -174,6 +174,13 @@ def rows_of(buffer: Bytes, starts: npt.NDArray[np.int64], width: int) -> Words:
     return items[starts].view(np.uint64).reshape(len(starts), width // 8)
 
 
+def _items(rows: npt.NDArray[Any], begin: int, size: int) -> npt.NDArray[np.void]:
+    """The same bytes of every row, as single items: numpy copies each in one go."""
+    return np.ndarray(
+        (len(rows),), f"V{size}", buffer=rows.data, offset=begin, strides=rows.strides[:1]
+    )
+
+
 class Template:
     """What all messages of one layout, length and set of frames have in common.
 
@@ -191,14 +198,28 @@ class Template:
         mask = np.zeros(width, dtype=np.uint8)
         row = np.zeros(width, dtype=np.uint8)
         for first, end in walked.fixed:
-            # The header lies before the row, and is looked at apart.
-            place = slice(max(first - begin, 0), end - begin)
+            place = slice(first - begin, end - begin)
             mask[place] = 0xFF
-            row[place] = np.frombuffer(payload, np.uint8)[place.start + begin : end]
+            row[place] = np.frombuffer(payload, np.uint8)[first:end]
         masks = mask.view(np.uint64)
         self._words = np.flatnonzero(masks)
         self._masks = masks[self._words]
         self._values = row.view(np.uint64)[self._words]
+
+    def value(self, word: int, mask: int) -> int:
+        """What stands in a word of its rows, as far as that is the same in all of them.
+
+        Returns:
+            The word under the mask; -1 where what it covers may differ.
+        """
+        place = int(np.searchsorted(self._words, word))
+        if place == len(self._words) or self._words[place] != word:
+            return -1
+        return int(self._values[place]) & mask if int(self._masks[place]) & mask == mask else -1
+
+    def constants(self) -> list[tuple[int, int]]:
+        """Each word that is the same in all its rows, at least in part, and which part."""
+        return list(zip(self._words.tolist(), self._masks.tolist(), strict=True))
 
     def fits(self, rows: Words) -> "npt.NDArray[np.bool_] | None":
         """Which rows have its frames, shape (n,); None where all do."""
@@ -210,17 +231,13 @@ class Template:
         found: npt.NDArray[np.bool_] = np.logical_not(apart.any(axis=1))
         return found
 
-    def cut(self, rows: Words, place: Place) -> Records:
-        """One transform out of each row."""
-        raw = rows.view(np.uint8)
-        count = len(rows)
-        records = np.empty((count, 8), dtype=np.int64)
-        begin = place.numbers - self._begin
-        records.view(np.uint8)[:, 8:] = raw[:, begin : begin + 56]
-        begin = place.stamp - self._begin
-        times = np.ascontiguousarray(raw[:, begin : begin + 8])
-        stamps = records[:, 0]
-        stamps[:] = times.view("<i4")[:, 0]
+    def cut(self, rows: Words, place: Place, records: Records) -> None:
+        """Write one transform out of each row into records, shape (n, 8)."""
+        if not len(rows):
+            return
+        _items(records, 8, 56)[:] = _items(rows, place.numbers - self._begin, 56)
+        times = _items(rows, place.stamp - self._begin, 8).copy().view(np.int32).reshape(-1, 2)
+        stamps = times[:, 0].astype(np.int64)
         stamps *= NANOSECONDS
-        stamps += times.view("<u4")[:, 1]
-        return records
+        stamps += times[:, 1].view(np.uint32)
+        records[:, 0] = stamps
