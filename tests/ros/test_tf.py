@@ -510,3 +510,28 @@ def test_spin_once_ends_when_transforms_arrive_and_spin_is_not_woken(node, ros_r
     assert ros_runtime.elapsed() == 4.0
     rclpy.spin_once(node, timeout_sec=0.5)
     assert ros_runtime.elapsed() == 4.5
+
+
+@pytest.mark.parametrize(
+    ("turn", "told"),
+    [
+        ((0.0, 0.0, 0.0, 0.0), "is all zeros"),
+        ((0.0, 0.0, 0.7, 0.8), "has length 1.063, not 1"),
+        ((0.0, 0.0, 90.0, 1.0), "quaternion_from_euler makes one of radians"),
+    ],
+)
+def test_a_rotation_that_ros_would_refuse_is_told_once_where_it_is_sent(
+    node, ros_runtime, turn, told
+):
+    from rclpy.time import Time
+    from tf2_ros import TransformBroadcaster
+
+    broadcaster = TransformBroadcaster(node)
+    for second in range(1, 21):
+        broadcaster.sendTransform(transform("world", "robot", Time(seconds=second), xyzw=turn))
+
+    said = [line for line in ros_runtime.log("probe") if "the rotation of 'robot'" in line]
+    assert len(said) == 1
+    assert told in said[0]
+    # What the buffer refuses again and again it says ever more rarely.
+    assert len(ros_runtime.log("buffer")) in (0, 4)

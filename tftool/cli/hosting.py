@@ -44,6 +44,7 @@ from tftool.cli.connection import Connection, Mode
 from tftool.cli.described import RobotAtRest
 from tftool.cli.notices import notice, tell_news
 from tftool.cli.options import At
+from tftool.cli.rivals import twins
 from tftool.errors import InputError, LinkError, UsageError
 from tftool.frames.sample import TransformStamped
 from tftool.geometry.rigid import Transform
@@ -465,7 +466,9 @@ def open_session(
     try:
         scenario = scenario_named(word or HOME)
         if word is None:
-            notice(f"{because}: hosting scenario '{HOME}'.")
+            # For a program of the user's, nothing of the scenario moves.
+            hosted = f"scenario '{HOME}'" if without is None else "a turtlesim alone"
+            notice(f"{because}: hosting {hosted}.")
         if by_hand:
             scenario = left_to_a_person(scenario)
         if without is not None:
@@ -557,6 +560,8 @@ def observe(
         joined = join_session(connection, cache_time=cache_time)
         if joined is not None:
             joined.run(joined.lasting(LISTEN_LIVE))
+            for sentence in twins(joined.world):
+                notice(sentence)
             clock = joined.world.clock
             return Observed(joined.name, joined.world.buffer, clock.epoch, clock.now())
     session = open_session(

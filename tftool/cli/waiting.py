@@ -16,7 +16,7 @@ from tftool.frames.buffer import Buffer
 from tftool.frames.sample import TransformStamped
 from tftool.runtime.clock import pace_of
 from tftool.runtime.world import World
-from tftool.stamps import LATEST, Duration, Stamp, seconds
+from tftool.stamps import LATEST, Duration, Stamp, as_seconds, seconds
 from tftool.views import echo as view
 from tftool.views.escaping import visible, visible_lines
 
@@ -166,6 +166,13 @@ class Waiter:
             self._told = kind
             words = view.in_words(self.pair.target, self.pair.source)
             notice(f"Waiting for {words}: {visible_lines(reason.rstrip())}")
+            kept = self.world.buffer.cache_time
+            if -self.pair.offset >= kept:
+                notice(
+                    f"--offset goes back {as_seconds(-self.pair.offset):g} s, and the buffer "
+                    f"remembers {as_seconds(kept):g} s: --cache-time "
+                    f"{as_seconds(-self.pair.offset) + 5:g} makes that enough."
+                )
         self._hint()
 
     def _nothing_new(self) -> str:

@@ -2,11 +2,20 @@
 
 import struct
 from collections.abc import Callable, Iterable
+from itertools import pairwise
 from typing import TYPE_CHECKING, Final, Literal, TypeAlias
 
 from tftool.errors import TransformException
 from tftool.frames import refusals, snapshot, tree, velocity
-from tftool.frames.history import NEEDS_CHECK, PARENT_CHANGED, STORED, TOO_OLD, Sample
+from tftool.frames.history import (
+    AUTHORITY_SHIFT,
+    NEEDS_CHECK,
+    PARENT_CHANGED,
+    STORED,
+    TOO_OLD,
+    History,
+    Sample,
+)
 from tftool.frames.native import IS_NATIVE
 from tftool.frames.path import Path
 from tftool.frames.requests import NEVER, Callback, Requests
@@ -47,6 +56,9 @@ _LIKELY_SECONDS: Final = 1_000_000
 
 # What a sample may raise that is none, is of a frame not known yet, or whose stamp is too long.
 _NOT_PLAIN: Final = (KeyError, TypeError, ValueError, AttributeError, struct.error)
+
+# Of so many newest samples it is looked who sent them.
+_TURNS: Final = 4096
 
 _NO_PATHS: dict[str, Path] = {}
 _new: Final = tuple.__new__
@@ -690,6 +702,24 @@ class Buffer:
         link = self._tree.frames[number].link
         above = -1 if link is None else link.parent_at(time)
         return None if above < 0 else self._tree.frames[above].name
+
+    def rivals(self, frame: str) -> tuple[str, ...]:
+        """Who sends a frame's transforms in turns with others; empty where only one does.
+
+        One who took over from another once is no rival.
+        """
+        tree.require_text(frame)
+        number = self._tree.numbers.get(frame)
+        link = None if number is None else self._tree.frames[number].link
+        if not isinstance(link, History):
+            return ()
+        origins = link.columns()[1]
+        if origins is None:
+            return ()
+        turns = [origin >> AUTHORITY_SHIFT for origin in origins[-_TURNS:]]
+        if sum(one != other for one, other in pairwise(turns)) < 3:
+            return ()
+        return tuple(self._tree.authorities[one] for one in dict.fromkeys(turns))
 
     def chain(self, target_frame: str, source_frame: str, time: Stamp = 0) -> list[str]:
         """The frames from source to target, both included; empty if they are the same.

@@ -11,12 +11,15 @@ from tftool.runtime.endpoints import TF, TF_STATIC, USUAL, Quality
 from tftool.runtime.parameters import Parameters, Value
 from tftool.runtime.resident import Resident
 from tftool.runtime.world import TopicPublisher, TransformMessage, World
-from tftool.stamps import Duration, Stamp, as_seconds, whole
+from tftool.stamps import Duration, Stamp, as_seconds, seconds, whole
 
 T = TypeVar("T")
 
 CATCH_UP = 5
 """How many late ticks of a timer are made up for before it slips."""
+
+LATE = seconds(1.0)
+"""From how far behind a timer on it is said."""
 
 
 class Node(Resident):
@@ -76,7 +79,7 @@ class Node(Resident):
         """The moments of a timer, on an integer grid from now on.
 
         The first is one period from now, as a ROS timer's. On the wall clock a late
-        node gets a few missed ticks made up for, then the grid slips and it is said.
+        node gets a few missed ticks made up for, then the grid slips; a second is said, once.
 
         Args:
             period: Nanoseconds between two moments.
@@ -98,11 +101,12 @@ class Node(Resident):
             missed = (self.clock.now() - due) // period
             if missed > CATCH_UP:
                 due += missed * period
-                if not slipped:
+                # A short hitch is nothing a person can do anything about.
+                if not slipped and missed * period >= LATE:
                     slipped = True
                     self.warn(
-                        f"timer of {as_seconds(period):g} s is {missed} ticks late; "
-                        "it skips them, and will do so silently from now on"
+                        f"is {as_seconds(missed * period):.1f} s behind its own timer: "
+                        "the computer is too busy; what it misses it leaves out"
                     )
             yield due
             due += period

@@ -2,6 +2,7 @@
 
 import asyncio
 import inspect
+import math
 from collections import deque
 from collections.abc import Callable, Coroutine, Iterable, Mapping
 from dataclasses import dataclass
@@ -32,6 +33,9 @@ from tftool.runtime.topics import Acceptor, GoalHandle, Handler, Topic
 from tftool.stamps import Duration, Stamp, seconds
 
 T = TypeVar("T")
+
+MOST_REFUSALS = 1_000
+"""How many kinds of what the buffer refuses are told apart while they are counted."""
 
 PATIENCE = 5.0
 """Seconds that nodes of ours wait for an answer from another process."""
@@ -116,6 +120,8 @@ class World:
         self._topics: dict[str, Topic[Any]] = {}
         self._doors: dict[str, ValueTopic[Any]] = {}
         self._services: dict[str, Offer[Handler]] = {}
+        # How often the buffer refused the same, by what it says.
+        self._refused: dict[str, int] = {}
         # Who serves a name that another serves already, by "service" and the name.
         self._waiting: dict[str, list[Any]] = {}
         self._actions: dict[str, Offer[Acceptor]] = {}
@@ -646,6 +652,15 @@ class World:
         self._supervisor = supervision
 
     def _log_buffer(self, level: str, text: str) -> None:
+        # A node that sends what is refused does so many times a second.
+        kind = text.partition(" because ")[0].partition(" at time ")[0]
+        if kind not in self._refused and len(self._refused) >= MOST_REFUSALS:
+            self._refused.clear()
+        count = self._refused[kind] = self._refused.get(kind, 0) + 1
+        if count > 1:
+            if math.log10(count) % 1:
+                return
+            text = f"{text} ({count} times so far)"
         if level == "ERROR":
             self.log.error("buffer", text)
         else:

@@ -9,7 +9,7 @@ from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from typing import Any
 
-from tftool.errors import TransformException
+from tftool.errors import LookupException, TransformException
 from tftool.geometry.planar import wrap
 from tftool.scenario import values
 from tftool.scenario.document import TextPlace
@@ -28,6 +28,12 @@ class Judged:
     found: str
 
 
+def did_you_mean(error: TransformException) -> str:
+    """Which frame's name is near the one that is unknown; empty without one."""
+    remedy = error.remedy if isinstance(error, LookupException) else ""
+    return remedy if "did you mean" in remedy else ""
+
+
 class AnswerCheck(ABC):
     """What an answer must be; its text follows the question in a sentence."""
 
@@ -37,7 +43,7 @@ class AnswerCheck(ABC):
 
     def refused(self, error: TransformException) -> Judged:
         """Judge that there is no answer."""
-        return Judged(False, f"{type(error).__name__}: {error}")
+        return Judged(False, f"{type(error).__name__}: {error}{did_you_mean(error)}")
 
     @abstractmethod
     def __str__(self) -> str: ...

@@ -286,6 +286,7 @@ class Echo:
         Raises:
             TransformException: If the first does not come in time, or never will.
         """
+        from tftool.cli.notices import notice
         from tftool.runtime.clock import Phase, pace_of
 
         clock, pace = self.world.clock, pace_of(self.world.clock)
@@ -293,6 +294,7 @@ class Echo:
         left = self.departures()
         due = pace.now()
         printed = 0
+        said: set[str] = set()
         while True:
             if self.departures() != left:
                 left = self.departures()
@@ -302,6 +304,10 @@ class Echo:
             try:
                 self.printer.found(self.pair.ask(self.world.buffer, now))
                 printed += 1
+                for sentence in self._oddities():
+                    if sentence not in said:
+                        said.add(sentence)
+                        notice(sentence)
             except TransformException as refusal:
                 self.printer.failed(now, refusal, self.world.buffer)
             if printed == self.count:
@@ -310,6 +316,16 @@ class Echo:
             await pace.sleep_until(due, Phase.WATCH)
             # Late by more than a period: what was missed is not made up for.
             due = max(due, pace.now() - self.period)
+
+    def _oddities(self) -> list[str]:
+        from tftool.cli.rivals import rivalries, twins
+
+        buffer = self.world.buffer
+        try:
+            frames = buffer.chain(self.pair.target, self.pair.source)
+        except TransformException:
+            return []
+        return [*rivalries(buffer, frames), *twins(self.world)]
 
 
 def _place_or_rate(place: str | None, rate: float | None) -> tuple[str | None, float | None]:

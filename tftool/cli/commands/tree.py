@@ -85,6 +85,8 @@ def tree(
     tftool tree --watch
     """
     from tftool.cli.hosting import observe, open_session
+    from tftool.cli.notices import notice
+    from tftool.cli.rivals import rivalries
 
     form = form or _form_of(output)
     if watch:
@@ -100,6 +102,8 @@ def tree(
     seen = observe(connection, place, at, cache_time=cache_time)
     marks = seen.marks() if form in (Format.tree, Format.json) else {}
     _write(seen.snapshot(), seen.moving, form, output, marks)
+    for sentence in rivalries(seen.buffer, seen.buffer.frames()):
+        notice(sentence)
     return ExitStatus.DONE
 
 

@@ -7,6 +7,7 @@ from collections.abc import Callable, Iterable
 from typing import Any
 
 from tftool.frames.jumps import Watch
+from tftool.frames.sample import TransformStamped
 from tftool.interfaces.classes import INTERFACES
 from tftool.ros.host import values
 from tftool.ros.rclpy.entities import NodeEntity, Work
@@ -14,6 +15,9 @@ from tftool.ros.rclpy.node import Node
 from tftool.ros.rclpy.seat import NodeSeat, seat_of
 from tftool.ros.tf2.buffer import Buffer
 from tftool.runtime.world import TransformMessage
+
+_TOLERANCE = 10e-3
+"""How far the square of a quaternion's length may be from 1 for tf2 to take it."""
 
 AUTHORITY = "default_authority"
 """Who sent what was sent before one listened; of later transforms the sender is known."""
@@ -131,6 +135,7 @@ class TransformBroadcaster:
 
     def __init__(self, node: Node, qos: Any = None) -> None:
         self.node = node
+        self._told: set[str] = set()
         self._member = seat_of(node)
         self._member.program.broadcasts = True
 
@@ -142,9 +147,27 @@ class TransformBroadcaster:
         for one in several:
             if not isinstance(one, kind):
                 raise TypeError(f"expected a TransformStamped, got {type(one).__name__}")
-            sent.append(values.pack_transform(one))
+            sample = values.pack_transform(one)
+            self._judge(sample)
+            sent.append(sample)
         seat, static = self._member, self._static
         seat.program.ask(lambda: seat.world.broadcast(sent, seat.authority, static=static))
+
+    def _judge(self, sample: TransformStamped) -> None:
+        """Say once of each child whose rotation ROS 2 would not take what is wrong with it."""
+        turn = sample.transform.rotation
+        square = sum(number * number for number in turn)
+        # NaN is refused in tf2's words; None is what no rotation at all is written as.
+        if abs(square - 1.0) <= _TOLERANCE or square != square or sample[2] in self._told:
+            return
+        self._told.add(sample[2])
+        if not square:
+            fault = "is all zeros, which no buffer takes: no turn at all is w = 1.0"
+        else:
+            fault = f"has length {square**0.5:.4g}, not 1: ROS 2 refuses it, here it is scaled"
+            if max(map(abs, turn)) > 1.5:
+                fault += "; an angle is no part of it: quaternion_from_euler makes one of radians"
+        self.node.get_logger().warning(f"the rotation of '{sample[2]}' {fault}")
 
 
 class StaticTransformBroadcaster(TransformBroadcaster):
