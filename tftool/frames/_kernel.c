@@ -90,6 +90,20 @@ find(const char *records, Py_ssize_t count, int64_t time)
     return low < count - 1 ? low : count - 2;
 }
 
+/* sin(f θ) / sin θ for u = 1 - cos θ, as a product of terms that are all positive:
+   f (1 + b1 (1 + b2 (1 + …))) with b_i = u (i² - f²) / (i (2 i + 1)).
+   Eberly, "A Fast and Accurate Algorithm for Computing SLERP", JGT 2011. */
+static inline double
+weight(double f, double u, int terms)
+{
+    double sum = 1.0;
+    for (int i = terms; i > 0; i--) {
+        const double scale = 1.0 / (i * (2.0 * i + 1.0));
+        sum = 1.0 + sum * u * (i * i * scale - f * f * scale);
+    }
+    return f * sum;
+}
+
 /* Arithmetic of poses: twins of `geometry.poses` ------------------------- */
 
 static inline void
@@ -109,10 +123,14 @@ interpolate(const Pose *first, const Pose *second, double share, Pose *out)
     for (int i = 0; i < 3; i++)
         out->n[i] = a[i] + share * (b[i] - a[i]);
     if (cosine < 1.0) {
+        double keep;
+        const double u = 1.0 - cosine;
+        if (u < 1e-3) { keep = weight(1.0 - share, u, 4); take *= weight(share, u, 4); }
+        else {
         const double angle = acos(cosine);
         const double sine = sin(angle);
-        const double keep = sin((1.0 - share) * angle) / sine;
-        take *= sin(share * angle) / sine;
+        keep = sin((1.0 - share) * angle) / sine;
+        take *= sin(share * angle) / sine; }
         for (int i = 3; i < 7; i++)
             out->n[i] = keep * a[i] + take * b[i];
     }
@@ -192,12 +210,44 @@ typedef struct {
 #define FIELD(name, kind) {#name, kind, offsetof(Link, name), 0, NULL}
 #define PRIVATE(name, kind) {"_" #name, kind, offsetof(Link, name), 0, NULL}
 static PyMemberDef link_members[] = {
-    FIELD(records, T_OBJECT_EX), FIELD(origins, T_OBJECT_EX), FIELD(newest, T_OBJECT_EX),
+    FIELD(records, T_OBJECT_EX), FIELD(origins, T_OBJECT_EX),
     FIELD(newest_stamp, T_LONGLONG), FIELD(oldest_stamp, T_LONGLONG), FIELD(limit, T_LONGLONG),
     FIELD(start, T_LONGLONG), FIELD(count, T_LONGLONG), FIELD(origin, T_LONGLONG),
     FIELD(parent, T_LONGLONG), FIELD(is_static, T_BOOL), FIELD(mixed, T_BOOL),
     PRIVATE(newest_pair, T_OBJECT_EX), PRIVATE(prune_after, T_LONGLONG),
     PRIVATE(compact_at, T_LONGLONG), PRIVATE(borrowed, T_BOOL), {NULL, 0, 0, 0, NULL},
+};
+
+static int read_records(const Link *link, int flags, Py_buffer *view);
+static PyObject *floats(PyTypeObject *type, const double *numbers, Py_ssize_t size);
+
+/* `newest`: what was set, or what was appended since, made when it is first asked for. */
+static PyObject *
+get_newest(PyObject *self, void *Py_UNUSED(closure))
+{
+    Link *link = (Link *)self;
+    Py_buffer view;
+    if (link->newest == NULL && read_records(link, PyBUF_SIMPLE, &view)) {
+        Pose pose;
+        pose_of(view.buf, (Py_ssize_t)link->count - 1, &pose);
+        PyBuffer_Release(&view);
+        if ((link->newest = floats(&PyTuple_Type, pose.n, 7)) == NULL)
+            return NULL;
+    }
+    return Py_NewRef(link->newest == NULL ? Py_None : link->newest);
+}
+
+static int
+set_newest(PyObject *self, PyObject *value, void *Py_UNUSED(closure))
+{
+    PyObject *before = ((Link *)self)->newest;
+    ((Link *)self)->newest = Py_XNewRef(value);
+    Py_XDECREF(before);
+    return 0;
+}
+
+static PyGetSetDef link_getset[] = {
+    {"newest", get_newest, set_newest, NULL, NULL}, {NULL, NULL, NULL, NULL, NULL},
 };
 
 static int
@@ -236,6 +286,7 @@ link_dealloc(PyObject *self)
 static PyType_Slot link_slots[] = {
     {Py_tp_doc, "The fields of a link, laid out so that the kernel can read them."},
     {Py_tp_members, link_members},
+    {Py_tp_getset, link_getset},
     {Py_tp_traverse, link_traverse},
     {Py_tp_clear, link_clear},
     {Py_tp_dealloc, link_dealloc},
@@ -482,8 +533,7 @@ at(PyObject *module, PyObject *const *args, Py_ssize_t count)
 /* Inserting -------------------------------------------------------------- */
 
 /* Append a sample to a link: `History.insert` where it is newer than all others, of the same
-   origin, and prunes one sample at most. Returns 1 if it was done, 0 if nothing was, -1 with an
-   error set where memory is short. */
+   origin, and prunes one sample at most. Returns whether it was done; never sets an error. */
 static int
 append(Link *link, int64_t stamp, int64_t origin, Pose *pose)
 {
@@ -508,14 +558,10 @@ append(Link *link, int64_t stamp, int64_t origin, Pose *pose)
             fits = link->limit >= 0 && link->newest_stamp <= after;
         }
     }
-    PyObject *newest = NULL;
     if (fits) {
         if (n[6] < -0.5 || (n[6] <= 0.5 && leading(n[3], n[4], n[5], n[6]) < 0.0))
             for (int i = 3; i < 7; i++)
                 n[i] *= -1.0;
-        newest = floats(&PyTuple_Type, n, 7);
-    }
-    if (newest != NULL) {
         char *record = records + RECORD * link->count;
         memcpy(record, &stamp, WORD);
         memcpy(record + WORD, n, sizeof pose->n);
@@ -526,11 +572,11 @@ append(Link *link, int64_t stamp, int64_t origin, Pose *pose)
         link->count++;
     }
     PyBuffer_Release(&view);
-    if (newest == NULL)
-        return fits ? -1 : 0;
+    if (!fits)
+        return 0;
     /* Last of all: what is let go of here may run code of others. */
     PyObject *before = link->newest, *pair = link->newest_pair;
-    link->newest = newest;
+    link->newest = NULL;
     link->newest_pair = Py_NewRef(Py_None);
     Py_XDECREF(before);
     Py_XDECREF(pair);
@@ -577,8 +623,7 @@ insert(PyObject *module, PyObject *const *args, Py_ssize_t count)
         || !read_stamp(PyTuple_GetItem(sender, 2), &origin)
         || !PyObject_TypeCheck(link, types->fields))
         Py_RETURN_FALSE;
-    const int done = append((Link *)link, stamp, origin, &pose);
-    return done < 0 ? NULL : PyBool_FromLong(done);
+    return PyBool_FromLong(append((Link *)link, stamp, origin, &pose));
 }
 
 /* A batch ---------------------------------------------------------------- */
@@ -661,20 +706,6 @@ fetch(Edge *edge, const int64_t *times, int n, Room *room, unsigned char *valid)
         }
     }
     edge->here = here;
-}
-
-/* sin(f θ) / sin θ for u = 1 - cos θ, as a product of terms that are all positive:
-   f (1 + b1 (1 + b2 (1 + …))) with b_i = u (i² - f²) / (i (2 i + 1)).
-   Eberly, "A Fast and Accurate Algorithm for Computing SLERP", JGT 2011. */
-INLINE double
-weight(double f, double u, int terms)
-{
-    double sum = 1.0;
-    for (int i = terms; i > 0; i--) {
-        const double scale = 1.0 / (i * (2.0 * i + 1.0));
-        sum = 1.0 + sum * u * (i * i * scale - f * f * scale);
-    }
-    return f * sum;
 }
 
 /* The pose on the way between what was fetched, for each moment: twin of `interpolate`. */

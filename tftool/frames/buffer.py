@@ -137,17 +137,18 @@ class Buffer:
         Raises:
             TypeError: If the stamp is not a whole number.
         """
+        if IS_NATIVE and _kernel.insert(self._senders, transform, authority):
+            if self._listeners.registered or self._pending:
+                self._tell_of(transform, authority)
+            return True
         try:
             stamp, parent, child, pose = transform
-            if IS_NATIVE and _kernel.insert(self._senders, transform, authority):
-                outcome = STORED
-            else:
-                known_parent, known_authority, origin, history = self._senders[child]
-                outcome = NEEDS_CHECK
-                if parent == known_parent and authority == known_authority:
-                    # (*translation, *rotation) would take a tenth longer.
-                    numbers = _joined(pose.translation, pose.rotation)
-                    outcome = history.insert(stamp, origin, numbers)
+            known_parent, known_authority, origin, history = self._senders[child]
+            outcome = NEEDS_CHECK
+            if parent == known_parent and authority == known_authority:
+                # (*translation, *rotation) would take a tenth longer.
+                numbers = _joined(pose.translation, pose.rotation)
+                outcome = history.insert(stamp, origin, numbers)
         except _NOT_PLAIN:
             return self._set_slowly(transform, authority, False)
         if outcome != STORED:
@@ -158,12 +159,17 @@ class Buffer:
                 return False
             if outcome == PARENT_CHANGED:
                 self._solver.drop_paths()
-        if self._listeners.registered:
-            kept = TransformStamped(stamp, parent, child, rigid.canonical(pose))
-            self._tell((kept,), False, authority, (child,))
-        elif self._pending:
-            self._tell((), False, authority, (child,))
+        if self._listeners.registered or self._pending:
+            self._tell_of(transform, authority)
         return True
+
+    def _tell_of(self, transform: TransformStamped, authority: str) -> None:
+        """Tell of a sample that was taken as it came, but for its quaternion's length and sign."""
+        stamp, parent, child, pose = transform
+        kept: tuple[TransformStamped, ...] = ()
+        if self._listeners.registered:
+            kept = (TransformStamped(stamp, parent, child, rigid.canonical(pose)),)
+        self._tell(kept, False, authority, (child,))
 
     def set_transform_static(self, transform: TransformStamped, authority: str = "") -> bool:
         """Set a link that holds at all times; it takes the place of all the child had before.

@@ -73,14 +73,13 @@ _pack_into: Final = struct.Struct("q7d").pack_into
 _unpack_pose: Final = struct.Struct("7d").unpack_from
 _unpack_pair: Final = struct.Struct("q7dq7d").unpack_from
 
-# Pruned samples, and room in front for ones that arrive backwards, take at most
-# one part in sixteen, like the room that `array` keeps behind its end.
-_SLACK: Final = 4
+# Pruned samples, and room in front for ones that arrive backwards, take at most one part in eight.
+_SLACK: Final = 3
 _LEAST_SLACK: Final = 32
 
-# Room for samples to come, one part in thirty-two: as often as not `array` has that at hand.
-_ROOM: Final = 5
-_LEAST_ROOM: Final = 4
+# Room for samples to come takes at most one part in sixteen, or where that is little, eight.
+_ROOM: Final = 4
+_LEAST_ROOM: Final = 8
 
 # A quaternion whose square lies between these is of length one but for rounding.
 SHORTEST: Final = 1.0 - 8e-16
@@ -412,16 +411,12 @@ class History(Fields):
         if stamp <= newest:
             record = array("q", _pack(stamp, x, y, z, qx, qy, qz, qw))
             return self._insert_late(stamp, origin, sample, record)
-        records = self._own() if self._borrowed else self.records
-        try:
-            _pack_into(records, RECORD * self.count, stamp, x, y, z, qx, qy, qz, qw)
-        except struct.error:
-            records = self._make_room_behind()
-            _pack_into(records, RECORD * self.count, stamp, x, y, z, qx, qy, qz, qw)
+        if stamp > _LATEST_STAMP:
+            raise struct.error(f"{stamp} ns do not fit 64 bits")
         if newest > self._prune_after:
             # As a rule every sample that comes prunes one.
             start = self.start + 1
-            oldest = records[WORDS * start]
+            oldest = self.records[WORDS * start]
             prune_after = oldest + self.limit
             if newest > prune_after or self.mixed or start >= self._compact_at:
                 self._prune(newest - self.limit)
@@ -429,6 +424,12 @@ class History(Fields):
                 self.start = start
                 self.oldest_stamp = oldest
                 self._prune_after = min(prune_after, _LATEST_STAMP)
+        records = self._own() if self._borrowed else self.records
+        try:
+            _pack_into(records, RECORD * self.count, stamp, x, y, z, qx, qy, qz, qw)
+        except struct.error:
+            records = self._make_room_behind()
+            _pack_into(records, RECORD * self.count, stamp, x, y, z, qx, qy, qz, qw)
         self.count += 1
         self.newest_stamp = stamp
         self.newest = sample
@@ -529,7 +530,7 @@ class History(Fields):
 
     def _make_room_behind(self) -> "array[int]":
         """Have room for more samples behind the newest one."""
-        room = max(_LEAST_ROOM, self.count >> _ROOM)
+        room = _LEAST_ROOM + (self.count >> _ROOM)
         self._splice(self.count, self.count, array("q", bytes(RECORD * room)))
         return self.records
 
@@ -645,7 +646,10 @@ class History(Fields):
         if self.mixed and start >= self._newest_parent_start:
             self.mixed = False
         if start >= self._compact_at:
-            self._splice(0, start, array("q"))
+            # With as much room behind: as a rule as many samples come until the next time.
+            records = self.records[WORDS * start : WORDS * self.count]
+            records.frombytes(bytes(RECORD * start))
+            self.records, self._borrowed = records, False
             self.count -= start
             if self.origins is not None:
                 del self.origins[:start]

@@ -1,4 +1,4 @@
-"""One question for many moments, in numpy: `Buffer.lookup_transforms`."""
+"""One question for many moments: `Buffer.lookup_transforms`, natively or in numpy."""
 
 import os
 from collections.abc import Callable, Iterable, Iterator
@@ -12,11 +12,15 @@ from tftool.frames.batch import kernel
 from tftool.frames.batch.arrays import TransformArray
 from tftool.frames.batch.columns import Column, Columns, Indices, Stamps, stamps_of
 from tftool.frames.history import Link, Sample
+from tftool.frames.native import IS_NATIVE
 from tftool.frames.path import Path, path_of
 from tftool.frames.solver import Solver
 from tftool.frames.tree import ARRIVED, FrameTree
 from tftool.geometry.batch import Floats
 from tftool.stamps import Stamp
+
+if IS_NATIVE:
+    from tftool.frames import _kernel
 
 CHUNK = 1 << 16
 """So many rows are looked at together; what a batch needs beyond its answers grows with it."""
@@ -178,17 +182,15 @@ class _Batch:
         rows = slice(start, start + self.rows_at_once)
         times = self.times[rows]
         self.stamps[rows] = times
-        if self.path is not None and self.has_all(times):
-            self.solve(self.path, rows)
-            return
-        usable = (times >= self.first) & (times <= self.last) & (times != 0)
-        self.valid[rows] = False
-        self.translations[rows] = np.nan
-        self.rotations[rows] = np.nan
-        rest = np.flatnonzero(times != 0)
-        if self.path is not None:
-            self.solve(self.path, start + np.flatnonzero(usable))
-            rest = np.flatnonzero(~usable & (times != 0))
+        if IS_NATIVE and self.path is not None and self.first <= self.last:
+            if self.solve_natively(self.path, times, rows) == 0:
+                return
+            rest = np.flatnonzero(~self.valid[rows] & (times != 0))
+        else:
+            if self.path is not None and self.has_all(times):
+                self.solve(self.path, rows)
+                return
+            rest = self.begin(times, start)
         if len(rest):
             moments = times[rest]
             for path, chosen in _paths_by_moment(
@@ -201,6 +203,19 @@ class _Batch:
             for row in (start + np.flatnonzero(~self.valid[rows])).tolist():
                 self.put(row, self.ask(int(self.times[row])))
 
+    def begin(self, times: Stamps, start: int) -> Indices:
+        """Answer what the steady path can, of rows of which others remain; says which."""
+        rows = slice(start, start + len(times))
+        usable = (times >= self.first) & (times <= self.last) & (times != 0)
+        self.valid[rows] = False
+        self.translations[rows] = np.nan
+        self.rotations[rows] = np.nan
+        rest = np.flatnonzero(times != 0)
+        if self.path is not None:
+            self.solve(self.path, start + np.flatnonzero(usable))
+            rest = np.flatnonzero(~usable & (times != 0))
+        return rest
+
     def has_all(self, times: Stamps) -> bool:
         """Whether the steady path has data for all moments, and none asks for the latest."""
         least, most = int(times.min()), int(times.max())
@@ -210,6 +225,9 @@ class _Batch:
         """Answer rows that a path has data for."""
         times = self.times[rows]
         if not len(times):
+            return
+        if IS_NATIVE:
+            self.solve_natively(path, times, rows)
             return
         up, down = self.edges(path.up), self.edges(path.down)
         in_order = bool(np.all(times[1:] >= times[:-1]))
@@ -234,6 +252,30 @@ class _Batch:
                 self.rotations[rows[part]] = rotations
         self.valid[rows] = True
         self.rooms.append(room)
+
+    def solve_natively(self, path: Path, times: Stamps, rows: "slice | Indices") -> int:
+        """Answer rows by a path; those that it has no data for are NaN. How many these are."""
+        up, down = self.native_edges(path.up), self.native_edges(path.down)
+        if isinstance(rows, slice):
+            place, turn, valid = self.translations[rows], self.rotations[rows], self.valid[rows]
+            return _kernel.solve(up, down, times, place, turn, valid)
+        n = len(times)
+        place, turn, valid = np.empty((n, 3)), np.empty((n, 4)), np.empty(n, dtype=np.bool_)
+        missing = _kernel.solve(up, down, np.ascontiguousarray(times), place, turn, valid)
+        self.translations[rows], self.rotations[rows], self.valid[rows] = place, turn, valid
+        return missing
+
+    def native_edges(self, links: Iterable[Link]) -> tuple[object, ...]:
+        """Links as the kernel takes them: records and the origin of each, or one sample."""
+        edges: list[object] = []
+        for link in links:
+            held = self.columns.of(link)
+            assert held is not None
+            if isinstance(held, Column):
+                edges.append((held.records, None if held.parents is None else held.origins))
+            else:
+                edges.append(tuple(map(float, held)))
+        return tuple(edges)
 
     def room(self) -> Floats:
         """Some that no thread works in."""
