@@ -292,3 +292,29 @@ def test_many_frames_are_not_all_named(world, capsys):
     _, err, _ = echoed(world, capsys, "world", "nobody", patience=seconds(1))
 
     assert "and 9 more." in err
+
+
+def test_a_wait_for_a_join_says_the_cause_and_the_line_that_mends_it(world, capsys):
+    Mover(world, "a")
+    Mover(world, "lens", "camera_link")
+
+    _, err, raised = echoed(world, capsys, "world", "lens", patience=seconds(3))
+
+    assert raised is not None
+    (line,) = [line for line in err.split("\n") if line.startswith("Waiting")]
+    assert "not part of the same tree" in line
+    assert " Cause: camera_link has no parent" in line
+    assert line.endswith("--frame-id world --child-frame-id camera_link")
+
+
+def test_a_wait_across_two_clocks_says_which_node_has_the_wrong_one(world, capsys):
+    Mover(world, "a")
+    pose = TransformStamped(seconds(1_750_000_000), "a", "lens", Transform((1.0, 0.0, 0.0)))
+    world.buffer.set_transform(pose, "camera")
+    world.buffer.set_transform(pose._replace(stamp=pose.stamp + 1), "camera")
+
+    _, err, raised = echoed(world, capsys, "world", "lens", patience=seconds(3))
+
+    assert raised is not None
+    assert "Cause: lens in a is stamped with the wall clock: 1750000000.000 (15 June 2025)." in err
+    assert "Cure: use_sim_time: true for the node that publishes lens in a\n" in err

@@ -23,6 +23,9 @@ from tftool.views.escaping import visible, visible_lines
 MOST_NAMED = 12
 """How many frames a hint names."""
 
+EXPLAINED = ("CLOCK_MIXTURE", "NAME", "SINGLE", "SPLIT", "STOPPED")
+"""The causes of a wait that a line can tell; a frame that is missing is hinted at otherwise."""
+
 SETTLED = seconds(0.75)
 """How long frames have time to arrive before it is said what is missing."""
 
@@ -165,7 +168,8 @@ class Waiter:
         if kind != self._told:
             self._told = kind
             words = view.in_words(self.pair.target, self.pair.source)
-            notice(f"Waiting for {words}: {visible_lines(reason.rstrip())}")
+            because = visible_lines(self._because())
+            notice(f"Waiting for {words}: {visible_lines(reason.rstrip())}{because}")
             kept = self.world.buffer.cache_time
             if -self.pair.offset >= kept:
                 notice(
@@ -174,6 +178,22 @@ class Waiter:
                     f"{as_seconds(-self.pair.offset) + 5:g} makes that enough."
                 )
         self._hint()
+
+    def _because(self) -> str:
+        """The cause and the cure, where `explain` knows more than that something is not there."""
+        # Heavy imports wait until there is something to say.
+        from tftool.diagnostics.asking import explain
+
+        buffer, now = self.world.buffer, self.world.clock.now()
+        if self.pair.fixed_frame is not None or not buffer.frames():
+            return ""
+        then = now + self.pair.offset if self.pair.offset else self.pair.at
+        found = explain(buffer, self.pair.target, self.pair.source, then)
+        if found.available or found.cause.name not in EXPLAINED:
+            return ""
+        cures = [remedy for remedy in found.remedies if remedy.possible]
+        cure = f" Cure: {cures[0].text} {cures[0].command}".rstrip() if cures else ""
+        return f" Cause: {found.why[0]}.{cure}"
 
     def _nothing_new(self) -> str:
         return "nothing new has come since its sender left"

@@ -250,6 +250,7 @@ class _Trace:
         self.model = model
         self.question = question
         self.stamp = question.stamp
+        self.moment = question.stamp
         self.cache = question.settings.cache_time
         self.heard = self._message()
         self.asked, self.because, self.after = self._asked()
@@ -351,17 +352,17 @@ class _Trace:
     def _verdict(self, track: Track, held: Stamps) -> tuple[LinkVerdict, Duration]:
         if not len(held):
             return LinkVerdict.NO_DATA, 0
-        if track.static or self.stamp == LATEST:
+        if track.static or self.moment == LATEST:
             return LinkVerdict.ANSWERS, 0
         oldest, newest = int(held[0]), int(held[-1])
-        if len(held) == 1 and oldest != self.stamp and len(track.by_stamp) == 1:
-            return LinkVerdict.NO_DATA, abs(self.stamp - oldest)
-        if self.stamp > newest:
-            return LinkVerdict.FORWARD, self.stamp - newest
-        if self.stamp < oldest:
+        if len(held) == 1 and oldest != self.moment and len(track.by_stamp) == 1:
+            return LinkVerdict.NO_DATA, abs(self.moment - oldest)
+        if self.moment > newest:
+            return LinkVerdict.FORWARD, self.moment - newest
+        if self.moment < oldest:
             came = track.stamps[self.arrived(track)]
-            pruned = bool((came <= self.stamp).any())
-            return (LinkVerdict.PRUNED if pruned else LinkVerdict.BACKWARD), oldest - self.stamp
+            pruned = bool((came <= self.moment).any())
+            return (LinkVerdict.PRUNED if pruned else LinkVerdict.BACKWARD), oldest - self.moment
         return LinkVerdict.ANSWERS, 0
 
     def buffer(self) -> Buffer:
@@ -390,6 +391,12 @@ class _Trace:
                 TransformStamped(stamp, track.parent, track.child, pose), "recorded"
             )
         return buffer
+
+    def settle(self, way: Sequence[Track]) -> None:
+        """Of a question for the latest, find the moment that is asked about: the last in common."""
+        if self.stamp == LATEST:
+            newest = [int(held[-1]) for t in way if not t.static and len(held := self.held(t))]
+            self.moment = min(newest, default=LATEST)
 
     # When it answers
 
@@ -442,6 +449,7 @@ def traced(model: Model, question: Question) -> Explanation:
             quoted = (refused.frame, refused.available)
     named = _misnamed(trace)
     way = None if named is not None else trace.way()
+    trace.settle(way or ())
     links = tuple(trace.link(track) for track in way or ())
     refusing = next(
         (number for number, link in enumerate(links) if link.verdict is not LinkVerdict.ANSWERS),
@@ -602,7 +610,7 @@ def _refused(known: _Known) -> _Told:
             (f"the static {link.name} arrives {span(late)} after the question",),
             (_timeout(known, None),),
         )
-    if _is_simulated(trace.stamp) != _is_simulated(int(track.sorted_stamps[-1])):
+    if _is_simulated(trace.moment) != _is_simulated(int(track.sorted_stamps[-1])):
         return _two_clocks(link, track, trace)
     if len(track.by_stamp) == 1:
         at = int(track.sorted_stamps[0])
@@ -615,9 +623,9 @@ def _refused(known: _Known) -> _Told:
     if link.verdict is LinkVerdict.PRUNED:
         return _pruned(known, link, track)
     first, last = int(track.sorted_stamps[0]), int(track.sorted_stamps[-1])
-    if trace.stamp < first:
+    if trace.moment < first:
         return _before_start(known, link, track, first)
-    if trace.stamp > last:
+    if trace.moment > last:
         return _stopped(link, track, trace, last)
     return _late(known, link, track)
 
@@ -635,7 +643,7 @@ def _two_clocks(link: TracedLink, track: Track, trace: _Trace) -> _Told:
         Cause.CLOCK_MIXTURE,
         (
             f"{link.name} is stamped with {clock}: {dated(stamp)}",
-            f"the question is on {other}: {dated(trace.stamp)}",
+            f"the question is on {other}: {dated(trace.moment)}",
         ),
         (Remedy("clock", f"use_sim_time: {setting} for the node that publishes {link.name}"),),
         ("a timeout, a larger cache: the two clocks never meet",),
@@ -645,10 +653,10 @@ def _two_clocks(link: TracedLink, track: Track, trace: _Trace) -> _Told:
 def _pruned(known: _Known, link: TracedLink, track: Track) -> _Told:
     trace = known.trace
     newest = int(track.stamps[trace.arrived(track)].max())
-    needed = newest - trace.stamp
+    needed = newest - trace.moment
     # What is needed is the sample before the moment, if it is not stamped just then. ROS 2 prunes
     # before it adds the newest one, ROS 1 after: so much is enough for both.
-    before = track.sorted_stamps[track.sorted_stamps <= trace.stamp]
+    before = track.sorted_stamps[track.sorted_stamps <= trace.moment]
     least = newest - int(before[-1]) if len(before) else needed
     advised = math.ceil((least + NANOSECONDS) / NANOSECONDS)
     why = f"the buffer keeps {span(trace.cache)}, and {link.name} is {span(needed)} further on"
@@ -676,7 +684,7 @@ def _pruned(known: _Known, link: TracedLink, track: Track) -> _Told:
 
 def _before_start(known: _Known, link: TracedLink, track: Track, first: Stamp) -> _Told:
     trace = known.trace
-    why = [f"{link.name} begins at {moment(first)}, {span(first - trace.stamp)} after the question"]
+    why = [f"{link.name} begins at {moment(first)}, {span(first - trace.moment)} after the question"]
     if track.median_latency < 0:
         why.append(
             f"it is dated {span(-track.median_latency)} ahead (transform_tolerance): nothing "
@@ -698,7 +706,7 @@ def _stopped(link: TracedLink, track: Track, trace: _Trace, last: Stamp) -> _Tol
     return _Told(
         Cause.STOPPED,
         (
-            f"{link.name} ended at {moment(last)}, {span(trace.stamp - last)} before the "
+            f"{link.name} ended at {moment(last)}, {span(trace.moment - last)} before the "
             "question, and nothing follows",
         ),
         (Remedy("publisher", "look at the node that publishes it: it died, or hangs"),),
@@ -709,7 +717,7 @@ def _stopped(link: TracedLink, track: Track, trace: _Trace, last: Stamp) -> _Tol
 def _late(known: _Known, link: TracedLink, track: Track) -> _Told:
     trace = known.trace
     stamps = track.sorted_stamps
-    after = int(np.searchsorted(stamps, trace.stamp, side="left"))
+    after = int(np.searchsorted(stamps, trace.moment, side="left"))
     step = int(stamps[after] - stamps[after - 1]) if after else 0
     heard = trace.heard
     is_gap = step > max(5 * track.period, NANOSECONDS // 2)
