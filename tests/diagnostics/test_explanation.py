@@ -10,6 +10,7 @@ from tftool.diagnostics.explanation import (
     LinkVerdict,
     Question,
     message_of,
+    over_time,
     traced,
 )
 from tftool.diagnostics.model import Model, Settings
@@ -211,3 +212,41 @@ def test_values_are_frozen():
     with pytest.raises(TypeError):
         finding.facts["frames"] = []
     assert asked(robot(), "odom", "laser", LASTS / 2) == asked(robot(), "odom", "laser", LASTS / 2)
+
+
+@pytest.mark.parametrize(
+    ("begin", "share"),
+    [(0.0, 0.0), (2.0, 0.25), (6.0, 0.75)],
+)
+def test_a_session_tells_for_how_long_a_lookup_would_have_failed(begin, share):
+    made = robot(odometry=False, scans=False)
+    made.moving("odom", "base_link", begin=begin)
+    made.moving("base_link", "arm")
+    model = Model(made.material())
+    question = Question("odom", "arm")
+    found = over_time(model, question, traced(model, question))
+    assert found.available
+    assert found.failed == pytest.approx(share, abs=0.01)
+    told = f"this lookup works now; it would have failed for {share * 100:.0f} % of the last 7.98 s"
+    assert (told in found.why) is bool(share)
+
+
+def test_what_never_answered_in_a_session_failed_all_the_time():
+    model = Model(robot().material())
+    question = Question("odom", "nowhere")
+    found = over_time(model, question, traced(model, question))
+    assert (found.available, found.failed) == (False, 1.0)
+    assert found.why[0].startswith("this lookup fails now, and would have for 100 % of the last")
+
+
+def test_a_question_for_the_latest_is_one_for_the_last_moment_in_common():
+    made = robot(odometry=False, scans=False)
+    made.moving("odom", "base_link", end=2.0)
+    made.moving("base_link", "arm", begin=5.0)
+    model = Model(made.material())
+    found = traced(model, Question("odom", "arm"))
+    assert not found.available
+    # The odometry ended at 1.98, and the arm began at 5: there is no moment in common.
+    assert found.links[0].verdict is LinkVerdict.BACKWARD
+    assert found.links[0].short_by == seconds(3.02)
+    assert found.cause is Cause.BEFORE_START

@@ -28,6 +28,9 @@ if TYPE_CHECKING:
 WHOLE = Scope()
 """All of a source."""
 
+LIVE = "live session"
+"""The kind of what a session that runs gives."""
+
 LISTEN_LIVE = seconds(10)
 """How long a session that runs is listened to where nothing else is said."""
 
@@ -78,7 +81,7 @@ def material_of(
         if session is not None:
             lasting = lasting or LISTEN_LIVE
             notice(f"Listening for {as_seconds(lasting):g} s ...")
-            return _described(_heard(session, lasting, "live session"), scope)
+            return _described(_heard(session, lasting, LIVE), scope)
     session = open_session(connection, word, simulated=True, because=NO_SESSION)
     whole = session.duration or LISTEN
     return _described(_heard(session, lasting or whole, "scenario"), scope)

@@ -8,7 +8,7 @@ does not need.
 
 import math
 from collections.abc import Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from enum import Enum
 
 import numpy as np
@@ -163,6 +163,8 @@ class Explanation:
         why: The same in sentences.
         remedies: What helps, the least first.
         useless: What people try and does not help, in sentences.
+        failed: Of a session that was listened to, for which share of that time the same
+            question would have been refused; None elsewhere.
     """
 
     target: str
@@ -183,6 +185,7 @@ class Explanation:
     why: tuple[str, ...] = ()
     remedies: tuple[Remedy, ...] = ()
     useless: tuple[str, ...] = ()
+    failed: float | None = None
 
     @property
     def check(self) -> str | None:
@@ -488,6 +491,60 @@ def traced(model: Model, question: Question) -> Explanation:
     )
 
 
+MOMENTS = 1000
+"""At how many moments of a session's last seconds a question is asked again."""
+
+
+def over_time(model: Model, question: Question, found: Explanation) -> Explanation:
+    """Add to an explanation for which share of the time the question would have been refused.
+
+    Args:
+        model: What was heard of a session.
+        question: What was asked at its end.
+        found: What was answered.
+    """
+    trace = _Trace(model, question)
+    way = None if _misnamed(trace) is not None else trace.way()
+    # Who begins to listen has heard of each link after a period of it, at the latest two.
+    grace = 2 * max((track.period for track in way or ()), default=0)
+    begin = min(model.start + grace, (model.start + model.end) // 2)
+    asks = np.linspace(begin, model.end, MOMENTS).astype(np.int64)
+    holds = np.zeros(MOMENTS, dtype=bool) if way is None else _holds(way, asks, question)
+    failed = float(np.count_nonzero(~holds)) / MOMENTS
+    length = span(model.end - model.start)
+    words = "works now; it would have failed" if found.available else "fails now, and would have"
+    share = f"{failed * 100:.0f} %" if failed >= 0.005 or not failed else "less than 1 %"
+    told = f"this lookup {words} for {share} of the last {length}"
+    why = (told, *found.why) if failed or not found.available else found.why
+    return replace(found, failed=failed, why=why)
+
+
+def _holds(
+    way: Sequence[Track], asks: Stamps, question: Question
+) -> "np.ndarray[tuple[int], np.dtype[np.bool_]]":
+    """At which of these log times a question is answered."""
+    holds = np.ones(len(asks), dtype=bool)
+    newest, oldest = [], []
+    for track in way:
+        if track.static:
+            holds &= asks >= int(track.logs[0])
+            continue
+        usable = np.flatnonzero(track.usable)
+        came = np.searchsorted(track.logs[usable], asks, side="right") - 1
+        holds &= came >= 0
+        if not len(usable):
+            continue
+        last = np.maximum.accumulate(track.stamps[usable])[np.maximum(came, 0)]
+        first = np.minimum.accumulate(track.stamps[usable])[np.maximum(came, 0)]
+        newest.append(last)
+        oldest.append(np.maximum(first, last - question.settings.cache_time))
+    if newest:
+        common = np.minimum.reduce(newest)
+        at = common if question.stamp == LATEST else np.full(len(asks), question.stamp)
+        holds &= (np.maximum.reduce(oldest) <= at) & (at <= common)
+    return holds
+
+
 def _misleading(
     links: tuple[TracedLink, ...], quoted: tuple[str | None, Stamp] | None
 ) -> tuple[str, ...]:
@@ -684,7 +741,9 @@ def _pruned(known: _Known, link: TracedLink, track: Track) -> _Told:
 
 def _before_start(known: _Known, link: TracedLink, track: Track, first: Stamp) -> _Told:
     trace = known.trace
-    why = [f"{link.name} begins at {moment(first)}, {span(first - trace.moment)} after the question"]
+    why = [
+        f"{link.name} begins at {moment(first)}, {span(first - trace.moment)} after the question"
+    ]
     if track.median_latency < 0:
         why.append(
             f"it is dated {span(-track.median_latency)} ahead (transform_tolerance): nothing "

@@ -193,4 +193,5 @@ def as_object(found: Explanation) -> dict[str, Any]:
             for one in found.remedies
         ],
         "useless": list(found.useless),
+        "failed_share": found.failed,
     }

@@ -65,9 +65,9 @@ def explain(
     tftool explain map base_link run.mcap --at 12.5 --cache-time 5
     """
     # Heavy imports wait until this command is the chosen one.
-    from tftool.cli.examining import material_of
+    from tftool.cli.examining import LIVE, material_of
     from tftool.cli.printing import write
-    from tftool.diagnostics.explanation import Question, message_of, traced
+    from tftool.diagnostics.explanation import Question, message_of, over_time, traced
     from tftool.diagnostics.model import Model, Settings
     from tftool.views import explanation as view
 
@@ -92,6 +92,8 @@ def explain(
         topic,
     )
     found = traced(model, question)
+    if model.material.kind == LIVE:
+        found = over_time(model, question, found)
     if for_programs:
         sys.stdout.write(json.dumps(view.as_object(found), indent=2, allow_nan=False) + "\n")
     else:
