@@ -3,7 +3,7 @@ from functools import partial
 import pytest
 
 from tftool.cli import onscreen
-from tftool.cli.scripted_keys import _press_there
+from tftool.cli.commands.teleop import press_there
 from tftool.errors import UsageError
 from tftool.messages import Pose2D
 from tftool.nodes.teleop import BANNER
@@ -68,7 +68,7 @@ def test_a_turtle_that_is_not_in_the_joined_session_is_told_with_those_that_are(
     world.topic("turtle2/pose", Pose2D)
 
     with pytest.raises(UsageError, match="no turtle 'bob' here; there are turtle1, turtle2"):
-        run(world.clock, _press_there(world, "bob", ["up"]))
+        run(world.clock, press_there(world, "bob", ["up"]))
 
 
 @pytest.fixture

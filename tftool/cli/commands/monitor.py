@@ -1,15 +1,28 @@
 """`tftool monitor`: what arrives, how often, how late."""
 
+import json
 import sys
-from typing import Annotated
+from collections.abc import Callable
+from enum import Enum, auto
+from typing import TYPE_CHECKING, Annotated
 
 import typer
 
 from tftool.cli.app import ExitStatus
 from tftool.cli.connection import Connection
 from tftool.cli.options import OUTPUT, WHEN, CacheTime, Json, RunFor, duration, positive
-from tftool.errors import InputError, UsageError
-from tftool.stamps import Duration, seconds
+from tftool.errors import InputError, TransformException, UsageError
+from tftool.frames.sample import TransformStamped
+from tftool.frames.traffic import NetDelay, Traffic
+from tftool.stamps import Duration, as_seconds, seconds
+from tftool.views import monitor as view
+
+if TYPE_CHECKING:
+    from tftool.runtime.clock import Clock
+    from tftool.runtime.world import TransformMessage, World
+
+ASK_EVERY = seconds(0.5)
+"""How often the delay of a chain is measured; tf2_monitor's own figure."""
 
 
 def monitor(
@@ -54,7 +67,6 @@ def monitor(
     tftool monitor robot --for 10 --json
     """
     from tftool.cli.hosting import open_session
-    from tftool.cli.monitoring import Monitor, Style
 
     if as_tf2 and for_programs:
         raise UsageError("--tf2 and --json are two ways of writing: choose one.")
@@ -96,3 +108,146 @@ def _sorted_out(words: list[str]) -> tuple[tuple[str, str] | None, str | None]:
         return None, place
     target, source, *rest = words
     return (target, source), rest[0] if rest else None
+
+
+class Style(Enum):
+    """How a report is written."""
+
+    TABLE = auto()
+    LINES = auto()
+    TF2 = auto()
+    JSON = auto()
+
+
+class Monitor:
+    """Everything that arrives in one world, reported once a period."""
+
+    def __init__(
+        self, world: "World", frames: tuple[str, str] | None, style: Style, *, period: Duration
+    ) -> None:
+        """Prepare to listen.
+
+        Args:
+            world: Where to listen.
+            frames: Target and source of the chain to report on; None for all frames.
+            style: How to report.
+            period: Nanoseconds between two reports.
+        """
+        self.world = world
+        self.frames = frames
+        self.style = style
+        self.period = period
+        self.traffic = Traffic()
+        self.chain: view.Chain | None = None
+
+    async def run(self, duration: Duration | None) -> None:
+        """Listen and report, for so many nanoseconds or for ever.
+
+        The last report is at the end of that time, which begins once the frames are connected.
+
+        Raises:
+            TransformException: If the frames are not connected in as much time, or never will be.
+        """
+        from rich.console import Console
+        from rich.live import Live
+
+        from tftool.runtime.clock import pace_of
+        from tftool.runtime.supervisor import beside
+
+        clock, pace = self.world.clock, pace_of(self.world.clock)
+        if self.frames is not None:
+            await self._find_chain(*self.frames, patience=duration)
+        began = clock.now()
+        end = None if duration is None else pace.now() + duration
+        # A node that holds up the loop would keep this from ever being over.
+        pace.limit(end)
+        stops = [
+            self.world.tf.subscribe(lambda message: self._hear(message, False), "monitor"),
+            self.world.tf_static.subscribe(lambda message: self._hear(message, True), "monitor"),
+        ]
+        self._hear_statics()
+        self._announce()
+        console = Console()
+        try:
+            if self.style is Style.TABLE:
+                with Live(console=console, auto_refresh=False) as live:
+
+                    def show() -> None:
+                        picture = view.table(clock.now(), began, self.traffic, self.chain)
+                        live.update(picture, refresh=True)
+
+                    await beside(self._report_until(pace, end, show), self._ask(pace))
+            else:
+                await beside(self._report_until(pace, end, self._write), self._ask(pace))
+        finally:
+            for stop in stops:
+                stop()
+
+    async def _report_until(
+        self, clock: "Clock", end: int | None, report: Callable[[], None]
+    ) -> None:
+        from tftool.runtime.clock import Phase
+
+        due = clock.now()
+        while end is None or due < end:
+            due += self.period
+            if end is not None:
+                due = min(due, end)
+            await clock.sleep_until(due, Phase.WATCH)
+            report()
+
+    async def _find_chain(self, target: str, source: str, patience: Duration | None) -> None:
+        """Wait until the two frames are connected, as tf2_monitor does."""
+        from tftool.cli.waiting import FramePair, Waiter
+
+        advice = "--for SECONDS ends the wait."
+        pair = FramePair(target, source)
+        await Waiter(self.world, pair, patience=patience, advice=advice).wait()
+        frames = tuple(self.world.buffer.chain(target, source)) or (target,)
+        self.chain = view.Chain(target, source, frames, NetDelay())
+
+    async def _ask(self, pace: "Clock") -> None:
+        """Measure how old the latest answer is; a static one has no age."""
+        from tftool.runtime.clock import Phase
+
+        clock = self.world.clock
+        due = pace.now()
+        while self.chain is not None:
+            due = max(due + ASK_EVERY, pace.now())
+            await pace.sleep_until(due, Phase.WATCH)
+            try:
+                found = self.world.buffer.lookup_transform(self.chain.target, self.chain.source)
+            except TransformException:
+                # tf2_monitor would end here; what is missing comes back, or is seen in the rates.
+                continue
+            if found.stamp:
+                self.chain.delay.add(as_seconds(clock.now() - found.stamp))
+
+    def _hear(self, message: "TransformMessage", is_static: bool) -> None:
+        self.traffic.receive(
+            self.world.clock.now(), message.transforms, message.authority, is_static=is_static
+        )
+
+    def _hear_statics(self) -> None:
+        """Take in what was published before, as a late subscriber gets it."""
+        now = self.world.clock.now()
+        for info in self.world.buffer.snapshot(now).frames:
+            if info.is_static and info.parent is not None and info.transform is not None:
+                sample = TransformStamped(now, info.parent, info.frame, info.transform)
+                self.traffic.receive(now, [sample], info.authority or "", is_static=True)
+
+    def _announce(self) -> None:
+        from tftool.cli.notices import notice
+        from tftool.views.echo import in_words
+
+        about = "all frames" if self.frames is None else in_words(*self.frames)
+        notice(f"Gathering data on {about}, a report every {as_seconds(self.period):g} s ...")
+
+    def _write(self) -> None:
+        if self.style is Style.JSON:
+            now = self.world.clock.now()
+            text = json.dumps(view.as_object(now, self.traffic, self.chain), allow_nan=False) + "\n"
+        else:
+            text = view.lines(self.traffic, self.chain, as_tf2=self.style is Style.TF2)
+        sys.stdout.write(text)
+        sys.stdout.flush()
