@@ -18,6 +18,9 @@ LATEST: Stamp = 0
 NANOSECONDS = 1_000_000_000
 """Nanoseconds in a second."""
 
+CACHE_TIME: Duration = 10 * NANOSECONDS
+"""How far back a buffer remembers unless it is told otherwise; tf2's own figure."""
+
 
 def seconds(value: float) -> int:
     """Turn seconds into nanoseconds, rounding half away from zero as tf2 does.

@@ -52,7 +52,7 @@ from tftool.runtime.clock import Clock, FollowedClock, Phase, SimClock, pace_of,
 from tftool.runtime.supervisor import beside, live
 from tftool.runtime.world import World
 from tftool.sources.find import Found, Kind, find, names_a_path
-from tftool.stamps import LATEST, Duration, Stamp, as_seconds, seconds
+from tftool.stamps import CACHE_TIME, LATEST, Duration, Stamp, as_seconds, seconds
 from tftool.views.escaping import visible
 
 if TYPE_CHECKING:
@@ -73,9 +73,6 @@ A_MOMENT = "A chosen moment is always simulated"
 
 HEAD_START = seconds(3)
 """How long a hosted world has lived when its command first looks: both turtles are there."""
-
-CACHE_TIME = seconds(10)
-"""How far back the buffer of a joined world remembers; tf2's own figure."""
 
 LISTEN = seconds(5)
 """How long a scenario is played before it is observed, as view_frames listens."""

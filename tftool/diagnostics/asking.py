@@ -12,11 +12,11 @@ from tftool.diagnostics.catalogue import CHECKS
 from tftool.diagnostics.explanation import Explanation, Question, traced
 from tftool.diagnostics.findings import Finding
 from tftool.diagnostics.judge import judge
-from tftool.diagnostics.model import CACHE_TIME, Material, Model, Settings, described_by
+from tftool.diagnostics.model import Material, Model, Settings, described_by
 from tftool.diagnostics.scope import Readable, Scope
 from tftool.frames.buffer import Buffer
 from tftool.sources.contract import SIMULATED_BELOW, Edge, Publisher, Stamps, Transforms
-from tftool.stamps import LATEST, NANOSECONDS, Duration, Stamp
+from tftool.stamps import CACHE_TIME, LATEST, NANOSECONDS, Duration, Stamp
 
 Records = npt.NDArray[np.int64]
 Places = npt.NDArray[np.int32]

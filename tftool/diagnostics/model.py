@@ -29,7 +29,7 @@ from tftool.sources.joint_states import joint_state_topics, read_joint_states
 from tftool.sources.robot import Robot, load_urdf
 from tftool.sources.timeline import through_clock
 from tftool.sources.urdf import RobotJoint
-from tftool.stamps import NANOSECONDS, Duration, Stamp, seconds
+from tftool.stamps import CACHE_TIME, NANOSECONDS, Duration, Stamp, seconds
 
 Mask = npt.NDArray[np.bool_]
 Places = npt.NDArray[np.intp]
@@ -48,9 +48,6 @@ LAP = seconds(1)
 
 WARM_UP = seconds(1)
 """The start and the end of a recording, which checks of coverage leave out."""
-
-CACHE_TIME = seconds(10)
-"""What a listener keeps unless it says otherwise; tf2's own figure."""
 
 ZERO_QUATERNION = 1e-12
 """A rotation whose squared length is below this has no direction: tf2 drops it."""

@@ -25,7 +25,7 @@ from tftool.frames.tree import FrameTree
 from tftool.geometry import poses, quaternions, rigid
 from tftool.geometry.rigid import Transform
 from tftool.listeners import Listeners, Report, listener_text
-from tftool.stamps import Duration, Stamp, seconds, whole
+from tftool.stamps import CACHE_TIME, Duration, Stamp, whole
 
 if IS_NATIVE:
     from tftool.frames import _kernel
@@ -81,7 +81,7 @@ class Buffer:
 
     def __init__(
         self,
-        cache_time: Duration = seconds(10),
+        cache_time: Duration = CACHE_TIME,
         *,
         log: refusals.Log | None = None,
         max_frames: int = MAX_FRAMES,

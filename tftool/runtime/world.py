@@ -30,7 +30,7 @@ from tftool.runtime.log import Log
 from tftool.runtime.offers import Offer
 from tftool.runtime.resident import Resident, Supervision
 from tftool.runtime.topics import Acceptor, GoalHandle, Handler, Topic
-from tftool.stamps import Duration, Stamp, seconds
+from tftool.stamps import CACHE_TIME, Duration, Stamp
 
 T = TypeVar("T")
 
@@ -109,7 +109,7 @@ class World:
         clock: Clock,
         buffer: Buffer | None = None,
         *,
-        cache_time: Duration = seconds(10),
+        cache_time: Duration = CACHE_TIME,
     ) -> None:
         self.clock = clock
         self.log = Log(clock.now, report=self.report)

@@ -31,7 +31,7 @@ from tftool.scenario.reading import (
 from tftool.scenario.schema import Expectation, NodeEntry, Scenario, Step, When
 from tftool.scenario.tagged import tagged
 from tftool.scenario.text_file import text_of
-from tftool.stamps import Duration, as_seconds, seconds
+from tftool.stamps import CACHE_TIME, Duration, as_seconds, seconds
 
 NO_ARGUMENTS: Mapping[str, str] = MappingProxyType({})
 
@@ -107,7 +107,7 @@ class _ScenarioReader:
             "about": Key(values.text, ""),
             "arguments": Key(self.arguments, NO_ARGUMENTS),
             "duration": Key(self.length),
-            "cache_time": Key(values.time(), seconds(10)),
+            "cache_time": Key(values.time(), CACHE_TIME),
             "doctor": Key(doctoring.rules, doctoring.NO_RULES),
             "nodes": Key(self.nodes, ()),
             "script": Key(self.script, ()),
