@@ -163,6 +163,10 @@ class File:
         self.read += count
         return found
 
+    def fileno(self) -> int:
+        """The number by which the operating system knows it."""
+        return self._file.fileno()
+
     def up_to(self, place: int, count: int) -> bytes:
         """At most so many bytes from a place on; fewer at the end of the file."""
         return self.at(place, max(0, min(count, self.size - place)))

@@ -5,6 +5,7 @@ import re
 import signal
 import sys
 import threading
+from contextlib import contextmanager
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
@@ -17,6 +18,8 @@ from tftool.errors import UsageError
 from tftool.stamps import Duration, seconds
 
 if TYPE_CHECKING:
+    from collections.abc import Iterator
+
     from tftool.sources.writing.rolling import RollingRecording
 
 _SIZE = re.compile(r"(\d+(?:\.\d+)?)\s*([kMG]?)(?:i?B)?", re.ASCII)
@@ -128,7 +131,6 @@ def record(
 
     async def recorded() -> None:
         nonlocal running
-        # A scenario that ends ends its recording as well.
         link = None if session.is_hosted else session.link
         recorder = Recorder(world, rolling, link=link, names=topics or (), everything=everything)
         clock = pace_of(world.clock)
@@ -139,11 +141,9 @@ def record(
             recorder.close()
             running.clear()
 
-    # A terminal that is closed ends it as Ctrl-C does.
-    if hasattr(signal, "SIGHUP") and threading.current_thread() is threading.main_thread():
-        signal.signal(signal.SIGHUP, lambda *_: signal.raise_signal(signal.SIGTERM))
     try:
-        session.run(recorded())
+        with _ended_by_hangup():
+            session.run(recorded())
     except KeyboardInterrupt:
         rolling.close()
         sys.stdout.write(f"{_summed_up(rolling)}\n")
@@ -170,6 +170,19 @@ def record(
             sys.stdout.write(f"{visible(running.found.message)}\n")
         sys.stdout.write(f"{_summed_up(rolling)}\n")
     return status
+
+
+@contextmanager
+def _ended_by_hangup() -> "Iterator[None]":
+    """Let a terminal that is closed end it as Ctrl-C does."""
+    if not hasattr(signal, "SIGHUP") or threading.current_thread() is not threading.main_thread():
+        yield
+        return
+    before = signal.signal(signal.SIGHUP, lambda *_: signal.raise_signal(signal.SIGTERM))
+    try:
+        yield
+    finally:
+        signal.signal(signal.SIGHUP, before)
 
 
 def _summed_up(rolling: "RollingRecording") -> str:

@@ -186,6 +186,7 @@ class Changer:
     Attributes:
         window: Which moments are kept; None for all.
         counts: How often each thing was done, by its name.
+        topics: Topics on which links are that change; None where that is not known.
         passed_over: Topics whose names could not be changed, and why.
     """
 
@@ -207,10 +208,13 @@ class Changer:
         self._has_header: dict[Channel, bool] = {}
         self.counts: Counter[str] = Counter()
         self.passed_over: dict[str, str] = {}
+        self.topics: frozenset[str] | None = None
 
     def touches(self, channel: Channel) -> bool:
         """Whether messages of a channel may change, or be left out other than by a cut."""
         if carries_transforms(channel):
+            if self.topics is not None:
+                return channel.topic in self.topics
             return self._edits.links or (bool(self._replaced) and carries_statics(channel))
         return self._edits.everywhere and (self._edits.names or self._edits.stamps)
 

@@ -131,18 +131,20 @@ class EditedFile:
 
     # Channels
 
-    def _conversion(self, source: int, number: int, channel: Channel) -> Conversion | None:
+    def _conversion(
+        self, source: int, number: int, channel: Channel, tape: Tape
+    ) -> Conversion | None:
         """How a channel is written here; None where it cannot be."""
         key = source, number
         if key not in self._conversions:
             try:
-                self._conversions[key] = self._converted(channel)
+                self._conversions[key] = self._converted(channel, tape)
             except TftoolError as error:
                 self._conversions[key] = None
                 self.left_out.setdefault(channel.topic, str(error).rstrip("."))
         return self._conversions[key]
 
-    def _converted(self, channel: Channel) -> Conversion:
+    def _converted(self, channel: Channel, tape: Tape) -> Conversion:
         if self.container == "bag":
             return as_ros1(channel)
         if channel.encoding == "ros1":
@@ -154,7 +156,8 @@ class EditedFile:
                     "sqlite files have no place"
                 )
             channel = _with(channel, kind=full_name(channel.type))
-        if channel.encoding == "cdr" and not channel.definition:
+        # An MCAP file stays as it is, with what it does not say; others have no place for it.
+        if channel.encoding == "cdr" and not channel.definition and tape.container != "mcap":
             channel = _defined(channel)
         return Conversion(channel, bytes)
 
@@ -164,7 +167,7 @@ class EditedFile:
         found = self._numbers.get(key)
         if found is not None:
             return found
-        conversion = self._conversion(source, number, channel)
+        conversion = self._conversion(source, number, channel, tape)
         if conversion is None:
             return None
         written = conversion.channel

@@ -33,6 +33,7 @@ from tftool.sources.editing.changes import (
 from tftool.sources.editing.inputs import EditedInput, open_input, open_tape
 from tftool.sources.editing.mcap_tape import McapChunk
 from tftool.sources.editing.outputs import EditedFile, digest
+from tftool.sources.editing.pieces import are_equal
 from tftool.sources.editing.rosbag1_tape import Rosbag1Chunk
 from tftool.sources.editing.tape import Block, Taken, Tape
 from tftool.sources.recording import Recording, open_recording
@@ -165,6 +166,7 @@ class _Job:
         self._check_names()
         window = self._window()
         self._changer = Changer(edits, window, self._reparenting())
+        self._changer.topics = self._concerned()
         starts = [one.source.start for one in recordings if one.source.start]
         self._start: Stamp = min(starts, default=0)
         if window is not None:
@@ -198,6 +200,23 @@ class _Job:
             raise UsageError(
                 f"Two frames would be called '{clash[0]}': {' and '.join(map(repr, both))}."
             )
+
+    def _concerned(self) -> frozenset[str] | None:
+        """The topics of the links that are named; None where all links change."""
+        edits = self._edits
+        wanted = [*edits.drop, *edits.poses, *edits.reparent]
+        if not wanted or edits.names or edits.stamps or edits.statics_from:
+            return None
+        found: set[str] = set()
+        for recording in self._recordings:
+            transforms = recording.transforms
+            if recording.damage:
+                return None
+            for edge in transforms.edges:
+                if any(fits((edge.parent, edge.child), link) for link in wanted):
+                    senders = np.unique(transforms.senders_of(edge)).tolist()
+                    found |= {transforms.publishers[sender].topic for sender in senders}
+        return frozenset(found)
 
     def _window(self) -> Window | None:
         edits = self._edits
@@ -529,7 +548,7 @@ class _Job:
             copied = output.copied.get(position) if position is not None else None
             if copied is not None:
                 assert isinstance(block, McapChunk | Rosbag1Chunk)
-                if block.raw() != copied.chunk.raw():
+                if not are_equal(block.raw(), copied.chunk.raw()):
                     raise InputError(f"'{self._path}' differs from its input at byte {position}.")
                 for number, count in (block.channels or {}).items():
                     channel = tape.channels[number]

@@ -8,6 +8,7 @@ from typing import Any, Final
 from tftool.errors import InputError
 from tftool.sources.compressed import unpack, unpack_beginning
 from tftool.sources.container import File
+from tftool.sources.editing.pieces import Piece
 from tftool.sources.editing.tape import Extras, Taken
 from tftool.sources.find import ROS1_MAGIC
 from tftool.sources.writing import rosbag1 as format
@@ -175,6 +176,10 @@ class Rosbag1Tape:
         if damage not in self.damage and len(self.damage) < 20:
             self.damage.append(damage)
 
+    def fileno(self) -> int:
+        """The file's number."""
+        return self._file.fileno()
+
     def bytes_at(self, place: int, count: int) -> bytes:
         """So many bytes of the file."""
         return self._file.at(place, count)
@@ -201,9 +206,9 @@ class Rosbag1Chunk:
         self.channels: Mapping[int, int] | None = None
         self._found: list[Taken] | None = None
 
-    def raw(self) -> bytes:
+    def raw(self) -> Piece:
         """Its record and those of its index."""
-        return self._tape.bytes_at(self.position, self.behind - self.position)
+        return Piece(self._tape.fileno(), self.position, self.behind - self.position)
 
     def messages(self) -> list[Taken]:
         """Its messages, those up to the damage where there is any."""

@@ -32,6 +32,20 @@ class Channel:
         return dict(self.metadata).get(key, "")
 
 
+class CopiedPiece(Protocol):
+    """Some bytes of another file that are to be written as they are."""
+
+    @property
+    def length(self) -> int:
+        """How many they are."""
+
+    def read(self) -> bytes:
+        """The bytes."""
+
+    def copy_to(self, file: int, place: int) -> None:
+        """Copy them to a place in the file of a number."""
+
+
 class ContainerWriter(Protocol):
     """One file that takes messages; it begins when it is made, and ends with `finish`."""
 

@@ -14,7 +14,7 @@ from typing import Final
 
 from tftool.errors import InputError, UsageError
 from tftool.sources.find import MCAP_MAGIC
-from tftool.sources.writing.channel import Channel
+from tftool.sources.writing.channel import Channel, CopiedPiece
 from tftool.sources.writing.compression import compressor
 from tftool.stamps import Stamp
 
@@ -359,11 +359,11 @@ class McapWriter:
 
     # What is copied
 
-    def copy_chunk(self, piece: bytes, entry: ChunkEntry, counts: Mapping[int, int]) -> None:
+    def copy_chunk(self, piece: CopiedPiece, entry: ChunkEntry, counts: Mapping[int, int]) -> None:
         """Append a chunk and its message indexes as they stood in another file.
 
         Args:
-            piece: The bytes of the chunk's record and those of its message indexes.
+            piece: The chunk's record and those of its message indexes.
             entry: How it stood there; its places are moved.
             counts: How many messages each of its channels has.
         """
@@ -372,7 +372,11 @@ class McapWriter:
         for channel, count in counts.items():
             self._count(channel, count, entry.start, entry.end)
         self._defined.update(counts)
-        self._put(piece)
+        if self._with_crc:
+            self._put(piece.read())
+        else:
+            piece.copy_to(self._file.fileno(), self.position)
+            self.position = self._file.seek(self.position + piece.length)
         self._chunks.append(
             ChunkEntry(
                 entry.start,

@@ -110,7 +110,7 @@ class RollingRecording:
         self._held_bytes = 0
         self._written = 0
         self._writer: McapWriter | None = None
-        self._numbers: dict[Channel, int] = {}
+        self._numbers: dict[int, tuple[int, Channel]] = {}
         self._file_start: Stamp | None = None
         self._last = 0
         self._flushed: Stamp = 0
@@ -173,7 +173,7 @@ class RollingRecording:
             return
         self.messages += 1
         self.transforms += transforms
-        self._last = max(self._last, log_time)
+        self._last = log_time
         if self._limits.ring:
             self._held.append(Kept(channel, log_time, payload))
             self._held_bytes += len(payload)
@@ -210,16 +210,21 @@ class RollingRecording:
                 writer = self._next(log_time)
             if self._file_start is None:
                 self._file_start = self._flushed = log_time
-            number = self._numbers.get(channel)
-            if number is None:
-                number = self._numbers[channel] = writer.channel(channel)
+            # By identity: to hash a channel's texts for every message takes as long as writing it.
+            known = self._numbers.get(id(channel))
+            number = self._number(writer, channel) if known is None else known[0]
             writer.write(number, log_time, payload)
-            self._topics[channel] = self._topics.get(channel, 0) + 1
             if log_time - self._flushed >= CHUNK_TIME:
                 writer.flush()
                 self._flushed = log_time
         except OSError as error:
             raise self._rescued(error) from error
+
+    def _number(self, writer: McapWriter, channel: Channel) -> int:
+        """The number of a stream in the file that is open."""
+        number = writer.channel(channel)
+        self._numbers[id(channel)] = number, channel
+        return number
 
     def _is_full(self, writer: McapWriter, now: Stamp) -> bool:
         limits = self._limits
@@ -241,9 +246,8 @@ class RollingRecording:
     def _write_statics(self, writer: McapWriter, now: Stamp) -> None:
         for channel, rows in self._statics.items():
             if rows:
-                number = self._numbers[channel] = writer.channel(channel)
+                number = self._number(writer, channel)
                 writer.write(number, now, encode_rows(CDR, tuple(rows.values())))
-                self._topics[channel] = self._topics.get(channel, 0) + 1
         writer.flush()
 
     def _open(self) -> McapWriter:
@@ -341,6 +345,8 @@ class RollingRecording:
         self._writer = None
         self._written += place.stat().st_size
         self.files.append(place.name)
+        for number, channel in dict(self._numbers.values()).items():
+            self._topics[channel] = self._topics.get(channel, 0) + writer.counts.get(number, 0)
         start, end = writer.span
         self._facts.append(FileFacts(place.name, start, end, sum(writer.counts.values())))
 

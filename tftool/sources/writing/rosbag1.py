@@ -13,7 +13,7 @@ from typing import Final
 
 from tftool.errors import InputError, UsageError
 from tftool.sources.find import ROS1_MAGIC
-from tftool.sources.writing.channel import Channel
+from tftool.sources.writing.channel import Channel, CopiedPiece
 from tftool.sources.writing.compression import compressor
 from tftool.stamps import NANOSECONDS, Stamp
 
@@ -164,18 +164,21 @@ class Rosbag1Writer:
         self._note_chunk(low if counts else 0, high, counts)
         self._put(b"".join(parts))
 
-    def copy_chunk(self, piece: bytes, start: Stamp, end: Stamp, counts: Mapping[int, int]) -> None:
+    def copy_chunk(
+        self, piece: CopiedPiece, start: Stamp, end: Stamp, counts: Mapping[int, int]
+    ) -> None:
         """Append a chunk and its index as they stood in another bag.
 
         Args:
-            piece: The bytes of the chunk's record and those of its index.
+            piece: The chunk's record and those of its index.
             start: Log time of its first message.
             end: Of its last.
             counts: How many messages each of its connections has.
         """
         self.flush()
         self._note_chunk(start, end, counts)
-        self._put(piece)
+        piece.copy_to(self._file.fileno(), self.position)
+        self.position = self._file.seek(self.position + piece.length)
 
     def _note_chunk(self, start: Stamp, end: Stamp, counts: Mapping[int, int]) -> None:
         for number, count in counts.items():

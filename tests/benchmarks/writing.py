@@ -1,0 +1,124 @@
+"""Recordings written: editing against `cp`, and how many transforms a second a recorder holds.
+
+    python -m tests.benchmarks.writing [MEGABYTES]
+
+Sides take turns; only the ratios travel. Editing reads the result again and compares it.
+"""
+
+import os
+import shutil
+import sys
+import tempfile
+import time
+from pathlib import Path
+
+import numpy as np
+
+from tftool.frames.sample import TransformStamped
+from tftool.geometry.rigid import Transform
+from tftool.sources.editing.changes import Edits
+from tftool.sources.editing.rewriting import edit
+from tftool.sources.writing.channel import Channel
+from tftool.sources.writing.mcap import McapWriter
+from tftool.sources.writing.recording import TRANSFORMS, ros2_channel
+from tftool.sources.writing.rolling import RollingRecording
+from tftool.stamps import seconds
+from tftool.wire.transforms import encode_transforms
+
+START = seconds(1_750_000_000)
+TURNS = 3
+IMAGE = 500_000
+
+
+def _large(path: Path, megabytes: int) -> None:
+    """Images of noise, and a few transforms between them, uncompressed as rosbag2 leaves them."""
+    writer = McapWriter(path, compression="none", with_crc=False)
+    tf = writer.channel(ros2_channel("/tf", TRANSFORMS))
+    static = writer.channel(ros2_channel("/tf_static", TRANSFORMS, static=True))
+    images = writer.channel(Channel("/image", "sensor_msgs/msg/Image", "cdr", "ros2msg"))
+    noise = np.random.default_rng(1).integers(0, 256, IMAGE, dtype=np.uint8).tobytes()
+    mount = TransformStamped(0, "base", "laser", Transform((1.0, 0.0, 0.0)))
+    writer.write(static, START, encode_transforms([mount]))
+    for number in range(megabytes * 1_000_000 // IMAGE):
+        now = START + number * 10_000_000
+        writer.write(images, now, noise)
+        moved = TransformStamped(now, "odom", "base", Transform((float(number), 0.0, 0.0)))
+        writer.write(tf, now, encode_transforms([moved]))
+    writer.finish()
+
+
+def _timed(work) -> tuple[float, float]:
+    """Seconds, and seconds of processor time."""
+    began, used = time.perf_counter(), time.process_time()
+    work()
+    return time.perf_counter() - began, time.process_time() - used
+
+
+def _edits(folder: Path, megabytes: int) -> None:
+    source = folder / "large.mcap"
+    _large(source, megabytes)
+    pose = {("base", "laser"): (2.0, 0.0, 0.0, 0.0, 0.0, 0.0, 1.0)}
+    sides = {
+        "cp": lambda out: shutil.copyfile(source, out),
+        "cp, on the disk": lambda out: (shutil.copyfile(source, out), _sync(out)),
+        "edit": lambda out: edit([str(source)], out, Edits()),
+        "edit --set": lambda out: edit([str(source)], out, Edits(poses=pose)),
+        "edit --drop": lambda out: edit([str(source)], out, Edits(drop=(("odom", "base"),))),
+    }
+    times: dict[str, list[tuple[float, float]]] = {name: [] for name in sides}
+    for _ in range(TURNS):
+        for name, work in sides.items():
+            out = folder / "out.mcap"
+            times[name].append(_timed(lambda work=work, out=out: work(out)))
+            out.unlink()
+    base = [min(side) for side in zip(*times["cp, on the disk"], strict=True)]
+    sys.stdout.write(f"{source.stat().st_size / 1e6:.0f} MB\n")
+    for name, found in times.items():
+        best = [min(side) for side in zip(*found, strict=True)]
+        sys.stdout.write(
+            f"  {name:16} {best[0]:6.2f} s, {best[0] / base[0]:5.2f} x cp to the disk; "
+            f"of the processor {best[1]:5.2f} s, {best[1] / base[1]:5.2f} x\n"
+        )
+
+
+def _sync(path: Path) -> None:
+    number = os.open(path, os.O_RDONLY)
+    os.fsync(number)
+    os.close(number)
+
+
+def _records(folder: Path) -> None:
+    for each in (1, 10):
+        rolling = RollingRecording(folder / "run.mcap", force=True)
+        channel = ros2_channel("/tf", TRANSFORMS)
+        count = 300_000 // each
+        payloads = [
+            encode_transforms(
+                [
+                    TransformStamped(
+                        START + n, "odom", f"frame_{k}", Transform((float(n), 0.0, 0.0))
+                    )
+                    for k in range(each)
+                ]
+            )
+            for n in range(1000)
+        ]
+
+        def run(rolling=rolling, channel=channel, count=count, payloads=payloads, each=each):
+            for number in range(count):
+                # A hundred thousand transforms a second.
+                now = START + number * each * 10_000
+                rolling.take(channel, now, payloads[number % 1000], each)
+            rolling.close()
+
+        began = time.process_time()
+        run()
+        took = time.process_time() - began
+        rate = count * each / took / 1e6
+        sys.stdout.write(f"record, {each:2} a message: {rate:5.2f} M/s of processor time\n")
+
+
+if __name__ == "__main__":
+    with tempfile.TemporaryDirectory() as place:
+        _edits(Path(place), int(sys.argv[1]) if len(sys.argv) > 1 else 500)
+        _records(Path(place))
