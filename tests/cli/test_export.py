@@ -184,12 +184,17 @@ def test_what_is_refused_is_left_out_and_said(tftool, run, tmp_path):
 
 
 def test_a_scenario_is_played_to_its_end(tftool, simulated, tmp_path):
-    result = tftool("export", "world", "turtle1", "static", "-o", tmp_path / "a.tum", "--for", "1")
-    other = tftool("export", "world", "turtle1", "turtles", "-o", tmp_path / "a.tum")
+    scenario, path = tmp_path / "short.yaml", tmp_path / "a.tum"
+    nodes = "nodes:\n  - turtlesim: {}\n  - broadcaster: {turtle: turtle1}\n"
+    scenario.write_text(f"about: one turtle stands.\nduration: 2 s\n{nodes}")
 
-    assert result.status == 4  # there is no turtle in it
-    assert other.status == 0
-    assert len((tmp_path / "a.tum").read_text().splitlines()) > 1000
+    whole = tftool("export", "world", "turtle1", scenario, "-o", path)
+    lines = path.read_text().splitlines()
+    part = tftool("export", "world", "turtle1", scenario, "-o", path, "--for", "1", "--force")
+
+    assert (whole.status, part.status) == (0, 0)
+    assert 1.9 < float(lines[-1].split()[0]) - float(lines[0].split()[0]) <= 2.0
+    assert 50 < len(path.read_text().splitlines()) < 70
 
 
 @pytest.mark.parametrize("end", ["urdf", "launch.py", "launch.xml", "launch.yaml", "sh"])

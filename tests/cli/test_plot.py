@@ -96,7 +96,7 @@ def test_a_live_plot_ends_with_for(monkeypatch, capsys):
     monkeypatch.setenv("COLUMNS", "80")
     monkeypatch.setenv("LINES", "30")
 
-    status = main(["plot", "turtle2", "turtle1", "--for", "8", "--only", "x"], Terminal())
+    status = main(["plot", "turtle2", "turtle1", "--for", "2", "--only", "x"], Terminal())
 
     out = capsys.readouterr().out
     assert status == 0

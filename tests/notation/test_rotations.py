@@ -4,7 +4,7 @@ import math
 
 import numpy as np
 import pytest
-from hypothesis import given
+from hypothesis import given, settings
 from hypothesis import strategies as st
 from scipy.spatial.transform import Rotation
 
@@ -138,6 +138,7 @@ def test_every_order_of_axes_is_scipys(axes):
 numbers = st.floats(-1.0, 1.0, allow_nan=False)
 
 
+@settings(max_examples=30)
 @given(st.tuples(numbers, numbers, numbers, numbers).filter(lambda q: math.hypot(*q) > 1e-3))
 def test_every_way_out_is_a_way_in(turn):
     from tftool.views.notations import TARGETS, alone
