@@ -50,6 +50,14 @@ class Robot:
     """Its transforms are what odometry messages say."""
     log_from: float | None = None
     """Log time of the start; that of the stamps when None."""
+    noise: np.random.Generator | None = None
+    """Gives latencies and periods a jitter; none when None."""
+
+    def unsteady(self, value: float, share: float) -> float:
+        """A value with jitter, at most so large a share of it."""
+        if self.noise is None:
+            return value
+        return value + abs(value) * float(self.noise.uniform(-share, share))
 
     def log(self, at: float) -> int:
         """When what arrives after so many seconds is received."""
@@ -71,7 +79,7 @@ class Robot:
         publisher = Publisher(topic, node)
         if publisher not in self.publishers:
             self.publishers.append(publisher)
-        log = self.log(at + latency)
+        log = self.log(at + self.unsteady(latency, 0.3 if abs(latency) < 0.1 else 0.01))
         self.messages.append((log, self.publishers.index(publisher)))
         key = (parent, child, topic.endswith("tf_static"))
         made = seconds(self.start) + seconds(at) if stamp is None else stamp
@@ -95,6 +103,8 @@ class Robot:
         """A transform every so often; `offset` dates it ahead."""
         for tick in range(round((end - begin) * hz)):
             at = begin + tick / hz
+            if self.noise is not None:
+                at += float(self.noise.uniform(0.0, 0.1)) / hz
             if not without[0] <= at < without[1]:
                 self.sent(
                     parent,
@@ -124,7 +134,7 @@ class Robot:
         _, messages = self.heard.setdefault(topic, (kind, []))
         for tick in range(round((end - begin) * hz)):
             at = begin + tick / hz
-            log = self.log(at + latency)
+            log = self.log(at + self.unsteady(latency, 0.3 if abs(latency) < 0.1 else 0.01))
             messages.append((seconds(self.start) + seconds(at), log, frame))
 
     def material(self) -> Material:

@@ -1110,7 +1110,11 @@ FOLDS: tuple[tuple[tuple[str, ...], tuple[str, ...], str], ...] = (
         ),
         "child",
     ),
-    (("static-and-dynamic",), ("parent-switch", "static-on-tf", "single-sample"), "child"),
+    (
+        ("static-and-dynamic",),
+        ("parent-switch", "static-on-tf", "single-sample", "static-late"),
+        "child",
+    ),
     (("static-missing",), ("unknown-frame", "split-tree"), "anything"),
     (("static-missing", "unknown-frame", "split-tree"), ("urdf-frame-unpublished",), "frame"),
     (

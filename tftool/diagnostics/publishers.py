@@ -296,12 +296,15 @@ def static_on_tf(model: Model, limits: Limits) -> Iterator[Hit]:
     moving = [track for track in model.dynamic if track.moves]
     if not moving:
         return
+    carried = _by_child(model.dynamic)
     for track in model.dynamic:
         if track.is_localisation or track in moving or len(track.stamps) < limits["samples"]:
             continue
         joint = model.joint_above.get(track.child)
         if joint is not None and joint.moves:
             continue  # it could move, and rests
+        if track.child in carried:
+            continue  # it is moved from one parent to another
         yield Hit(
             edges=(track.edge,),
             publishers=track.nodes,
