@@ -48,3 +48,11 @@ def test_only_descriptions_are_taken(tftool, simulated, name, status, told):
 
     assert result.status == status
     assert told in result.err
+
+
+def test_the_publisher_runs_by_its_ros_name_without_turtles(tftool, robot):
+    words = ["robot_state_publisher", "robot_state_publisher", robot]
+    result = tftool("run", "--simulated", "--for", "1", *words)
+
+    assert result.status == 0
+    assert "turtles" not in result.err

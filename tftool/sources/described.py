@@ -51,19 +51,18 @@ def description_topics(topics: Iterable[RecordedTopic]) -> list[RecordedTopic]:
 
 
 def read_description(source: Source, topic: RecordedTopic) -> Robot:
-    """The description on a topic, the last one if there are several.
+    """The description on a topic, the first one if there are several.
 
     Raises:
         InputError: If it is no text.
         DescriptionError: If it has mistakes.
     """
-    last = None
-    for message in source.messages([topic.name]):
-        last = message.payload
-    if last is None or len(last) > LARGEST:
+    # It is latched and comes first: the rest of a long recording need not be read for it.
+    message = next(iter(source.messages([topic.name])), None)
+    if message is None or len(message.payload) > LARGEST:
         raise InputError(f"'{topic.name}' holds no description that can be read")
     kind = INTERFACES.message("std_msgs/msg/String")
-    text = Codec(kind, ROS1 if topic.encoding == "ros1" else CDR).decode(last).data
+    text = Codec(kind, ROS1 if topic.encoding == "ros1" else CDR).decode(message.payload).data
     return Robot(parse_description(text, f"{source.name}:{topic.name}"))
 
 

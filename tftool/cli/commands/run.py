@@ -10,6 +10,9 @@ from tftool.cli.connection import Connection
 from tftool.cli.options import RunFor, refuse_long_simulation
 from tftool.views.escaping import visible
 
+ROBOTS = ("robot_state_publisher", "joint_state_publisher")
+"""Packages whose nodes publish a robot."""
+
 SIMULATED = "Simulated time is a world's own, and shares no session"
 
 if TYPE_CHECKING:
@@ -105,21 +108,23 @@ def run(
     for word in misplaced(words, own):
         notice(word)
     workspace = hosting.Workspace(Path.cwd())
+    # These bring all there is to see; turtles have no place beside them.
     simulator = (target, *words[:1]) == ("turtlesim", "turtlesim_node")
+    alone = simulator or (target in ROBOTS and place is None)
     with hosting.ros_free(force=force):
         hosting.packages.use(workspace)
         hosting.check_program(workspace, target, words)
-        if simulator:
+        if alone:
             session = open_empty_session(connection, simulated=simulated)
         else:
-            alone = None if place else lambda node: node.kind != "turtlesim"
+            without = None if place else lambda node: node.kind != "turtlesim"
             session = open_session(
                 connection,
                 place,
                 simulated=simulated,
                 head_start=0,
                 needs_messages=True,
-                without=alone,
+                without=without,
                 because=SIMULATED if simulated else NO_SESSION,
             )
         connection.tell_read_only()
