@@ -212,7 +212,8 @@ def _asked(buffer: Buffer, target: str, source: str, moments: Moments) -> tuple[
         return stamps, f"every {as_seconds(moments.period):g} s"
     found = fastest(buffer, links)
     if found is None:
-        alone = max(1, moments.start or 1)
+        # Any moment will do: the first there is data of, as stamp 0 would mean the latest.
+        alone = max(1, moments.start or moving_span(buffer, buffer.frames())[0])
         return np.array([alone], dtype=np.int64), "at one moment, as nothing moves between the two"
     return _within(found[1], moments), f"at the stamps of '{found[0]}'"
 
