@@ -33,6 +33,25 @@ rclpy.timer: rclpy.time: Rate
 rclpy.timer: rclpy.timers: Timer TimerInfo
 rclpy.publisher: rclpy.topics: Publisher
 rclpy.subscription: rclpy.topics: Subscription MessageInfo
+rclpy.event_handler: rclpy.qos_events: PublisherEventCallbacks SubscriptionEventCallbacks
+rclpy.event_handler: rclpy.qos_events: QoSPublisherEventType QoSSubscriptionEventType
+rclpy.event_handler: rclpy.qos_events: QoSLivelinessChangedInfo UnsupportedEventTypeError
+rclpy.event_handler: rclpy.qos_events: QoSPublisherMatchedInfo=QoSMatchedInfo
+rclpy.event_handler: rclpy.qos_events: QoSSubscriptionMatchedInfo=QoSMatchedInfo
+rclpy.event_handler: rclpy.qos_events: QoSOfferedIncompatibleQoSInfo=QoSIncompatibleInfo
+rclpy.event_handler: rclpy.qos_events: QoSRequestedIncompatibleQoSInfo=QoSIncompatibleInfo
+rclpy.event_handler: rclpy.qos_events: QoSOfferedDeadlineMissedInfo=QoSCountInfo
+rclpy.event_handler: rclpy.qos_events: QoSRequestedDeadlineMissedInfo=QoSCountInfo
+rclpy.event_handler: rclpy.qos_events: QoSLivelinessLostInfo=QoSCountInfo
+rclpy.event_handler: rclpy.qos_events: QoSMessageLostInfo=QoSCountInfo
+rclpy.qos_event: rclpy.qos_events: PublisherEventCallbacks SubscriptionEventCallbacks
+rclpy.qos_overriding_options: rclpy.qos_overriding_options: QoSOverridingOptions
+rclpy.qos_overriding_options: rclpy.qos_overriding_options: QosCallbackResult
+rclpy.qos_overriding_options: rclpy.qos_overriding_options: InvalidQosOverridesError
+rclpy.qos_overriding_options: rclpy.qos_overriding_options: _declare_qos_parameters
+rclpy.qos_overriding_options: rclpy.qos_overriding_options: _get_qos_policy_parameter
+rclpy.qos_overriding_options: rclpy.qos: QoSPolicyKind
+rclpy.service_introspection: rclpy.services: ServiceIntrospectionState
 rclpy.time_source: rclpy.time_source: TimeSource CLOCK_TOPIC USE_SIM_TIME_NAME
 rclpy.type_support: rclpy.type_support: check_for_type_support check_is_valid_msg_type
 rclpy.type_support: rclpy.type_support: check_is_valid_srv_type

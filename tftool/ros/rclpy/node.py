@@ -1,5 +1,6 @@
 """rclpy's Node."""
 
+import copy
 from collections.abc import Callable, Iterator, Sequence
 from typing import TYPE_CHECKING, Any, TypeVar
 
@@ -16,6 +17,8 @@ from tftool.ros.rclpy.node_graph import NodeGraph
 from tftool.ros.rclpy.node_parameters import NodeParameters
 from tftool.ros.rclpy.parameter_service import ServedParameters
 from tftool.ros.rclpy.qos import QoSProfile, profile_of
+from tftool.ros.rclpy.qos_events import EndpointWatch
+from tftool.ros.rclpy.qos_overriding_options import declare_overrides
 from tftool.ros.rclpy.seat import NodeSeat
 from tftool.ros.rclpy.services import Client, Service, serve_own
 from tftool.ros.rclpy.time import Clock, Rate, ROSClock
@@ -163,8 +166,13 @@ class Node(NodeGraph, NodeParameters):
         """Something to send messages with."""
         _require_message(msg_type)
         profile, full = profile_of(qos_profile), self._tftool.full(topic)
+        if qos_overriding_options is not None:
+            profile = copy.copy(profile)
+            declare_overrides(self, "publisher", f"/{full}", profile, qos_overriding_options)
         make = publisher_class or Publisher
-        return self.__keep(lambda: make(self._tftool, msg_type, topic, full, profile))
+        made: Publisher = self.__keep(lambda: make(self._tftool, msg_type, topic, full, profile))
+        self.__watch(made, callback_group, event_callbacks)
+        return made
 
     def create_subscription(
         self,
@@ -184,8 +192,22 @@ class Node(NodeGraph, NodeParameters):
         _require_callable(callback)
         profile, full = profile_of(qos_profile), self._tftool.full(topic)
         group = callback_group or self._default_callback_group
-        return self.__keep(
+        if qos_overriding_options is not None:
+            profile = copy.copy(profile)
+            declare_overrides(self, "subscription", f"/{full}", profile, qos_overriding_options)
+        made: Subscription = self.__keep(
             lambda: Subscription(self._tftool, msg_type, topic, full, callback, profile, group, raw)
+        )
+        self.__watch(made, group, event_callbacks)
+        return made
+
+    def __watch(self, made: Any, group: Any, wanted: Any) -> None:
+        """Have callbacks told of the other ends of a topic."""
+        if wanted is None or (wanted.matched is None and wanted.incompatible_qos is None):
+            return
+        group = group or self._default_callback_group
+        made.event_watch = self.__keep(
+            lambda: EndpointWatch(self._tftool, group, made.endpoint, wanted)
         )
 
     def create_timer(

@@ -6,6 +6,7 @@ What arrived waits until an executor takes it, as with all entities.
 import asyncio
 import inspect
 from collections.abc import Callable, Iterable
+from enum import IntEnum
 from typing import Any
 
 from tftool.errors import TftoolError
@@ -20,7 +21,23 @@ START_TYPE_DESCRIPTION_SERVICE_PARAM = "start_type_description_service"
 """The parameter by which ROS 2's nodes are told to describe their types; here none does."""
 
 
-class Client(Requester):
+class ServiceIntrospectionState(IntEnum):
+    """What of its requests and answers a service publishes."""
+
+    OFF = 0
+    METADATA = 1
+    CONTENTS = 2
+
+
+class _Introspected:
+    """What a service and its clients have to do with introspection."""
+
+    def configure_introspection(self, clock: Any, qos: Any, state: int) -> None:
+        """Take note; the requests and answers themselves are not published here."""
+        self.introspection_state = ServiceIntrospectionState(state)
+
+
+class Client(_Introspected, Requester):
     """Asks a service."""
 
     def __init__(self, seat: NodeSeat, kind: Any, name: str, full: str, group: Any) -> None:
@@ -93,7 +110,7 @@ class Client(Requester):
         self.put(lambda: None if future.cancelled() else future.set_result(response))
 
 
-class Service(WorkQueue):
+class Service(_Introspected, WorkQueue):
     """Answers a service."""
 
     def __init__(

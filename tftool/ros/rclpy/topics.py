@@ -41,6 +41,12 @@ class Publisher(NodeEntity):
             kept=deque(maxlen=_room(profile)) if latched else None,
         )
         self._leave = seat.world.endpoints.add(self._endpoint)
+        self.event_watch: NodeEntity | None = None
+
+    @property
+    def endpoint(self) -> Endpoint:
+        """Its place in the graph."""
+        return self._endpoint
 
     @property
     def topic_name(self) -> str:
@@ -82,11 +88,17 @@ class Publisher(NodeEntity):
     def assert_liveliness(self) -> None:
         """Nothing to do."""
 
+    def wait_for_all_acked(self, timeout: Any = None) -> bool:
+        """True: what is sent is with everybody in the world when `publish` returns."""
+        return True
+
     def withdraw(self) -> None:
         """Leave the graph; what was kept for those who come late goes along."""
         super().withdraw()
         self._withdrawn = True
         self._leave()
+        if self.event_watch is not None:
+            self.event_watch.withdraw()
 
 
 class MessageInfo(TypedDict):
@@ -127,16 +139,16 @@ class Subscription(NodeEntity):
         # What other processes send, and sent before, comes to a latched one by itself.
         self._is_fed = self._quality.is_latched and full not in values.TF_TOPICS
         self._topic: Any = seat.world.topic(full, values.carried(kind, full))
-        self._leave = seat.world.endpoints.add(
-            Endpoint(
-                SUBSCRIPTION,
-                seat.authority,
-                full,
-                kind.interface__,
-                self._quality,
-                deliver=self._accept if self._is_fed else None,
-            )
+        self._endpoint = Endpoint(
+            SUBSCRIPTION,
+            seat.authority,
+            full,
+            kind.interface__,
+            self._quality,
+            deliver=self._accept if self._is_fed else None,
         )
+        self._leave = seat.world.endpoints.add(self._endpoint)
+        self.event_watch: NodeEntity | None = None
         self._stop = self._topic.subscribe(self._arrived, seat.authority)
         if self._quality.is_latched:
             for value, sender in seat.late(full):
@@ -146,6 +158,16 @@ class Subscription(NodeEntity):
     def topic_name(self) -> str:
         """The topic's full name."""
         return f"/{self.full}"
+
+    @property
+    def endpoint(self) -> Endpoint:
+        """Its place in the graph."""
+        return self._endpoint
+
+    def get_publisher_count(self) -> int:
+        """How many publish what it listens to."""
+        ends = self.seat.world.endpoints
+        return int(self.seat.program.ask(lambda: len(ends.of(self.full, PUBLISHER))))
 
     def _arrived(self, value: Any) -> None:
         sender = self._topic.sender
@@ -190,6 +212,8 @@ class Subscription(NodeEntity):
         self._stop()
         self._leave()
         self._queue.clear()
+        if self.event_watch is not None:
+            self.event_watch.withdraw()
 
 
 def _room(profile: QoSProfile) -> int | None:

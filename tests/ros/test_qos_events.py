@@ -1,0 +1,113 @@
+"""rclpy.event_handler and qos_overriding_options."""
+
+import pytest
+
+from tests.ros.spinning import spin
+
+
+def test_a_publisher_is_told_when_subscriptions_come_and_go(node):
+    from rclpy.event_handler import PublisherEventCallbacks
+    from std_msgs.msg import String
+
+    told = []
+    events = PublisherEventCallbacks(matched=told.append)
+    publisher = node.create_publisher(String, "chat", 10, event_callbacks=events)
+    subscription = node.create_subscription(String, "chat", lambda message: None, 10)
+    spin(node, 0.1)
+    node.destroy_subscription(subscription)
+    spin(node, 0.1)
+
+    assert [(one.current_count, one.current_count_change) for one in told] == [(1, 1), (0, -1)]
+    assert [one.total_count for one in told] == [1, 1]
+    node.destroy_publisher(publisher)
+    node.create_subscription(String, "chat", lambda message: None, 10)
+    spin(node, 0.1)
+    assert len(told) == 2
+
+
+def test_a_subscription_is_told_which_policy_keeps_a_publisher_away(node):
+    from rclpy.event_handler import SubscriptionEventCallbacks
+    from rclpy.qos import QoSPolicyKind, qos_profile_sensor_data
+    from std_msgs.msg import String
+
+    told, matched = [], []
+    node.create_subscription(
+        String,
+        "chat",
+        lambda message: None,
+        10,
+        event_callbacks=SubscriptionEventCallbacks(
+            incompatible_qos=told.append, matched=matched.append
+        ),
+    )
+    node.create_publisher(String, "chat", qos_profile_sensor_data)
+    spin(node, 0.1)
+
+    assert [(one.total_count, one.last_policy_kind) for one in told] == [
+        (1, QoSPolicyKind.RELIABILITY)
+    ]
+    assert matched == []
+
+
+def test_parameters_choose_the_quality_of_a_topic_that_allows_it(ros_runtime):
+    import rclpy
+    from rclpy.parameter import Parameter
+    from rclpy.qos import ReliabilityPolicy
+    from rclpy.qos_overriding_options import QoSOverridingOptions
+    from std_msgs.msg import String
+
+    rclpy.init()
+    node = rclpy.create_node(
+        "talker",
+        parameter_overrides=[
+            Parameter("qos_overrides./chat.publisher.reliability", value="best_effort"),
+            Parameter("qos_overrides./chat.publisher.depth", value=3),
+        ],
+    )
+    options = QoSOverridingOptions.with_default_policies()
+    publisher = node.create_publisher(String, "chat", 10, qos_overriding_options=options)
+
+    assert publisher.qos_profile.reliability is ReliabilityPolicy.BEST_EFFORT
+    assert publisher.qos_profile.depth == 3
+    assert node.get_parameter("qos_overrides./chat.publisher.history").value == "keep_last"
+
+
+@pytest.mark.parametrize("value", ["no_such", 5])
+def test_a_quality_that_is_none_is_refused(ros_runtime, value):
+    import rclpy
+    from rclpy.parameter import Parameter
+    from rclpy.qos_overriding_options import (
+        InvalidQosOverridesError,
+        QosCallbackResult,
+        QoSOverridingOptions,
+    )
+    from std_msgs.msg import String
+
+    def refuse(profile):
+        return QosCallbackResult(successful=False, reason="too deep")
+
+    rclpy.init()
+    name = "qos_overrides./chat.publisher.reliability" if value != 5 else "other"
+    node = rclpy.create_node("talker", parameter_overrides=[Parameter(name, value=value)])
+    options = QoSOverridingOptions.with_default_policies(callback=refuse)
+
+    with pytest.raises(InvalidQosOverridesError, match=r"no_such|too deep"):
+        node.create_publisher(String, "chat", 10, qos_overriding_options=options)
+
+
+def test_ends_of_topics_and_services_have_what_else_people_call(node):
+    from rclpy.qos import qos_profile_system_default
+    from rclpy.service_introspection import ServiceIntrospectionState
+    from std_msgs.msg import String
+    from std_srvs.srv import Empty
+
+    publisher = node.create_publisher(String, "chat", 10)
+    subscription = node.create_subscription(String, "chat", lambda message: None, 10)
+    client = node.create_client(Empty, "ask")
+    client.configure_introspection(
+        node.get_clock(), qos_profile_system_default, ServiceIntrospectionState.METADATA
+    )
+
+    assert publisher.wait_for_all_acked()
+    assert subscription.get_publisher_count() == 1
+    assert client.introspection_state is ServiceIntrospectionState.METADATA
