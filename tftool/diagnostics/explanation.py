@@ -88,7 +88,7 @@ class TracedLink:
         is_static: Whether it holds at all times.
         publisher: Who sends it; None where that is not known.
         count: Samples held.
-        oldest: Stamp of the oldest one held; None where none is.
+        oldest: Stamp of the oldest one held, of a static its arrival; None where none is.
         newest: Stamp of the newest one held.
         period: Median step of its stamps, nanoseconds; 0 where there is none.
         latency: Median of arrival minus stamp, nanoseconds.
@@ -338,6 +338,10 @@ class _Trace:
     def link(self, track: Track) -> TracedLink:
         held = self.held(track)
         verdict, short_by = self._verdict(track, held)
+        if track.static and len(held):
+            # It holds since it is known, whatever its stamp says.
+            since = int(track.arrivals[self.arrived(track)[0]])
+            held = np.full(len(held), since)
         return TracedLink(
             track.parent,
             track.child,
