@@ -736,6 +736,9 @@ def _up_to(whole: "Buffer", moment: Stamp) -> "Buffer":
     frames = whole.frames()
     found = Buffer(whole.cache_time, max_frames=max(1, len(frames)))
     for frame in frames:
+        # A recording of gigabytes need not be copied for one moment.
+        if whole.lend(frame, found, moment):
+            continue
         samples = whole.samples(frame)
         count = (
             len(samples)

@@ -685,6 +685,36 @@ class Buffer:
         number = self._solver.number(child, "child", "samples", child, child)
         return columns.samples(self._tree, self._tree.frames[number])
 
+    def lend(self, child: str, other: "Buffer", until: Stamp) -> bool:
+        """Have another buffer know what moves of one frame's link up to a stamp, uncopied.
+
+        Args:
+            child: The frame.
+            other: A buffer that does not know the link yet.
+            until: The last stamp it is to know.
+
+        Returns:
+            Whether that could be; if not, nothing was done, and `samples` copies them.
+        """
+        from tftool.frames.history import History
+
+        frame = self._tree.frames[self._tree.numbers[child]]
+        link = frame.link
+        if not isinstance(link, History) or link.parent < 0 or frame.authority is None:
+            return False
+        if not link or link.oldest_stamp > until:
+            return True
+        if link.origins is not None or link.start:
+            return False
+        parent = self._tree.frames[link.parent].name
+        there, history, _ = other._tree.hang(child, parent, False)
+        assert isinstance(history, History)
+        origin = other._tree.origin(parent, frame.authority)
+        link.lend(history, origin, until)
+        other._tree.note(there, parent, frame.authority, origin)
+        other._solver.drop_paths()
+        return True
+
     def frames(self) -> list[str]:
         """Every name that ever came up, in that order; of one sample the child first."""
         return [frame.name for frame in self._tree.frames]

@@ -592,10 +592,15 @@ class History(Fields):
         if self.oldest_stamp < oldest_kept:
             self._prune(oldest_kept)
 
-    def replace(self, records: "array[int]", origins: "array[int]") -> None:
-        """Remember these instead: not none, oldest first, of equal stamps the newest last."""
+    def replace(
+        self, records: "array[int]", origins: "array[int]", count: int | None = None
+    ) -> None:
+        """Remember these instead: not none, oldest first, of equal stamps the newest last.
+
+        Only so many of them, if that is said.
+        """
         self.records = records
-        self.count = len(records) // WORDS
+        self.count = len(records) // WORDS if count is None else count
         self._borrowed = False
         self._compact_at = max(_LEAST_SLACK, self.count >> _SLACK)
         self._begin(0)
@@ -606,17 +611,48 @@ class History(Fields):
         self._newest_parent_start = self._find_newest_parent_start()
         self.mixed = self._newest_parent_start > 0
 
-    def borrow(self, records: "array[int]", origin: int) -> None:
+    def borrow(self, records: "array[int]", origin: int, count: int | None = None) -> None:
         """Remember these instead, each newer than the one before, all of one origin.
 
         They are copied only when something is inserted or pruned.
+
+        Args:
+            records: See the head of this module.
+            origin: Likewise.
+            count: How many of them, if not all.
         """
-        self.replace(records, array("q", [origin]))
+        self.replace(records, array("q", [origin]), count)
         self._borrowed = True
+
+    def lend(self, other: "History", origin: int, until: Stamp) -> bool:
+        """Let another history remember the samples up to a stamp as well, uncopied.
+
+        Args:
+            other: An empty one.
+            origin: What is their origin there.
+            until: The last stamp it is to know.
+
+        Returns:
+            Whether that could be: some were pruned here, or they are of several origins, if not.
+        """
+        if self.origins is not None or self.start or not self.count:
+            return False
+        first, last = 0, self.count
+        while first < last:
+            middle = (first + last) // 2
+            if self._stamp(middle) <= until:
+                first = middle + 1
+            else:
+                last = middle
+        if first:
+            # Neither may write into what both have.
+            self._borrowed = True
+            other.borrow(self.records, origin, first)
+        return True
 
     def _own(self) -> "array[int]":
         """Copy records that were borrowed, before they change."""
-        self.records = self.records[:]
+        self.records = self.records[: self.count * WORDS]
         self._borrowed = False
         return self.records
 
