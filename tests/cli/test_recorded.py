@@ -148,3 +148,18 @@ def test_echo_answers_at_the_moments_of_messages(tftool, run):
     assert "At 1 of 15 moments there is no answer." in missing.err
     assert tftool("echo", "odom", "laser", run, "--at-stamps-of", "/scam").status == 3
     assert tftool("echo", "odom", "laser", "--at-stamps-of", "/scan").status == 2
+
+
+HOSTILE = "\x1b[31mred\x1b[0m\r\n\u202eabc<script>"
+
+
+def test_hostile_names_reach_the_terminal_as_text(tmp_path, tftool):
+    moved = (5 * SECOND, HOSTILE, f"{HOSTILE}/child", numbers(1))
+    path = write_mcap(tmp_path / "run.mcap", [Sent(5 * SECOND, "/tf", (moved,))])
+
+    for words in (["info"], ["tree"], ["monitor"], ["info", "--json"]):
+        result = tftool(words[0], path, *words[1:])
+        assert result.status == 0
+        for char in ("\x1b", "\r", "\u202e"):
+            assert char not in result.out.replace("\x1b[?25l", "").replace("\x1b[?25h", "")
+            assert char not in result.err

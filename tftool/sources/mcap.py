@@ -362,7 +362,11 @@ class Mcap:
                     batch = self._batch(chunk, chosen, channels, head)
                 except (InputError, struct.error) as error:
                     self._note(f"A chunk at byte {chunk.place} is damaged ({_reason(error)}).")
-                    batch = self._rest_of(chunk, channels)
+                    try:
+                        batch = self._rest_of(chunk, channels)
+                    except (InputError, struct.error) as worse:
+                        self._note(f"A chunk at byte {chunk.place} is lost ({_reason(worse)}).")
+                        continue
                 if batch is not None and len(batch):
                     yield batch
             if progress is not None:
