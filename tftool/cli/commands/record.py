@@ -105,6 +105,7 @@ def record(
     tftool record -o before.mcap --ring 30 --on two-parents
     """
     from tftool.cli.hosting import NO_SESSION, open_session
+    from tftool.cli.interrupting import interruptible
     from tftool.cli.recording import RecordingRun, best_compression, tell
     from tftool.nodes.recorder import Recorder
     from tftool.runtime.clock import pace_of
@@ -119,38 +120,39 @@ def record(
             "--ring writes one file in the end: leave out --max-size and --max-duration."
         )
     limits = RecordLimits(_size(max_size), max_duration or 0, ring or 0)
-    rolling = RollingRecording(output, limits, compression=best_compression(), force=force)
     status = ExitStatus.DONE
-    try:
-        session = open_session(connection, place, needs_messages=True, because=NO_SESSION)
-    except BaseException:
-        rolling.discard()
-        raise
-    world = session.world
     running: RecordingRun | None = None
-
-    async def recorded() -> None:
-        nonlocal running
-        link = None if session.is_hosted else session.link
-        recorder = Recorder(world, rolling, link=link, names=topics or (), everything=everything)
-        clock = pace_of(world.clock)
-        running = RecordingRun(recorder, rolling, clock, finding)
+    with interruptible(), _ended_by_hangup():
+        rolling = RollingRecording(output, limits, compression=best_compression(), force=force)
         try:
-            await running.run(run_for)
-        finally:
-            recorder.close()
-            running.clear()
+            session = open_session(connection, place, needs_messages=True, because=NO_SESSION)
+        except BaseException:
+            rolling.discard()
+            raise
+        world = session.world
 
-    try:
-        with _ended_by_hangup():
+        async def recorded() -> None:
+            nonlocal running
+            link = None if session.is_hosted else session.link
+            recorder = Recorder(
+                world, rolling, link=link, names=topics or (), everything=everything
+            )
+            running = RecordingRun(recorder, rolling, pace_of(world.clock), finding)
+            try:
+                await running.run(run_for)
+            finally:
+                recorder.close()
+                running.clear()
+
+        try:
             session.run(recorded())
-    except KeyboardInterrupt:
-        rolling.close()
-        sys.stdout.write(f"{_summed_up(rolling)}\n")
-        raise
-    finally:
-        # Whatever ends it: what was recorded is kept.
-        rolling.close()
+        except KeyboardInterrupt:
+            rolling.close()
+            sys.stdout.write(f"{_summed_up(rolling)}\n")
+            raise
+        finally:
+            # Whatever ends it: what was recorded is kept.
+            rolling.close()
     assert running is not None
     tell(rolling, running.recorder)
     if running.found is not None:
