@@ -91,7 +91,7 @@ def packer(value_kind: type[Any], kind: type[Message]) -> Callable[[Any], Any]:
     new = object.__new__
     names = [(field.name, f"_{field.name}") for field in kind.fields__]
 
-    # Unchecked, as the values are: whoever reads or encodes a message judges it.
+    # Unchecked, as the values are: what reads or encodes a message judges it.
     def pack(value: Any) -> Any:
         message = new(kind)
         for name, slot in names:

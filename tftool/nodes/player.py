@@ -189,7 +189,7 @@ class Player(Node):
         position = self.position
         last = min(self._timeline.place(position, after=True), self._place + AT_ONCE)
         while self._place < last:
-            # Before what is stamped then, so that it lies in the past of whoever hears it.
+            # Before what is stamped then, so that it lies in the past of its listeners.
             self._tell(int(self._timeline.moments[self._place]))
             self._send(self._place)
             self._place += 1

@@ -81,17 +81,17 @@ def monitor(
             raise InputError(sentence) from error
         raise
     if for_programs:
-        style = Style.JSON
+        style = ReportStyle.JSON
     elif as_tf2:
-        style = Style.TF2
+        style = ReportStyle.TF2
     else:
-        style = Style.TABLE if sys.stdout.isatty() else Style.LINES
+        style = ReportStyle.TABLE if sys.stdout.isatty() else ReportStyle.LINES
     if session.is_played and session.duration is not None:
         # What was recorded is over at once: one report says all of it.
         run_for = min(run_for or session.duration, session.duration) or 1
         every = every or run_for
     if every is None:
-        every = seconds(1) if style is Style.TABLE else seconds(10)
+        every = seconds(1) if style is ReportStyle.TABLE else seconds(10)
     watching = Monitor(session.world, frames, style, period=every)
     session.run(watching.run(run_for))
     return ExitStatus.DONE
@@ -110,7 +110,7 @@ def _sorted_out(words: list[str]) -> tuple[tuple[str, str] | None, str | None]:
     return (target, source), rest[0] if rest else None
 
 
-class Style(Enum):
+class ReportStyle(Enum):
     """How a report is written."""
 
     TABLE = auto()
@@ -123,7 +123,12 @@ class Monitor:
     """Everything that arrives in one world, reported once a period."""
 
     def __init__(
-        self, world: "World", frames: tuple[str, str] | None, style: Style, *, period: Duration
+        self,
+        world: "World",
+        frames: tuple[str, str] | None,
+        style: ReportStyle,
+        *,
+        period: Duration,
     ) -> None:
         """Prepare to listen.
 
@@ -169,7 +174,7 @@ class Monitor:
         self._announce()
         console = Console()
         try:
-            if self.style is Style.TABLE:
+            if self.style is ReportStyle.TABLE:
                 with Live(console=console, auto_refresh=False) as live:
 
                     def show() -> None:
@@ -244,10 +249,10 @@ class Monitor:
         notice(f"Gathering data on {about}, a report every {as_seconds(self.period):g} s ...")
 
     def _write(self) -> None:
-        if self.style is Style.JSON:
+        if self.style is ReportStyle.JSON:
             now = self.world.clock.now()
             text = json.dumps(view.as_object(now, self.traffic, self.chain), allow_nan=False) + "\n"
         else:
-            text = view.lines(self.traffic, self.chain, as_tf2=self.style is Style.TF2)
+            text = view.lines(self.traffic, self.chain, as_tf2=self.style is ReportStyle.TF2)
         sys.stdout.write(text)
         sys.stdout.flush()

@@ -24,7 +24,7 @@ if TYPE_CHECKING:
     Moving = frozenset[str] | None
 
 
-class Format(StrEnum):
+class TreeFormat(StrEnum):
     """What a tree can be written as."""
 
     tree = "tree"
@@ -37,10 +37,10 @@ class Format(StrEnum):
 
 
 TEXTS = {
-    ".txt": Format.tree,
-    ".json": Format.json,
-    ".yaml": Format.yaml,
-    ".yml": Format.yaml,
+    ".txt": TreeFormat.tree,
+    ".json": TreeFormat.json,
+    ".yaml": TreeFormat.yaml,
+    ".yml": TreeFormat.yaml,
 }
 """What a file's suffix asks for, where it is no drawing."""
 
@@ -49,7 +49,7 @@ def tree(
     connection: Connection,
     place: From = None,
     form: Annotated[
-        Format | None,
+        TreeFormat | None,
         typer.Option(
             "--format",
             "-f",
@@ -90,7 +90,7 @@ def tree(
 
     form = form or _form_of(output)
     if watch:
-        if form is not Format.tree or output is not None or at is not None:
+        if form is not TreeFormat.tree or output is not None or at is not None:
             raise UsageError("--watch draws on the terminal: leave out --format, -o and --at.")
         _watch(
             lambda: open_session(connection, place, cache_time=cache_time, needs_messages=True),
@@ -100,19 +100,19 @@ def tree(
     if run_for is not None:
         raise UsageError("--for goes with --watch; without it the tree is written once.")
     seen = observe(connection, place, at, cache_time=cache_time)
-    marks = seen.marks() if form in (Format.tree, Format.json) else {}
+    marks = seen.marks() if form in (TreeFormat.tree, TreeFormat.json) else {}
     _write(seen.snapshot(), seen.moving, form, output, marks)
     for sentence in rivalries(seen.buffer, seen.buffer.frames()):
         notice(sentence)
     return ExitStatus.DONE
 
 
-def _form_of(output: Path | None) -> Format:
+def _form_of(output: Path | None) -> TreeFormat:
     if output is None or str(output) == "-":
-        return Format.tree
+        return TreeFormat.tree
     from tftool.views.drawing import SUFFIXES
 
-    known = TEXTS | {suffix: Format(form) for suffix, form in SUFFIXES.items()}
+    known = TEXTS | {suffix: TreeFormat(form) for suffix, form in SUFFIXES.items()}
     suffix = output.suffix.lower()
     if output.is_dir():
         raise UsageError(f"'{output}' is a folder: name a file in it.")
@@ -125,7 +125,7 @@ def _form_of(output: Path | None) -> Format:
 
 
 def _write(
-    snapshot: "Snapshot", moving: "Moving", form: Format, output: Path | None, marks: "Marks"
+    snapshot: "Snapshot", moving: "Moving", form: TreeFormat, output: Path | None, marks: "Marks"
 ) -> None:
     content = _content(snapshot, moving, form, marks, to_file=output is not None)
     if output is None or str(output) == "-":
@@ -146,19 +146,19 @@ def _write(
 
 
 def _content(
-    snapshot: "Snapshot", moving: "Moving", form: Format, marks: "Marks", *, to_file: bool
+    snapshot: "Snapshot", moving: "Moving", form: TreeFormat, marks: "Marks", *, to_file: bool
 ) -> str | bytes:
     from tftool.cli.notices import notice
     from tftool.views import frame_tree
 
-    if form is Format.json:
+    if form is TreeFormat.json:
         import json
 
         told = frame_tree.as_object(snapshot, moving, marks)
         return json.dumps(told, indent=2, allow_nan=False) + "\n"
-    if form is Format.yaml:
+    if form is TreeFormat.yaml:
         return frame_tree.as_yaml(snapshot)
-    if form is Format.tree:
+    if form is TreeFormat.tree:
         return _drawn(snapshot, moving, marks, to_file=to_file)
     from tftool.views.drawing import draw
 
