@@ -94,7 +94,7 @@ _ON_CLUSTER = 512
 """Recordings that wait at a cluster at once."""
 
 
-class Task(Protocol):
+class FleetTask(Protocol):
     """What is done with each recording; it is sent to other processes."""
 
     @property
@@ -251,7 +251,7 @@ class Inventory:
         return "damaged" if rows[0]["damage"] else "whole"
 
 
-def _told(task: Task, source: str, place: str, work: Callable[[str], list[Row]]) -> list[Row]:
+def _told(task: FleetTask, source: str, place: str, work: Callable[[str], list[Row]]) -> list[Row]:
     """What a task found in a recording, wherever that is; what cannot be read is a row."""
     from tftool.sources.remote import fetched
 
@@ -381,7 +381,7 @@ def workers_of(processes: int, scheduler: str) -> Workers:
 
 
 def sweep(
-    sources: Sequence[str], output: RowFile | None, workers: Workers, task: Task
+    sources: Sequence[str], output: RowFile | None, workers: Workers, task: FleetTask
 ) -> tuple[dict[str, int], list[Row]]:
     """Work on many recordings, and write what is found as it comes.
 
@@ -427,7 +427,7 @@ def sweep(
 
 
 def _results(
-    sources: Sequence[str], workers: Workers, task: Task
+    sources: Sequence[str], workers: Workers, task: FleetTask
 ) -> Iterator[tuple[str, list[Row]]]:
     waiting = list(sources)
     while waiting:
@@ -450,7 +450,7 @@ def _results(
 
 
 def _worked(
-    pool: Executor, sources: Sequence[str], workers: Workers, task: Task
+    pool: Executor, sources: Sequence[str], workers: Workers, task: FleetTask
 ) -> Iterator[tuple[str, list[Row]]]:
     """What comes of each, as it comes.
 
@@ -499,7 +499,7 @@ def _failure(error: Exception) -> str:
     return f"{type(error).__name__}: {error}"
 
 
-def _alone(source: str, task: Task) -> list[Row]:
+def _alone(source: str, task: FleetTask) -> list[Row]:
     """In a process of its own, so that one that ends it harms no other."""
     with Processes(1).open() as pool:
         try:
@@ -584,7 +584,7 @@ def announce(counts: dict[str, int], passed_over: int, output: Path) -> None:
 
 
 def swept_into(
-    words: Sequence[str], path: Path, workers: Workers, task: Task, *, resume: bool
+    words: Sequence[str], path: Path, workers: Workers, task: FleetTask, *, resume: bool
 ) -> dict[str, int]:
     """Work on many recordings, write a file of rows, and say what came of it.
 
