@@ -101,7 +101,13 @@ class ValueTopic(Generic[T]):
 
     def taker(self, callback: Callable[[T], object]) -> Callable[[Any], object]:
         """What takes messages, and calls `callback` with their values."""
-        return lambda message: callback(self.value_of(message))
+        value_of = self.value_of
+
+        def take(message: Any) -> object:
+            # Nearly always: one call less for each pose.
+            return callback(message.value if type(message) is Unmade else value_of(message))
+
+        return take
 
     def subscribe(self, callback: Callable[[T], object], owner: str = "") -> Callable[[], None]:
         """Have `callback` called with every value to come; see `Topic.subscribe`."""
