@@ -84,3 +84,45 @@ def _outcome(call, words, options):
         return call(*words, **options)
     except Exception as error:
         return type(error), str(error), vars(error)
+
+
+def worst(count: int) -> tuple[int, float, float]:
+    """The largest difference of both in so many lookups of one batch, five links deep.
+
+    Returns:
+        How many were compared, and the difference: of places, by the length of the way, and of
+        rotations. Every thousandth is asked singly as well.
+    """
+    import numpy as np
+
+    random = np.random.default_rng(19)
+    twins, samples, links, way = Twins(2**62), 1000, 5, 0.0
+    for link in range(links):
+        stamps = 10**9 + np.arange(samples) * 10**7 + random.integers(0, 10**6, samples)
+        places = np.cumsum(random.normal(0.0, 0.1, (samples, 3)), axis=0)
+        way += float(np.linalg.norm(places, axis=1).max())
+        # Neighbours are from hardly turned to wholly turned round.
+        turns = np.cumsum(random.normal(0.0, 10.0 ** -(link + 1), (samples, 4)), axis=0)
+        turns[:, 3] += 1.0 if link else 0.0
+        twins.ask("set_transforms", f"f{link}", f"f{link + 1}", stamps, places, turns)
+    compared, place, turn = 0, 0.0, 0.0
+    while compared < count:
+        n = min(count - compared, 10**6)
+        moments = random.integers(10**9 + 10**7, 10**9 + (samples - 2) * 10**7, n)
+        ours, plain = twins.ask("lookup_transforms", "f0", f"f{links}", moments)
+        place = max(place, float(np.abs(ours.translations - plain.translations).max()) / way)
+        turn = max(turn, float(np.abs(ours.rotations - plain.rotations).max()))
+        for row in range(0, n, 1000):
+            single, other = twins.ask("lookup_transform", "f0", f"f{links}", int(moments[row]))
+            for mine, theirs in zip(single.transform[1], other.transform[1], strict=True):
+                turn = max(turn, abs(mine - theirs))
+            for mine, theirs in zip(single.transform[0], other.transform[0], strict=True):
+                place = max(place, abs(mine - theirs) / way)
+        compared += n
+    return compared, place, turn
+
+
+if __name__ == "__main__":
+    found = worst(int(sys.argv[1]) if len(sys.argv) > 1 else 10**7)
+    told = "{} lookups: places differ by {:.1e} of the way at most, rotations by {:.1e}"
+    print(told.format(*found))  # noqa: T201

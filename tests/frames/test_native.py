@@ -9,7 +9,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from tests.strategies import transforms
-from tests.twins import REASON, Twins, is_native
+from tests.twins import REASON, Twins, is_native, worst
 from tftool.frames.buffer import Buffer
 from tftool.frames.sample import Snapshot, TransformStamped
 from tftool.geometry.rigid import Quaternion, Transform, Vector3
@@ -115,6 +115,15 @@ def test_between_samples_both_give_the_same(poses, moments):
         for target, source in (("a", "b"), ("d", "b"), ("b", "d"), ("c", "d")):
             ours, plain = twins.ask("lookup_transform", target, source, moment)
             assert same(ours, plain), (ours, plain)
+
+
+def test_many_lookups_differ_by_rounding_only():
+    # `python -m tests.twins` asks ten million.
+    compared, place, turn = worst(20_000)
+
+    assert compared == 20_000
+    assert place < 2e-15
+    assert turn < 4e-15
 
 
 def test_a_history_of_many_sizes_keeps_the_same_samples():

@@ -32,31 +32,23 @@ typedef struct { double n[7]; } Pose; /* x y z qx qy qz qw */
 
 /* Records ---------------------------------------------------------------- */
 
-static inline int64_t
-word_of(const char *words, Py_ssize_t index)
-{
+static inline int64_t word_of(const char *words, Py_ssize_t index) {
     int64_t word;
     memcpy(&word, words + WORD * index, sizeof word);
     return word;
 }
 
-static inline int64_t
-stamp_of(const char *records, Py_ssize_t index)
-{
+static inline int64_t stamp_of(const char *records, Py_ssize_t index) {
     return word_of(records, WORD * index);
 }
 
-static inline void
-pose_of(const char *records, Py_ssize_t index, Pose *pose)
-{
+static inline void pose_of(const char *records, Py_ssize_t index, Pose *pose) {
     memcpy(pose->n, records + RECORD * index + WORD, sizeof pose->n);
 }
 
 /* The last of `count` records at or before a moment; count > 1, stamp[0] <= time < stamp[count - 1].
    Whatever the stamps are, it is less than count - 1. Guess by the mean rate, correct the guess once, and search only when that fails. */
-static inline Py_ssize_t
-find(const char *records, Py_ssize_t count, int64_t time)
-{
+static inline Py_ssize_t find(const char *records, Py_ssize_t count, int64_t time) {
     Py_ssize_t low = 0, high = count - 1;
     const int64_t oldest = stamp_of(records, 0);
     const double span = (double)((uint64_t)stamp_of(records, high) - (uint64_t)oldest);
@@ -93,9 +85,7 @@ find(const char *records, Py_ssize_t count, int64_t time)
 /* sin(f θ) / sin θ for u = 1 - cos θ, as a product of terms that are all positive:
    f (1 + b1 (1 + b2 (1 + …))) with b_i = u (i² - f²) / (i (2 i + 1)).
    Eberly, "A Fast and Accurate Algorithm for Computing SLERP", JGT 2011. */
-static inline double
-weight(double f, double u, int terms)
-{
+static inline double weight(double f, double u, int terms) {
     double sum = 1.0;
     for (int i = terms; i > 0; i--) {
         const double scale = 1.0 / (i * (2.0 * i + 1.0));
@@ -106,9 +96,7 @@ weight(double f, double u, int terms)
 
 /* Arithmetic of poses: twins of `geometry.poses` ------------------------- */
 
-static inline void
-interpolate(const Pose *first, const Pose *second, double share, Pose *out)
-{
+static inline void interpolate(const Pose *first, const Pose *second, double share, Pose *out) {
     const double *a = first->n, *b = second->n;
     double cosine = a[3] * b[3] + a[4] * b[4] + a[5] * b[5] + a[6] * b[6];
     double take = 1.0;
@@ -139,9 +127,7 @@ interpolate(const Pose *first, const Pose *second, double share, Pose *out)
             out->n[i] = a[i] + share * (take * b[i] - a[i]);
 }
 
-static inline void
-compose(const Pose *outer, Pose *inner)
-{
+static inline void compose(const Pose *outer, Pose *inner) {
     const double *o = outer->n;
     const double ax = o[3], ay = o[4], az = o[5], aw = o[6];
     const double x = inner->n[0], y = inner->n[1], z = inner->n[2];
@@ -158,9 +144,7 @@ compose(const Pose *outer, Pose *inner)
     inner->n[6] = aw * bw - ax * bx - ay * by - az * bz;
 }
 
-static inline void
-between(const Pose *first, Pose *second)
-{
+static inline void between(const Pose *first, Pose *second) {
     const double *o = first->n;
     const double ax = o[3], ay = o[4], az = o[5], aw = o[6];
     const double x = second->n[0] - o[0], y = second->n[1] - o[1], z = second->n[2] - o[2];
@@ -178,18 +162,14 @@ between(const Pose *first, Pose *second)
 }
 
 /* The number of a unit quaternion that tf2 makes positive: `quaternions.leading`. */
-static inline double
-leading(double x, double y, double z, double w)
-{
+static inline double leading(double x, double y, double z, double w) {
     if (w * w > 0.25)
         return w;
     const double xx = x * x, yy = y * y, zz = z * z;
     return xx < yy ? (yy < zz ? z : y) : (xx < zz ? z : x);
 }
 
-static inline void
-canonical(double *turn)
-{
+static inline void canonical(double *turn) {
     if (!(turn[3] > 0.5) && leading(turn[0], turn[1], turn[2], turn[3]) < 0.0)
         for (int i = 0; i < 4; i++)
             turn[i] = -turn[i];
@@ -222,9 +202,7 @@ static int read_records(const Link *link, int flags, Py_buffer *view);
 static PyObject *floats(PyTypeObject *type, const double *numbers, Py_ssize_t size);
 
 /* `newest`: what was set, or what was appended since, made when it is first asked for. */
-static PyObject *
-get_newest(PyObject *self, void *Py_UNUSED(closure))
-{
+static PyObject *get_newest(PyObject *self, void *Py_UNUSED(closure)) {
     Link *link = (Link *)self;
     Py_buffer view;
     if (link->newest == NULL && read_records(link, PyBUF_SIMPLE, &view)) {
@@ -237,9 +215,7 @@ get_newest(PyObject *self, void *Py_UNUSED(closure))
     return Py_NewRef(link->newest == NULL ? Py_None : link->newest);
 }
 
-static int
-set_newest(PyObject *self, PyObject *value, void *Py_UNUSED(closure))
-{
+static int set_newest(PyObject *self, PyObject *value, void *Py_UNUSED(closure)) {
     PyObject *before = ((Link *)self)->newest;
     ((Link *)self)->newest = Py_XNewRef(value);
     Py_XDECREF(before);
@@ -250,9 +226,7 @@ static PyGetSetDef link_getset[] = {
     {"newest", get_newest, set_newest, NULL, NULL}, {NULL, NULL, NULL, NULL, NULL},
 };
 
-static int
-link_traverse(PyObject *self, visitproc visit, void *arg)
-{
+static int link_traverse(PyObject *self, visitproc visit, void *arg) {
     Link *link = (Link *)self;
     Py_VISIT(Py_TYPE(self));
     Py_VISIT(link->records);
@@ -262,9 +236,7 @@ link_traverse(PyObject *self, visitproc visit, void *arg)
     return 0;
 }
 
-static int
-link_clear(PyObject *self)
-{
+static int link_clear(PyObject *self) {
     Link *link = (Link *)self;
     Py_CLEAR(link->records);
     Py_CLEAR(link->origins);
@@ -273,9 +245,7 @@ link_clear(PyObject *self)
     return 0;
 }
 
-static void
-link_dealloc(PyObject *self)
-{
+static void link_dealloc(PyObject *self) {
     PyTypeObject *type = Py_TYPE(self);
     PyObject_GC_UnTrack(self);
     link_clear(self);
@@ -298,15 +268,13 @@ static PyType_Spec link_spec = {
     Py_TPFLAGS_DEFAULT | Py_TPFLAGS_BASETYPE | Py_TPFLAGS_HAVE_GC, link_slots,
 };
 
-/* The types that answers are made of; they stay what they are for as long as the module lives. */
+/* The types that answers are made of; never let go of, as Python never unloads the module. */
 typedef struct {
     PyTypeObject *fields, *stamped, *transform, *vector, *quaternion;
 } Types;
 
 /* That many floats of a tuple. Returns whether that is what it is; never sets an error. */
-static int
-read_floats(PyObject *tuple, double *numbers, Py_ssize_t size)
-{
+static int read_floats(PyObject *tuple, double *numbers, Py_ssize_t size) {
     if (!PyTuple_Check(tuple) || PyTuple_Size(tuple) != size)
         return 0;
     for (Py_ssize_t i = 0; i < size; i++) {
@@ -319,9 +287,7 @@ read_floats(PyObject *tuple, double *numbers, Py_ssize_t size)
 }
 
 /* Whether a moving link is one the kernel reads: its records in `view`, to be released. */
-static int
-read_records(const Link *link, int flags, Py_buffer *view)
-{
+static int read_records(const Link *link, int flags, Py_buffer *view) {
     if (link->records == NULL || link->start < 0 || link->count <= link->start)
         return 0;
     if (PyObject_GetBuffer(link->records, view, flags) < 0) {
@@ -336,9 +302,7 @@ read_records(const Link *link, int flags, Py_buffer *view)
 
 /* The pose of a link at a moment (0: the newest): `History.at`. Returns 0 where there is none,
    or where the parent changes nearby; never sets an error. */
-static int
-link_at(const Link *link, int64_t time, Pose *pose)
-{
+static int link_at(const Link *link, int64_t time, Pose *pose) {
     Py_buffer view;
     if (link->is_static)
         return link->newest != NULL && read_floats(link->newest, pose->n, 7);
@@ -371,9 +335,7 @@ link_at(const Link *link, int64_t time, Pose *pose)
 }
 
 /* The poses of several links one after the other, lowest first: `path.chain`. */
-static int
-chain(PyObject *links, PyTypeObject *fields, int64_t time, Pose *pose)
-{
+static int chain(PyObject *links, PyTypeObject *fields, int64_t time, Pose *pose) {
     static const Pose identity = {{0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 1.0}};
     const Py_ssize_t count = PyTuple_Size(links);
     if (count == 0)
@@ -389,18 +351,9 @@ chain(PyObject *links, PyTypeObject *fields, int64_t time, Pose *pose)
     return 1;
 }
 
-/* A tuple of one of our types, still empty. */
-static PyObject *
-new_tuple(PyTypeObject *type, Py_ssize_t size)
-{
-    return PyType_GenericAlloc(type, size);
-}
-
 /* A tuple of that many floats. */
-static PyObject *
-floats(PyTypeObject *type, const double *numbers, Py_ssize_t size)
-{
-    PyObject *made = new_tuple(type, size);
+static PyObject *floats(PyTypeObject *type, const double *numbers, Py_ssize_t size) {
+    PyObject *made = PyType_GenericAlloc(type, size);
     for (Py_ssize_t i = 0; made != NULL && i < size; i++) {
         PyObject *number = PyFloat_FromDouble(numbers[i]);
         if (number == NULL || PyTuple_SetItem(made, i, number) < 0)
@@ -410,9 +363,7 @@ floats(PyTypeObject *type, const double *numbers, Py_ssize_t size)
 }
 
 /* Put two new references into a tuple of two; all of them are given up on failure. */
-static PyObject *
-pair_of(PyObject *made, PyObject *first, PyObject *second)
-{
+static PyObject *pair_of(PyObject *made, PyObject *first, PyObject *second) {
     if (made != NULL && first != NULL && second != NULL) {
         PyTuple_SetItem(made, 0, first);
         PyTuple_SetItem(made, 1, second);
@@ -425,19 +376,15 @@ pair_of(PyObject *made, PyObject *first, PyObject *second)
 }
 
 /* A Transform of seven numbers, the rotation given tf2's sign. */
-static PyObject *
-new_transform(const Types *types, Pose *pose)
-{
+static PyObject *new_transform(const Types *types, Pose *pose) {
     canonical(pose->n + 3);
     PyObject *place = floats(types->vector, pose->n, 3);
     PyObject *turn = place == NULL ? NULL : floats(types->quaternion, pose->n + 3, 4);
-    return pair_of(turn == NULL ? NULL : new_tuple(types->transform, 2), place, turn);
+    return pair_of(turn == NULL ? NULL : PyType_GenericAlloc(types->transform, 2), place, turn);
 }
 
 /* A moment as 64 bits. Returns whether it is an `int` that fits; never sets an error. */
-static int
-read_stamp(PyObject *stamp, int64_t *value)
-{
+static int read_stamp(PyObject *stamp, int64_t *value) {
     int overflow = 0;
     if (!PyLong_CheckExact(stamp))
         return 0;
@@ -446,9 +393,7 @@ read_stamp(PyObject *stamp, int64_t *value)
 }
 
 /* The newest moment for which every moving link has data: `Path.latest`. */
-static int
-latest(PyObject *moving, PyTypeObject *fields, int64_t *moment)
-{
+static int latest(PyObject *moving, PyTypeObject *fields, int64_t *moment) {
     int64_t oldest = 0;
     for (Py_ssize_t i = 0; i < PyTuple_Size(moving); i++) {
         PyObject *link = PyTuple_GetItem(moving, i);
@@ -465,9 +410,7 @@ latest(PyObject *moving, PyTypeObject *fields, int64_t *moment)
 PyDoc_STRVAR(lookup_doc, "lookup(paths, target, source, time)\n--\n\n"
 "The answer of `Buffer.lookup_transform` by a path that is known, or None if it is not plain.");
 
-static PyObject *
-lookup(PyObject *module, PyObject *const *args, Py_ssize_t count)
-{
+static PyObject *lookup(PyObject *module, PyObject *const *args, Py_ssize_t count) {
     const Types *types = PyModule_GetState(module);
     int64_t time;
     Pose pose, other;
@@ -500,7 +443,7 @@ lookup(PyObject *module, PyObject *const *args, Py_ssize_t count)
         Py_RETURN_NONE;
     PyObject *transform = new_transform(types, &pose);
     PyObject *moment = asked ? Py_NewRef(args[3]) : PyLong_FromLongLong(time);
-    PyObject *made = transform && moment ? new_tuple(types->stamped, 4) : NULL;
+    PyObject *made = transform && moment ? PyType_GenericAlloc(types->stamped, 4) : NULL;
     if (made != NULL) {
         PyTuple_SetItem(made, 1, Py_NewRef(args[1]));
         PyTuple_SetItem(made, 2, Py_NewRef(args[2]));
@@ -516,9 +459,7 @@ lookup(PyObject *module, PyObject *const *args, Py_ssize_t count)
 PyDoc_STRVAR(at_doc, "at(link, time)\n--\n\n"
 "The pose of a link at a moment as a tuple of seven floats, or None if it is not plain.");
 
-static PyObject *
-at(PyObject *module, PyObject *const *args, Py_ssize_t count)
-{
+static PyObject *at(PyObject *module, PyObject *const *args, Py_ssize_t count) {
     const Types *types = PyModule_GetState(module);
     int64_t time;
     Pose pose;
@@ -534,9 +475,7 @@ at(PyObject *module, PyObject *const *args, Py_ssize_t count)
 
 /* Append a sample to a link: `History.insert` where it is newer than all others, of the same
    origin, and prunes one sample at most. Returns whether it was done; never sets an error. */
-static int
-append(Link *link, int64_t stamp, int64_t origin, Pose *pose)
-{
+static int append(Link *link, int64_t stamp, int64_t origin, Pose *pose) {
     Py_buffer view;
     double *n = pose->n;
     const double square = n[3] * n[3] + n[4] * n[4] + n[5] * n[5] + n[6] * n[6];
@@ -584,9 +523,7 @@ append(Link *link, int64_t stamp, int64_t origin, Pose *pose)
 }
 
 /* Whether two plain strings are equal; one that is none is equal to nothing. */
-static int
-same_text(PyObject *known, PyObject *given)
-{
+static int same_text(PyObject *known, PyObject *given) {
     return known == given
         || (PyUnicode_CheckExact(known) && PyUnicode_Compare(known, given) == 0);
 }
@@ -594,9 +531,7 @@ same_text(PyObject *known, PyObject *given)
 PyDoc_STRVAR(insert_doc, "insert(senders, transform, authority)\n--\n\n"
 "Remember a plain sample of a link that is known by its child. Returns whether it was done.");
 
-static PyObject *
-insert(PyObject *module, PyObject *const *args, Py_ssize_t count)
-{
+static PyObject *insert(PyObject *module, PyObject *const *args, Py_ssize_t count) {
     const Types *types = PyModule_GetState(module);
     int64_t stamp, origin;
     Pose pose;
@@ -667,9 +602,7 @@ typedef struct {
 
 /* Fetch both neighbours of each moment, and how far it lies between them. Where a link has no
    data for a moment, `valid` becomes 0 and what is fetched is of no use. */
-INLINE void
-fetch(Edge *edge, const int64_t *times, int n, Room *room, unsigned char *valid)
-{
+INLINE void fetch(Edge *edge, const int64_t *times, int n, Room *room, unsigned char *valid) {
     const char *records = edge->records;
     const Py_ssize_t last = edge->count - 1;
     const int64_t oldest = stamp_of(records, 0), newest = stamp_of(records, last);
@@ -709,9 +642,7 @@ fetch(Edge *edge, const int64_t *times, int n, Room *room, unsigned char *valid)
 }
 
 /* The pose on the way between what was fetched, for each moment: twin of `interpolate`. */
-INLINE void
-blend(Room *room, int n, Rows out)
-{
+INLINE void blend(Room *room, int n, Rows out) {
     double *share = room->passed, *arc = room->arc, *sign = room->sign;
     double *keep = room->keep, *take = room->take;
     int longer = 0, longest = 0;
@@ -760,10 +691,8 @@ blend(Room *room, int n, Rows out)
 }
 
 /* The poses of several links one after the other, for each moment, in `pose`. */
-INLINE void
-climb(Edge *edges, Py_ssize_t count, const int64_t *times, int n, Room *room, Rows pose,
-      unsigned char *valid)
-{
+INLINE void climb(Edge *edges, Py_ssize_t count, const int64_t *times, int n, Room *room, Rows pose,
+      unsigned char *valid) {
     for (Py_ssize_t e = 0; e < count; e++) {
         double(*step)[BLOCK] = e ? room->step : pose;
         if (edges[e].records != NULL) {
@@ -790,8 +719,7 @@ climb(Edge *edges, Py_ssize_t count, const int64_t *times, int n, Room *room, Ro
 /* One block: poses of source in target, or NaN where `valid` becomes 0. */
 INLINE void
 solve_block(Edge *up, Py_ssize_t ups, Edge *down, Py_ssize_t downs, const int64_t *times, int n,
-            Room *room, double *places, double *turns, unsigned char *valid)
-{
+            Room *room, double *places, double *turns, unsigned char *valid) {
     for (int i = 0; i < n; i++)
         valid[i] = times[i] != 0;
     if (ups)
@@ -821,29 +749,19 @@ solve_block(Edge *up, Py_ssize_t ups, Edge *down, Py_ssize_t downs, const int64_
     }
 }
 
-typedef void Solve(Edge *, Py_ssize_t, Edge *, Py_ssize_t, const int64_t *, int, Room *, double *,
-                   double *, unsigned char *);
+#define SOLVE_PARAMETERS                                                                          \
+    Edge *up, Py_ssize_t ups, Edge *down, Py_ssize_t downs, const int64_t *times, int n,          \
+        Room *room, double *places, double *turns, unsigned char *valid
+#define SOLVE_ARGUMENTS up, ups, down, downs, times, n, room, places, turns, valid
 
-static void
-solve_plain(Edge *up, Py_ssize_t ups, Edge *down, Py_ssize_t downs, const int64_t *times, int n,
-            Room *room, double *places, double *turns, unsigned char *valid)
-{
-    solve_block(up, ups, down, downs, times, n, room, places, turns, valid);
-}
+static void solve_plain(SOLVE_PARAMETERS) { solve_block(SOLVE_ARGUMENTS); }
 
 #ifdef DISPATCH
 /* The same, where the processor works on four numbers at once. */
-__attribute__((target("avx2"))) static void
-solve_avx2(Edge *up, Py_ssize_t ups, Edge *down, Py_ssize_t downs, const int64_t *times, int n,
-           Room *room, double *places, double *turns, unsigned char *valid)
-{
-    solve_block(up, ups, down, downs, times, n, room, places, turns, valid);
-}
+__attribute__((target("avx2"))) static void solve_avx2(SOLVE_PARAMETERS) { solve_block(SOLVE_ARGUMENTS); }
 #endif
 
-static void
-release_edges(Edge *edges, Py_ssize_t count)
-{
+static void release_edges(Edge *edges, Py_ssize_t count) {
     for (Py_ssize_t i = 0; edges != NULL && i < count; i++) {
         PyBuffer_Release(&edges[i].view);
         PyBuffer_Release(&edges[i].origins_view);
@@ -853,9 +771,7 @@ release_edges(Edge *edges, Py_ssize_t count)
 
 /* Make the links of a batch ready: each a sample of seven floats, or records and the origins of
    each (None: all alike). NULL with an error set if one is neither. */
-static Edge *
-read_edges(PyObject *links)
-{
+static Edge * read_edges(PyObject *links) {
     const Py_ssize_t count = PyTuple_Size(links);
     Edge *edges = PyMem_Calloc(count ? count : 1, sizeof(Edge));
     if (edges == NULL)
@@ -892,9 +808,7 @@ PyDoc_STRVAR(solve_doc, "solve(up, down, times, translations, rotations, valid)\
 "Write the poses of a path at many moments, NaN where a link has no data. Returns how many rows\n"
 "have none. Other threads of Python run meanwhile; the records must not change.");
 
-static PyObject *
-solve(PyObject *Py_UNUSED(module), PyObject *const *args, Py_ssize_t count)
-{
+static PyObject *solve(PyObject *Py_UNUSED(module), PyObject *const *args, Py_ssize_t count) {
     static const Py_ssize_t sizes[4] = {8, 24, 32, 1};
     Py_buffer views[4];
     int held = 0;
@@ -920,7 +834,7 @@ solve(PyObject *Py_UNUSED(module), PyObject *const *args, Py_ssize_t count)
         PyErr_NoMemory();
         goto done;
     }
-    Solve *chosen = solve_plain;
+    void (*chosen)(SOLVE_PARAMETERS) = solve_plain;
 #ifdef DISPATCH
     if (__builtin_cpu_supports("avx2"))
         chosen = solve_avx2;
@@ -958,9 +872,7 @@ static PyMethodDef methods[] = {
 };
 
 /* A class of a module of ours that is a tuple and nothing more; NULL with an error set if not. */
-static PyTypeObject *
-tuple_type(const char *module, const char *name)
-{
+static PyTypeObject * tuple_type(const char *module, const char *name) {
     PyObject *home = PyImport_ImportModule(module);
     PyObject *type = home == NULL ? NULL : PyObject_GetAttrString(home, name);
     Py_XDECREF(home);
@@ -979,9 +891,7 @@ tuple_type(const char *module, const char *name)
     return NULL;
 }
 
-static int
-module_exec(PyObject *module)
-{
+static int module_exec(PyObject *module) {
     Types *types = PyModule_GetState(module);
     types->fields = (PyTypeObject *)PyType_FromSpec(&link_spec);
     if (types->fields == NULL || PyModule_AddType(module, types->fields) < 0
@@ -995,39 +905,14 @@ module_exec(PyObject *module)
     return 0;
 }
 
-static int
-module_traverse(PyObject *module, visitproc visit, void *arg)
-{
-    Types *types = PyModule_GetState(module);
-    Py_VISIT(types->fields);
-    Py_VISIT(types->stamped);
-    Py_VISIT(types->transform);
-    Py_VISIT(types->vector);
-    Py_VISIT(types->quaternion);
-    return 0;
-}
-
-static int
-module_clear(PyObject *module)
-{
-    Types *types = PyModule_GetState(module);
-    Py_CLEAR(types->fields);
-    Py_CLEAR(types->stamped);
-    Py_CLEAR(types->transform);
-    Py_CLEAR(types->vector);
-    Py_CLEAR(types->quaternion);
-    return 0;
-}
-
 static PyModuleDef_Slot module_slots[] = {{Py_mod_exec, module_exec}, {0, NULL}};
 
 static PyModuleDef definition = {
     PyModuleDef_HEAD_INIT, "tftool.frames._kernel", "The native kernel; see `_kernel.pyi`.",
-    sizeof(Types), methods, module_slots, module_traverse, module_clear, NULL,
+    sizeof(Types), methods, module_slots, NULL, NULL, NULL,
 };
 
 PyMODINIT_FUNC
-PyInit__kernel(void)
-{
+PyInit__kernel(void) {
     return PyModuleDef_Init(&definition);
 }
