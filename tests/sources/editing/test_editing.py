@@ -508,6 +508,21 @@ def test_the_input_and_what_is_there_are_never_written_to(tmp_path, mcap):
     assert messages(other) == messages(mcap)
 
 
+def test_a_folder_is_replaced_only_if_it_holds_nothing_but_a_recording(tmp_path, mcap):
+    out, mine = tmp_path / "out", tmp_path / "out.old"
+    mine.write_bytes(b"precious")
+    edit([str(mcap)], out, Edits(drop=(("*", "arm"),)))
+
+    edit([str(mcap)], out, Edits(), force=True)
+
+    assert messages(out) == messages(mcap)
+    assert sorted(os.listdir(tmp_path)) == ["a.mcap", "out", "out.old"]
+    (out / "notes.txt").write_bytes(b"precious")
+    with pytest.raises(UsageError, match="more than a recording"):
+        edit([str(mcap)], out, Edits(), force=True)
+    assert (out / "notes.txt").read_bytes() == mine.read_bytes() == b"precious"
+
+
 @pytest.mark.parametrize(
     ("edits", "told"),
     [

@@ -7,6 +7,7 @@ then the name is what it was before: nothing, or the recording that stood there.
 import errno
 import os
 import shutil
+import tempfile
 from contextlib import suppress
 from pathlib import Path
 from types import TracebackType
@@ -49,7 +50,9 @@ class Target:
             if path.exists() and not path.is_file() and not path.is_dir():
                 raise UsageError(f"'{path}' is a device or a pipe: name a file.")
             if path.is_dir() and not _is_recording_folder(path):
-                raise UsageError(f"'{path}' is a folder that is no recording: not replaced.")
+                raise UsageError(
+                    f"'{path}' is a folder that holds more than a recording: not replaced."
+                )
         try:
             self._clear()
             if folder:
@@ -97,13 +100,13 @@ class Target:
             self.part.replace(self.path)
             return
         # A folder cannot be replaced in one step: the old one is kept until the new has its name.
-        old = self.path.with_name(self.path.name + ".old")
-        remove(old)
-        self.path.rename(old)
+        old = Path(tempfile.mkdtemp(prefix=f".{self.path.name}.", dir=self.path.parent))
+        self.path.rename(old / self.path.name)
         try:
             self.part.rename(self.path)
         except BaseException:
-            old.rename(self.path)
+            (old / self.path.name).rename(self.path)
+            old.rmdir()
             raise
         remove(old)
 
@@ -169,6 +172,11 @@ def _megabytes(size: int) -> str:
 
 
 def _is_recording_folder(path: Path) -> bool:
-    return (path / "metadata.yaml").exists() or any(
-        one.suffix in (".mcap", ".db3", ".bag") for one in path.iterdir()
+    """Whether nothing is in a folder but a recording."""
+    return all(
+        one.is_file() and (one.name == "metadata.yaml" or one.suffix in _SUFFIXES)
+        for one in path.iterdir()
     )
+
+
+_SUFFIXES: Final = (".mcap", ".db3", ".bag", ".zstd")
