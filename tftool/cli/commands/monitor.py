@@ -15,11 +15,11 @@ from tftool.errors import InputError, TransformException, UsageError
 from tftool.frames.sample import TransformStamped
 from tftool.frames.traffic import NetDelay, Traffic
 from tftool.stamps import Duration, as_seconds, seconds
-from tftool.views import monitor as view
 
 if TYPE_CHECKING:
     from tftool.runtime.clock import Clock
     from tftool.runtime.world import TransformMessage, World
+    from tftool.views import monitor as view
 
 ASK_EVERY = seconds(0.5)
 """How often the delay of a chain is measured; tf2_monitor's own figure."""
@@ -158,6 +158,7 @@ class Monitor:
 
         from tftool.runtime.clock import pace_of
         from tftool.runtime.supervisor import beside
+        from tftool.views import monitor as view
 
         clock, pace = self.world.clock, pace_of(self.world.clock)
         if self.frames is not None:
@@ -209,6 +210,8 @@ class Monitor:
         pair = FramePair(target, source)
         await Waiter(self.world, pair, patience=patience, advice=advice).wait()
         frames = tuple(self.world.buffer.chain(target, source)) or (target,)
+        from tftool.views import monitor as view
+
         self.chain = view.Chain(target, source, frames, NetDelay())
 
     async def _ask(self, pace: "Clock") -> None:
@@ -249,6 +252,8 @@ class Monitor:
         notice(f"Gathering data on {about}, a report every {as_seconds(self.period):g} s ...")
 
     def _write(self) -> None:
+        from tftool.views import monitor as view
+
         if self.style is ReportStyle.JSON:
             now = self.world.clock.now()
             text = json.dumps(view.as_object(now, self.traffic, self.chain), allow_nan=False) + "\n"
