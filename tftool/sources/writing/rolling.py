@@ -128,14 +128,14 @@ class RollingRecording:
                 f"'{left}' is what a recorder left that did not end: 'tftool edit {left} -o "
                 "FILE.mcap' makes it whole. --force replaces it."
             )
+        if self._is_folder and os.path.lexists(self.path):
+            # Its files would have to go before there are new ones.
+            raise UsageError(f"'{self.path}' exists: a folder is not replaced, name another one.")
         if os.path.lexists(self.path) and not force:
             raise UsageError(f"'{self.path}' exists: --force replaces it.")
         try:
             if self._is_folder:
-                if self.path.exists():
-                    _empty(self.path)
-                else:
-                    self.path.mkdir()
+                self.path.mkdir()
             elif self.path.is_dir():
                 raise UsageError(f"'{self.path}' is a folder: not replaced.")
             elif not os.access(self.path.parent, os.W_OK):
@@ -365,17 +365,3 @@ class RollingRecording:
                 where = place.with_name(place.name + ACTIVE)
         refusal = failed(self.path, error)
         return InputError(f"{refusal} {kept} messages up to there can be read in '{where}'.")
-
-
-def _empty(folder: Path) -> None:
-    """Take a recording out of its folder; other files are left, and refused.
-
-    Raises:
-        UsageError: If there is anything else in it.
-    """
-    files = list(folder.iterdir())
-    for one in files:
-        if not (one.name == "metadata.yaml" or ".mcap" in one.name or one.suffix == ".db3"):
-            raise UsageError(f"'{folder}' holds '{one.name}', which is no recording: not replaced.")
-    for one in files:
-        one.unlink()
