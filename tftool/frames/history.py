@@ -69,7 +69,6 @@ NEEDS_CHECK: Final = 4
 _LATEST_STAMP: Final = 2**63 - 1
 
 _pack: Final = struct.Struct("q7d").pack
-_pack_into: Final = struct.Struct("q7d").pack_into
 _unpack_pose: Final = struct.Struct("7d").unpack_from
 _unpack_pair: Final = struct.Struct("q7dq7d").unpack_from
 
@@ -409,10 +408,9 @@ class History(Fields):
                 sample = (x, y, z, qx, qy, qz, qw)
         newest = self.newest_stamp
         if stamp <= newest:
-            record = array("q", _pack(stamp, x, y, z, qx, qy, qz, qw))
-            return self._insert_late(stamp, origin, sample, record)
-        if stamp > _LATEST_STAMP:
-            raise struct.error(f"{stamp} ns do not fit 64 bits")
+            late = array("q", _pack(stamp, x, y, z, qx, qy, qz, qw))
+            return self._insert_late(stamp, origin, sample, late)
+        record = _pack(stamp, x, y, z, qx, qy, qz, qw)
         if newest > self._prune_after:
             # As a rule every sample that comes prunes one.
             start = self.start + 1
@@ -423,13 +421,18 @@ class History(Fields):
             else:
                 self.start = start
                 self.oldest_stamp = oldest
-                self._prune_after = min(prune_after, _LATEST_STAMP)
+                self._prune_after = prune_after if prune_after < _LATEST_STAMP else _LATEST_STAMP
         records = self._own() if self._borrowed else self.records
-        try:
-            _pack_into(records, RECORD * self.count, stamp, x, y, z, qx, qy, qz, qw)
-        except struct.error:
-            records = self._make_room_behind()
-            _pack_into(records, RECORD * self.count, stamp, x, y, z, qx, qy, qz, qw)
+        if IS_NATIVE:
+            # With room behind, for the kernel to write the next ones.
+            if WORDS * self.count == len(records):
+                records = self._make_room_behind()
+            records[WORDS * self.count : WORDS * self.count + WORDS] = array("q", record)
+        else:
+            try:
+                records.frombytes(record)
+            except BufferError:
+                self._splice(self.count, self.count, array("q", record))
         self.count += 1
         self.newest_stamp = stamp
         self.newest = sample
@@ -684,7 +687,8 @@ class History(Fields):
         if start >= self._compact_at:
             # With as much room behind: as a rule as many samples come until the next time.
             records = self.records[WORDS * start : WORDS * self.count]
-            records.frombytes(bytes(RECORD * start))
+            if IS_NATIVE:
+                records.frombytes(bytes(RECORD * start))
             self.records, self._borrowed = records, False
             self.count -= start
             if self.origins is not None:
