@@ -177,3 +177,17 @@ def test_levels_of_loggers_have_messages_and_can_be_forgotten(node, monkeypatch,
         rclpy.logging.get_logging_severity_from_string("LOUD")
     monkeypatch.setenv("ROS_LOG_DIR", str(tmp_path))
     assert rclpy.logging.get_logging_directory() == tmp_path
+
+
+def test_with_verbose_a_run_says_what_of_the_workspace_it_skips(tmp_path, monkeypatch, capsys):
+    from tftool.cli.app import main
+
+    (tmp_path / "odd").mkdir()
+    (tmp_path / "odd" / "setup.cfg").write_text("x = 1\n")
+    (tmp_path / "node.py").write_text("print('ran')\n")
+    monkeypatch.chdir(tmp_path)
+
+    assert main(["run", "--verbose", "--simulated", "--for", "1", "node.py"]) == 0
+    assert "odd' is skipped" in capsys.readouterr().err
+    assert main(["run", "--simulated", "--for", "1", "node.py"]) == 0
+    assert "is skipped" not in capsys.readouterr().err

@@ -8,7 +8,7 @@ import typer
 
 from tftool.cli.connection import Connection
 from tftool.cli.options import RunFor, refuse_long_simulation
-from tftool.views.escaping import visible
+from tftool.views.escaping import visible, visible_lines
 
 ROBOTS = ("robot_state_publisher", "joint_state_publisher")
 """Packages whose nodes publish a robot."""
@@ -80,6 +80,9 @@ def run(
     simulated: Annotated[
         bool, typer.Option("--simulated", help="On simulated time: at once, the same every time.")
     ] = False,
+    verbose: Annotated[
+        bool, typer.Option("--verbose", help="Say which folders of the workspace are skipped.")
+    ] = False,
 ) -> int:
     """Run a node written for ROS 2, unmodified, without ROS (ros2 run).
 
@@ -108,6 +111,8 @@ def run(
     for word in misplaced(words, own):
         notice(word)
     workspace = hosting.Workspace(Path.cwd())
+    for skipped in workspace.skipped if verbose else ():
+        notice(visible_lines(skipped))
     # These bring all there is to see; turtles have no place beside them.
     simulator = (target, *words[:1]) == ("turtlesim", "turtlesim_node")
     alone = simulator or (target in ROBOTS and place is None)
