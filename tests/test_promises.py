@@ -1,5 +1,8 @@
+import re
 import subprocess
 import sys
+from collections import Counter
+from pathlib import Path
 
 import pytest
 
@@ -88,3 +91,17 @@ def test_the_scalar_path_imports_neither_numpy_nor_asyncio():
     done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
 
     assert done.stdout == "[]\n"
+
+
+def test_a_class_name_stands_for_one_thing():
+    """Faces of ROS's own names apart, which stand where ROS has them."""
+    root = Path(tftool.__file__).parent
+    named = Counter(
+        name
+        for path in root.rglob("*.py")
+        if path.relative_to(root).parts[0] not in ("ros", "examples")
+        for name in re.findall(r"^class (\w+)", path.read_text(encoding="utf-8"), re.MULTILINE)
+    )
+
+    assert len(named) > 300
+    assert [name for name, count in named.items() if count > 1 and name[0] != "_"] == []

@@ -14,12 +14,13 @@ from tftool.cli.hosting import (
     scenario_named,
 )
 from tftool.cli.notices import notice
+from tftool.cli.options import LISTENING
 from tftool.diagnostics.model import Material
 from tftool.diagnostics.scope import Scope
 from tftool.errors import UsageError
 from tftool.scenario.doctoring import NO_RULES, DoctorRules, heard_in, rules_beside
 from tftool.sources.find import Kind
-from tftool.stamps import Duration, as_seconds, seconds
+from tftool.stamps import Duration, as_seconds
 from tftool.views.escaping import visible
 
 if TYPE_CHECKING:
@@ -30,9 +31,6 @@ WHOLE = Scope()
 
 LIVE = "live session"
 """The kind of what a session that runs gives."""
-
-LISTEN_LIVE = seconds(10)
-"""How long a session that runs is listened to where nothing else is said."""
 
 
 def material_of(
@@ -79,7 +77,7 @@ def material_of(
     if word is None:
         session = join_session(connection)
         if session is not None:
-            lasting = lasting or LISTEN_LIVE
+            lasting = lasting or LISTENING
             notice(f"Listening for {as_seconds(lasting):g} s ...")
             return _described(_heard(session, lasting, LIVE), scope)
     session = open_session(connection, word, simulated=True, because=NO_SESSION)

@@ -23,6 +23,9 @@ MOST = 9e9
 LONGEST_SIMULATED = seconds(86_400)
 """How much simulated time a command plays: a day, as long as a scenario may last."""
 
+LISTENING = seconds(10)
+"""How long a command listens to a live session before it judges or writes what it heard."""
+
 FIRST_STAMP = 100_000_000
 """From so many seconds on a moment is a stamp; below, it counts from the beginning."""
 

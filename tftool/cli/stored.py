@@ -20,17 +20,15 @@ from tftool.cli.hosting import (
     refuse_to_share,
 )
 from tftool.cli.notices import notice
+from tftool.cli.options import LISTENING
 from tftool.errors import LinkError, UsageError
 from tftool.sources.find import Kind
-from tftool.stamps import Duration, Stamp, as_seconds, seconds
+from tftool.stamps import Duration, Stamp, as_seconds
 
 if TYPE_CHECKING:
     from tftool.cli.options import At
     from tftool.frames.buffer import Buffer
     from tftool.runtime.world import TransformMessage
-
-LISTEN_LIVE = seconds(10)
-"""How long a session that runs is listened to where nothing else is said."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -51,7 +49,7 @@ def stored_frames(
     word: str | None,
     lasting: Duration | None = None,
     *,
-    listen: Duration = LISTEN_LIVE,
+    listen: Duration = LISTENING,
     is_one_of_several: bool = False,
 ) -> StoredFrames:
     """All frames that FROM names, over the whole of its time.
