@@ -54,9 +54,10 @@ class Terminal:
         for key in keys:
             self.tmux("send-keys", key)
 
-    def until(self, condition, what):
-        """Look at the screen until it is as it should be."""
+    def until(self, condition, what, *, pressing=()):
+        """Look at the screen until it is as it should be, pressing keys between the looks."""
         for _ in range(TRIES):
+            self.press(*pressing)
             screen = self.screen()
             if condition(screen):
                 return screen

@@ -20,8 +20,8 @@ from tftool.sources.editing.changes import Edits
 from tftool.sources.editing.rewriting import edit
 from tftool.sources.writing.channel import Channel
 from tftool.sources.writing.mcap import McapWriter
-from tftool.sources.writing.recording import TRANSFORMS, ros2_channel
 from tftool.sources.writing.rolling import RollingRecording
+from tftool.sources.writing.ros2 import TRANSFORMS, ros2_channel
 from tftool.stamps import seconds
 from tftool.wire.transforms import encode_transforms
 

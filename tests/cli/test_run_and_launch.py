@@ -308,12 +308,14 @@ def test_ctrl_c_ends_a_launch_as_ros2_launch_ends(tmp_path):
     status, said = interrupted(tmp_path, "[sh-2] ready", "launch", "--ros-free", str(file))
 
     assert status == 130
-    assert said.splitlines() == [
+    lines = said.splitlines()
+    # Another process ends when the system lets it.
+    lines.remove("[INFO] [sh-2]: process has finished cleanly")
+    assert lines == [
         "[WARNING] [launch]: user interrupted with ctrl-c (SIGINT)",
         "[INFO] [launch]: ends: ctrl-c (SIGINT)",
         "[INFO] [turtlesim_node-1]: process has finished cleanly",
         "[INFO] [launch]: sim is over",
-        "[INFO] [sh-2]: process has finished cleanly",
     ]
 
 

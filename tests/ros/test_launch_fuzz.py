@@ -92,10 +92,10 @@ def test_a_file_is_launched_or_refused(case):
         ("<executable cmd='env' cwd='/nonexistent'/>", "No such file or directory '/nonexistent'"),
         ("<executable cmd='a' respawn='true' respawn_delay='soon'/>", "a respawn_delay is seconds"),
         ("<node pkg='turtlesim' exec='turtlesim_node' namespace='a b'/>", "cannot be a namespace"),
-        ("<push_ros_namespace namespace='1a'/>", "no part may start with a digit"),
+        ("<push_ros_namespace namespace='1a'/>", "a part must not start with a number"),
         ("<include file='nothing.xml'/>", ":2: cannot read 'nothing.xml'"),
         ("<set_remap from='a b' to='c'/><node pkg='turtlesim' exec='turtlesim_node'/>",
-         "'a b:=c' renames nothing: in 'a b' only letters"),
+         "'a b:=c' renames nothing: in 'a b' it must not contain characters other than letters"),
         ("<node pkg='turtlesim' exec='turtlesim_node'><param name='background_r' value='red'/>"
          "</node>", "'background_r' is a whole number from 0 to 255, not 'red'"),
         ("<node pkg='turtlesim' exec='turtlesim_node'><param name='holonomic' value='2'/></node>",

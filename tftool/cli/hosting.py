@@ -462,15 +462,16 @@ def open_session(
         link = company.link
     try:
         scenario = scenario_named(word or HOME)
-        if word is None:
-            # For a program of the user's, nothing of the scenario moves.
-            hosted = f"scenario '{HOME}'" if without is None else "a turtlesim alone"
-            notice(f"{because}: hosting {hosted}.")
-        if by_hand:
-            scenario = left_to_a_person(scenario)
         if without is not None:
             kept = tuple(node for node in scenario.nodes if not without(node))
             scenario = replace(scenario, nodes=kept)
+        if word is None:
+            # For a program of the user's, nothing of the scenario moves.
+            alone = [node.kind for node in scenario.nodes] == ["turtlesim"]
+            hosted = "a turtlesim alone" if alone else f"scenario '{HOME}'"
+            notice(f"{because}: hosting {hosted}.")
+        if by_hand:
+            scenario = left_to_a_person(scenario)
         # Nothing judges what happens in it.
         scenario = replace(scenario, expect=(), cache_time=cache_time or scenario.cache_time)
         if simulated:

@@ -14,7 +14,7 @@ from tftool.runtime.endpoints import PUBLISHER
 from tftool.runtime.topics import Topic
 from tftool.runtime.world import TransformMessage, World
 from tftool.sources.writing.channel import Channel
-from tftool.sources.writing.recording import TRANSFORMS, ros2_channel
+from tftool.sources.writing.ros2 import TRANSFORMS, ros2_channel
 from tftool.wire.codec import Codec, codec
 from tftool.wire.transforms import encode_transforms
 

@@ -41,6 +41,8 @@ FLAGS = [
     # Nothing is asked of anybody but the page's own server.
     "--disable-background-networking",
     "--disable-component-update",
+    # Between two pages Chromium may not know that 127.0.0.1 asks 127.0.0.1.
+    "--disable-features=LocalNetworkAccessChecks",
     "--disable-quic",
     "--disable-sync",
     "--no-first-run",

@@ -13,8 +13,8 @@ from tftool.errors import InputError, UsageError
 from tftool.frames.sample import TransformStamped
 from tftool.geometry.rigid import Transform
 from tftool.sources.recording import open_recording
-from tftool.sources.writing.recording import TRANSFORMS, ros2_channel
 from tftool.sources.writing.rolling import RecordLimits, RollingRecording
+from tftool.sources.writing.ros2 import TRANSFORMS, ros2_channel
 from tftool.stamps import seconds
 from tftool.wire.transforms import encode_transforms
 

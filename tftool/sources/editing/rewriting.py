@@ -40,7 +40,7 @@ from tftool.sources.recording import Recording, open_recording
 from tftool.sources.writing.channel import Channel
 from tftool.sources.writing.containers import container_of
 from tftool.sources.writing.folder import FileFacts, metadata_text, write_metadata
-from tftool.sources.writing.recording import TRANSFORMS, ros2_channel
+from tftool.sources.writing.ros2 import TRANSFORMS, ros2_channel
 from tftool.sources.writing.target import PART, Target, check_room, failed
 from tftool.stamps import Stamp
 from tftool.wire.splicing import TransformRow, TransformRows, encode_rows

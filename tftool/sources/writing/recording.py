@@ -5,39 +5,17 @@ import sys
 from collections.abc import Iterable
 from pathlib import Path
 from types import TracebackType
-from typing import Any, Final
+from typing import Any
 
 from tftool.frames.sample import TransformStamped
 from tftool.interfaces.classes import INTERFACES, Message
 from tftool.sources.writing.channel import Channel, ContainerWriter
 from tftool.sources.writing.containers import container_of, open_container
-from tftool.sources.writing.definitions import known_hash, ros2_definition
-from tftool.sources.writing.offers import offers_text
+from tftool.sources.writing.ros2 import TRANSFORMS, ros2_channel
 from tftool.sources.writing.target import Target, failed
 from tftool.stamps import Stamp
 from tftool.wire.codec import codec
 from tftool.wire.transforms import encode_transforms
-
-TRANSFORMS: Final = "tf2_msgs/msg/TFMessage"
-
-
-def ros2_channel(topic: str, kind: str, *, static: bool = False, depth: int = 1) -> Channel:
-    """A stream of messages of a type we know, as ROS 2 records it.
-
-    Args:
-        topic: Its name.
-        kind: The type: "tf2_msgs/msg/TFMessage".
-        static: Whether late subscribers get the last message too.
-        depth: How many messages are kept for them.
-
-    Raises:
-        InputError: If the type is not known.
-    """
-    metadata = (
-        ("offered_qos_profiles", offers_text(static, depth=depth)),
-        ("topic_type_hash", known_hash(kind)),
-    )
-    return Channel(topic, kind, "cdr", "ros2msg", ros2_definition(kind).encode(), metadata)
 
 
 class RecordingWriter:

@@ -1,0 +1,28 @@
+"""Streams of messages of ROS 2's types, as rosbag2 records them."""
+
+from typing import Final
+
+from tftool.sources.writing.channel import Channel
+from tftool.sources.writing.definitions import known_hash, ros2_definition
+from tftool.sources.writing.offers import offers_text
+
+TRANSFORMS: Final = "tf2_msgs/msg/TFMessage"
+
+
+def ros2_channel(topic: str, kind: str, *, static: bool = False, depth: int = 1) -> Channel:
+    """A stream of messages of a type we know, as ROS 2 records it.
+
+    Args:
+        topic: Its name.
+        kind: The type: "tf2_msgs/msg/TFMessage".
+        static: Whether late subscribers get the last message too.
+        depth: How many messages are kept for them.
+
+    Raises:
+        InputError: If the type is not known.
+    """
+    metadata = (
+        ("offered_qos_profiles", offers_text(static, depth=depth)),
+        ("topic_type_hash", known_hash(kind)),
+    )
+    return Channel(topic, kind, "cdr", "ros2msg", ros2_definition(kind).encode(), metadata)
