@@ -4,6 +4,7 @@ import os
 import shlex
 import subprocess
 import sys
+from itertools import cycle, islice
 from pathlib import Path
 from threading import Event
 
@@ -55,9 +56,10 @@ class Terminal:
             self.tmux("send-keys", key)
 
     def until(self, condition, what, *, pressing=()):
-        """Look at the screen until it is as it should be, pressing keys between the looks."""
+        """Look at the screen until it is as it should be; before each look press the next key."""
+        keys = cycle(pressing)
         for _ in range(TRIES):
-            self.press(*pressing)
+            self.press(*islice(keys, 1))
             screen = self.screen()
             if condition(screen):
                 return screen

@@ -94,6 +94,8 @@ class Page:
     def __init__(self, driver, stage, state=""):
         self.driver = driver
         driver.get("about:blank")
+        # What an earlier page complained of is not this one's.
+        driver.get_log("browser")
         driver.get(f"{stage.url}#{state}")
 
     def said(self, expression):

@@ -81,7 +81,8 @@ def run(
         bool, typer.Option("--simulated", help="On simulated time: at once, the same every time.")
     ] = False,
     verbose: Annotated[
-        bool, typer.Option("--verbose", help="Say which folders of the workspace are skipped.")
+        bool,
+        typer.Option("--verbose", "-v", help="Say which folders are skipped."),
     ] = False,
 ) -> int:
     """Run a node written for ROS 2, unmodified, without ROS (ros2 run).
