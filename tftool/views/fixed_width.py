@@ -1,5 +1,7 @@
 """Strangers' names in a given number of cells, the same number in every terminal."""
 
+from collections.abc import Iterable
+
 from rich.cells import cell_len
 
 from tftool.views.escaping import visible
@@ -32,6 +34,33 @@ def fitted(text: str, width: int, *, more: str = "…") -> str:
             break
         kept += 1
     return shown[:kept] + more
+
+
+def middle_cut(text: str, width: int, *, more: str = "…") -> str:
+    """Give `plain(text)` in at most `width` cells, cut where names of frames differ least.
+
+    The beginning and the end stay; what is left out between them shows as `more`.
+    """
+    shown = plain(text)
+    if cell_len(shown) <= width:
+        return shown
+    room = width - cell_len(more)
+    if room < 0:
+        return ""
+    end = _within(reversed(shown), room // 2)
+    start = _within(shown, room - sum(map(cell_len, end)))
+    return "".join(start) + more + "".join(reversed(end))
+
+
+def _within(signs: Iterable[str], room: int) -> list[str]:
+    """The first signs, in at most `room` cells."""
+    kept = []
+    for sign in signs:
+        room -= cell_len(sign)
+        if room < 0:
+            break
+        kept.append(sign)
+    return kept
 
 
 def padded(text: str, width: int, *, more: str = "…") -> str:

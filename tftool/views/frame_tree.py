@@ -1,8 +1,8 @@
 """Every tree of frames: as text for people, as data for programs."""
 
 import math
-from collections.abc import Collection, Iterator, Mapping, Sequence
-from dataclasses import dataclass, replace
+from collections.abc import Collection, Mapping, Sequence
+from dataclasses import dataclass
 from types import MappingProxyType
 from typing import Any, TypeAlias
 
@@ -12,8 +12,9 @@ from rich.text import Text
 from tftool.frames.sample import FrameInfo, Snapshot
 from tftool.geometry.rigid import Transform
 from tftool.stamps import as_seconds, display
-from tftool.views.escaping import distinct, shorten, visible
-from tftool.views.forest import Forest, grow
+from tftool.views.branches import ASCII, UNICODE, Branch, Guides, branches
+from tftool.views.escaping import distinct, visible
+from tftool.views.forest import grow
 
 NOTHING = "No tf data received"
 
@@ -30,38 +31,25 @@ WIDEST = 80
 """Columns that the cells of others are filled up to; one that is longer sticks out of its line."""
 
 
-@dataclass(frozen=True, slots=True)
-class _Guides:
-    """The four pieces a tree is drawn with."""
-
-    child: str = "├── "
-    last: str = "└── "
-    past: str = "│   "
-    blank: str = "    "
-
-
 Marks: TypeAlias = Mapping[str, Sequence[str]]
 """Ids of the doctor's checks by frame."""
 
 NO_MARKS: Marks = MappingProxyType({})
 
-UNICODE = _Guides()
-ASCII = _Guides("|-- ", "`-- ", "|   ", "    ")
-
 
 def render(
     snapshot: Snapshot,
     *,
-    width: int | None = None,
     ascii_only: bool = False,
     moving: Collection[str] | None = None,
     marks: Marks = NO_MARKS,
 ) -> Text:
-    """Draw every tree: one line a frame where that fits, else three.
+    """Draw every tree with all that is known of each link, as wide as it gets.
+
+    `compact_tree.compact` draws it in a terminal's width.
 
     Args:
         snapshot: What to draw.
-        width: Columns there are; None for as many as it takes.
         ascii_only: Whether to keep to ASCII for the branches.
         moving: Of a robot description, the frames whose joint moves; None for other frames.
         marks: What is wrong with frames: ids of the doctor's checks.
@@ -81,9 +69,6 @@ def render(
         return text.append(f"\n{NOTHING}")
     forest = grow(snapshot)
     names = distinct(forest.info)
-    if width is not None:
-        # A name may be of any length, and the facts behind it matter too.
-        names = {frame: shorten(name, max(16, width // 3)) for frame, name in names.items()}
     if len(forest.roots) > 1:
         listed = ", ".join(names[root] for root in forest.roots)
         text.append(f"\n{len(forest.roots)} separate trees: {listed}", style="yellow")
@@ -92,19 +77,19 @@ def render(
     for frame, ids in marks.items():
         if frame in names:
             names[frame] += f" ({', '.join(ids)})"
-    branches = list(_branches(forest, names, ASCII if ascii_only else UNICODE))
-    if moving is not None:
-        branches = [_of_robot(branch, moving) for branch in branches]
-    lines = _table(branches, HEADINGS if moving is None else ROBOT_HEADINGS)
-    if width is not None and any(line.cell_len > width for line in lines):
-        lines = list(_stacked(branches))
-    for line in lines:
+    guides = (ASCII if ascii_only else UNICODE)[0]
+    rows = [_row(branch, names, guides, moving) for branch in branches(forest)]
+    for line in _table(rows, HEADINGS if moving is None else ROBOT_HEADINGS):
         text.append("\n").append_text(line)
     if marks:
-        first = next(iter(marks.values()))[0]
-        told = f"What is in brackets is wrong: 'tftool doctor --explain {first}' tells more."
-        text.append(f"\n\n{told}", style="yellow")
+        text.append(f"\n\nWhat is in brackets is wrong: {advice(marks)}", style="yellow")
     return text
+
+
+def advice(marks: Marks) -> str:
+    """Where to read on about what is wrong with frames."""
+    first = next(iter(marks.values()))[0]
+    return f"'tftool doctor --explain {first}' tells more."
 
 
 def as_object(
@@ -167,83 +152,52 @@ def facts(info: FrameInfo) -> tuple[str, ...]:
 
 
 @dataclass(frozen=True, slots=True)
-class _Branch:
-    """One frame where it stands in its tree.
+class _Row:
+    """One line: guides, the frame's name, what there is to say about its link, and its colour."""
 
-    Attributes:
-        label: The branch it hangs on, and its name.
-        below: What is drawn before lines that belong to it.
-        info: The frame.
-        facts: About its link, in the order of `HEADINGS`; none for a root.
-    """
-
-    label: str
-    below: str
-    info: FrameInfo
+    lead: str
+    name: str
     facts: tuple[str, ...]
+    style: str
+
+    @property
+    def cells(self) -> tuple[str, ...]:
+        return (self.lead + self.name, *self.facts)
 
 
-def _branches(forest: Forest, names: dict[str, str], guides: _Guides) -> Iterator[_Branch]:
-    """Every frame, parents before children; a deep tree needs no deep stack."""
-    waiting = [(root, "", "") for root in reversed(forest.roots)]
-    while waiting:
-        frame, lead, below = waiting.pop()
-        info = forest.info[frame]
-        label = lead + names[frame]
-        if frame in forest.loops:
-            label += f" (a loop: it hangs from {visible(info.parent or NONE)})"
-        yield _Branch(label, below, info, () if info.parent is None else facts(info))
-        for place, child in enumerate(reversed(forest.children[frame])):
-            branch, past = (guides.child, guides.past) if place else (guides.last, guides.blank)
-            waiting.append((child, below + branch, below + past))
+def _row(
+    branch: Branch, names: dict[str, str], guides: Guides, moving: Collection[str] | None
+) -> _Row:
+    info = branch.info
+    name = names[info.frame]
+    if branch.closes_loop:
+        name += f" (a loop: it hangs from {visible(info.parent or NONE)})"
+    told = () if info.parent is None else facts(info)
+    if told and moving is not None:
+        info = info._replace(is_static=info.frame not in moving)
+        told = ("fixed" if info.is_static else "moving", visible(info.authority or NONE))
+    return _Row(guides.lead(branch.turns), name, told, _style(info))
 
 
-def _of_robot(branch: _Branch, moving: Collection[str]) -> _Branch:
-    """The same frame with what there is to say about its joint."""
-    if not branch.facts:
-        return branch
-    info = branch.info._replace(is_static=branch.info.frame not in moving)
-    kind = "fixed" if info.is_static else "moving"
-    return replace(branch, info=info, facts=(kind, visible(info.authority or NONE)))
-
-
-def _table(branches: list[_Branch], headings: tuple[str, ...]) -> list[Text]:
+def _table(rows: list[_Row], headings: tuple[str, ...]) -> list[Text]:
     """One line a frame, under headings where there are links to describe."""
-    rows = [(branch.label, *branch.facts) for branch in branches]
-    if any(branch.facts for branch in branches):
-        rows.insert(0, headings)
+    if any(row.facts for row in rows):
+        rows = [_Row("", headings[0], headings[1:], "dim"), *rows]
     widths = [
-        min(WIDEST, max(cell_len(row[column]) for row in rows if column < len(row)))
-        for column in range(max(map(len, rows)))
+        min(WIDEST, max(cell_len(row.cells[column]) for row in rows if column < len(row.cells)))
+        for column in range(max(len(row.cells) for row in rows))
     ]
-    styles = ["dim"] * (len(rows) - len(branches)) + [_style(branch.info) for branch in branches]
-    return [_line(row, widths, style) for row, style in zip(rows, styles, strict=True)]
+    return [_line(row, widths) for row in rows]
 
 
-def _line(cells: tuple[str, ...], widths: list[int], style: str) -> Text:
+def _line(row: _Row, widths: list[int]) -> Text:
     padded = []
-    for column, (cell, width) in enumerate(zip(cells, widths, strict=False)):
+    for column, (cell, width) in enumerate(zip(row.cells, widths, strict=False)):
         room = " " * (width - cell_len(cell))
         # Numbers stand right, so that their points are under each other.
         padded.append(room + cell if column >= 3 else cell + room)
-    return Text("  ".join(padded).rstrip(), style=style)
-
-
-def _stacked(branches: list[_Branch]) -> Iterator[Text]:
-    """Up to three lines a frame, for narrow terminals."""
-    for branch in branches:
-        yield Text(branch.label, style=_style(branch.info))
-        if not branch.facts:
-            continue
-        if len(branch.facts) == len(ROBOT_HEADINGS) - 1:
-            yield Text(f"{branch.below}{', '.join(branch.facts)}", style="dim")
-            continue
-        kind, broadcaster, rate, length, oldest, newest, age = branch.facts
-        if branch.info.is_static:
-            yield Text(f"{branch.below}static, by {broadcaster}", style="dim")
-            continue
-        yield Text(f"{branch.below}{kind}, by {broadcaster}, {rate}, age {age}", style="dim")
-        yield Text(f"{branch.below}{length} kept: {oldest} to {newest}", style="dim")
+    whole = "  ".join(padded).rstrip()
+    return Text().append(row.lead, style="dim").append(whole[len(row.lead) :], style=row.style)
 
 
 def _style(info: FrameInfo) -> str:

@@ -16,6 +16,9 @@ from tftool.stamps import Duration, seconds
 if TYPE_CHECKING:
     from collections.abc import Callable
 
+    from rich.console import Console
+    from rich.text import Text
+
     from tftool.cli.hosting import Session
     from tftool.frames.sample import Snapshot
     from tftool.runtime.log import LogRecord
@@ -67,6 +70,14 @@ def tree(
             help="Where to write it; - is stdout.",
         ),
     ] = None,
+    wide: Annotated[
+        bool,
+        typer.Option(
+            "--wide",
+            rich_help_panel=OUTPUT,
+            help="All columns and whole names on a terminal too, however long the lines.",
+        ),
+    ] = False,
     at: AtOption = None,
     watch: Annotated[bool, typer.Option("--watch", "-w", help="Draw it again and again.")] = False,
     run_for: RunFor = None,
@@ -101,7 +112,7 @@ def tree(
         raise UsageError("--for goes with --watch; without it the tree is written once.")
     seen = observe(connection, place, at, cache_time=cache_time)
     marks = seen.marks() if form in (TreeFormat.tree, TreeFormat.json) else {}
-    _write(seen.snapshot(), seen.moving, form, output, marks)
+    _write(seen.snapshot(), seen.moving, form, output, marks, wide=wide)
     for sentence in rivalries(seen.buffer, seen.buffer.frames()):
         notice(sentence)
     return ExitStatus.DONE
@@ -125,9 +136,15 @@ def _form_of(output: Path | None) -> TreeFormat:
 
 
 def _write(
-    snapshot: "Snapshot", moving: "Moving", form: TreeFormat, output: Path | None, marks: "Marks"
+    snapshot: "Snapshot",
+    moving: "Moving",
+    form: TreeFormat,
+    output: Path | None,
+    marks: "Marks",
+    *,
+    wide: bool,
 ) -> None:
-    content = _content(snapshot, moving, form, marks, to_file=output is not None)
+    content = _content(snapshot, moving, form, marks, wide=wide or output is not None)
     if output is None or str(output) == "-":
         if isinstance(content, bytes):
             if sys.stdout.isatty():
@@ -146,7 +163,7 @@ def _write(
 
 
 def _content(
-    snapshot: "Snapshot", moving: "Moving", form: TreeFormat, marks: "Marks", *, to_file: bool
+    snapshot: "Snapshot", moving: "Moving", form: TreeFormat, marks: "Marks", *, wide: bool
 ) -> str | bytes:
     from tftool.cli.notices import notice
     from tftool.views import frame_tree
@@ -159,7 +176,7 @@ def _content(
     if form is TreeFormat.yaml:
         return frame_tree.as_yaml(snapshot)
     if form is TreeFormat.tree:
-        return _drawn(snapshot, moving, marks, to_file=to_file)
+        return _drawn(snapshot, moving, marks, wide=wide)
     from tftool.views.drawing import draw
 
     drawing = draw(snapshot, form.value)
@@ -168,26 +185,46 @@ def _content(
     return drawing.content
 
 
-def _drawn(snapshot: "Snapshot", moving: "Moving", marks: "Marks", *, to_file: bool) -> str:
-    """The tree as this terminal shows it; in full where there is none."""
+def _drawn(snapshot: "Snapshot", moving: "Moving", marks: "Marks", *, wide: bool) -> str:
+    """The tree in the width of this terminal; in full where there is none, or if asked for."""
     from rich.console import Console
 
     from tftool.views import frame_tree
 
     console = Console()
-    terminal = console.is_terminal and not to_file
-    picture = frame_tree.render(
-        snapshot,
-        width=console.width if terminal else None,
-        ascii_only=not to_file and console.options.ascii_only,
-        moving=moving,
-        marks=marks,
-    )
-    if not terminal:
+    if console.is_terminal and not wide:
+        picture = _fitting(snapshot, moving, marks, console)
+    else:
+        picture = frame_tree.render(
+            snapshot,
+            ascii_only=console.is_terminal and console.options.ascii_only,
+            moving=moving,
+            marks=marks,
+        )
+    if not console.is_terminal:
         return picture.plain + "\n"
     with console.capture() as capture:
-        console.print(picture)
+        console.print(picture, soft_wrap=True)
     return capture.get()
+
+
+def _fitting(snapshot: "Snapshot", moving: "Moving", marks: "Marks", console: "Console") -> "Text":
+    from rich.text import Text
+
+    from tftool.views.compact_tree import compact
+    from tftool.views.frame_tree import NOTHING, advice
+
+    if not snapshot.frames:
+        return Text(NOTHING)
+    found = compact(
+        snapshot, console.width, ascii_only=console.options.ascii_only, moving=moving, marks=marks
+    )
+    lines = [*found.heading, *found.rows]
+    if marks:
+        lines.append(Text(advice(marks), style="yellow"))
+    if found.is_cut:
+        lines.append(Text("Some names are cut to fit: --wide shows them whole.", style="dim"))
+    return Text("\n").join(lines)
 
 
 def _watch(open_session: "Callable[[], Session]", duration: Duration | None) -> None:
@@ -199,7 +236,6 @@ def _watch(open_session: "Callable[[], Session]", duration: Duration | None) -> 
     from tftool.diagnostics.asking import marks
     from tftool.runtime.clock import Phase, pace_of
     from tftool.runtime.stopping import leave_screen
-    from tftool.views import frame_tree
     from tftool.views.escaping import visible
 
     console = Console()
@@ -225,11 +261,8 @@ def _watch(open_session: "Callable[[], Session]", duration: Duration | None) -> 
             end = None if duration is None else due + duration
             pace.limit(end)
             while end is None or due <= end:
-                picture = frame_tree.render(
-                    world.buffer.snapshot(world.clock.now()),
-                    marks=marks(world.buffer),
-                    width=console.width,
-                    ascii_only=console.options.ascii_only,
+                picture = _fitting(
+                    world.buffer.snapshot(world.clock.now()), None, marks(world.buffer), console
                 )
                 live.update(Group(picture, news), refresh=True)
                 due = max(due + seconds(0.5), pace.now())

@@ -1,0 +1,24 @@
+"""Durations and rates in few cells, for tables that are looked at and not calculated with."""
+
+from tftool.stamps import Duration, as_seconds
+
+
+def short_duration(duration: Duration) -> str:
+    """Write nanoseconds as "0.02 s", "2.0 s", "3.5 min", "2.1 h" or "4.0 d"."""
+    number = as_seconds(duration)
+    size = abs(number)
+    if size < 0.995:
+        return f"{number:.2f} s"
+    if size < 99.95:
+        return f"{number:.1f} s"
+    for most, unit, length in ((99.95 * 60, "min", 60), (47.95 * 3600, "h", 3600)):
+        if size < most:
+            return f"{number / length:.1f} {unit}"
+    return f"{number / 86400:.1f} d"
+
+
+def short_rate(rate: float) -> str:
+    """Write hertz as "0.50 Hz", "62.7 Hz" or "1000 Hz"."""
+    if rate < 0.995:
+        return f"{rate:.2f} Hz"
+    return f"{rate:.1f} Hz" if rate < 999.95 else f"{rate:.0f} Hz"
