@@ -182,3 +182,13 @@ def test_bytes_that_are_no_text_are_dropped_and_the_keys_go_on(terminal):
     screen = demo.shows("ended with 0")
     assert "Traceback" not in screen
     assert "UnicodeDecodeError" not in screen
+
+
+def test_the_words_of_ros2_for_teleop_drive_too(terminal):
+    remap = ("--ros-args", "--remap", "turtle1/cmd_vel:=turtle2/cmd_vel")
+    teleop = terminal(100, 30, "-m", "tftool", "run", "turtlesim", "turtle_teleop_key", *remap)
+    teleop.shows("'q' to quit.")
+    teleop.shows("teleop turtle2")
+
+    teleop.press("q")
+    assert "Reading from keyboard" in teleop.ended(0)

@@ -13,6 +13,9 @@ from tftool.views.escaping import visible, visible_lines
 ROBOTS = ("robot_state_publisher", "joint_state_publisher")
 """Packages whose nodes publish a robot."""
 
+KEYBOARD = ("turtlesim", "turtle_teleop_key")
+"""What `tftool teleop` stands for."""
+
 SIMULATED = "Simulated time is a world's own, and shares no session"
 
 if TYPE_CHECKING:
@@ -98,6 +101,7 @@ def run(
     """
     from pathlib import Path
 
+    from tftool.cli.commands.teleop import teleop
     from tftool.cli.hosting import NO_SESSION, open_empty_session, open_session, tell_where_to_look
     from tftool.cli.notices import notice, tell_record
     from tftool.errors import UsageError
@@ -114,6 +118,13 @@ def run(
     workspace = hosting.Workspace(Path.cwd())
     for skipped in workspace.skipped if verbose else ():
         notice(visible_lines(skipped))
+    if (target, *words[:1]) == KEYBOARD and target not in workspace.packages:
+        if place is not None or simulated or run_for is not None:
+            raise UsageError(
+                "'turtlesim turtle_teleop_key' reads keys until q is pressed, in the session "
+                "that runs or beside a turtle of its own; --in, --for and --simulated go with nodes"
+            )
+        return teleop(connection, hosting.driven_turtle(words[1:]))
     # These bring all there is to see; turtles have no place beside them.
     simulator = (target, *words[:1]) == ("turtlesim", "turtlesim_node")
     alone = simulator or (target in ROBOTS and place is None)

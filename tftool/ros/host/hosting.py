@@ -20,6 +20,9 @@ from tftool.runtime.clock import Phase
 from tftool.runtime.world import World
 from tftool.stamps import Duration
 
+KEYBOARD_NODE = "teleop_turtle"
+"""What turtlesim calls the node that reads keys."""
+
 FILES = (".py", ".xml", ".yaml", ".yml")
 
 
@@ -113,6 +116,24 @@ def start_program(
         on_exit=on_exit,
     )
     return label
+
+
+def driven_turtle(words: Sequence[str]) -> str:
+    """The turtle that a turtle_teleop_key drives when it is started with these words.
+
+    It publishes on `turtle1/cmd_vel`, which a rule of `--ros-args` may lead elsewhere.
+
+    Raises:
+        UsageError: If the words are malformed, or the rule leads to no turtle's `cmd_vel`.
+    """
+    options, _ = names.parse(words)
+    namespace = (options.namespace or "").strip("/")
+    given = names.expand("turtle1/cmd_vel", KEYBOARD_NODE, namespace)
+    topic = options.remapped(given, options.name or KEYBOARD_NODE, namespace)
+    turtle, _, last = topic.strip("/").rpartition("/")
+    if last != "cmd_vel" or not turtle:
+        raise UsageError(f"'{topic}' is no turtle's: give --remap turtle1/cmd_vel:=turtle2/cmd_vel")
+    return turtle
 
 
 def find_launch_file(workspace: Workspace, words: Sequence[str]) -> tuple[Path, list[str]]:
