@@ -1,18 +1,13 @@
 """Packages found in a workspace's sources, as they lie there: nothing is built or installed."""
 
-import ast
-import configparser
-import re
 import sys
-import tomllib
-from collections.abc import Iterator, Mapping
-from dataclasses import dataclass, field
+from collections.abc import Iterator
 from difflib import get_close_matches
 from pathlib import Path
-from typing import Any
 
 from tftool.errors import InputError, UsageError
 from tftool.interfaces.classes import INTERFACES
+from tftool.ros.host.package_files import MARKS, Package, read_package, read_text
 
 SHARE = Path(__file__).resolve().parents[1] / "share"
 """Launch files of the packages we stand in for."""
@@ -21,37 +16,6 @@ _SKIPPED = {"build", "install", "log", "node_modules", "__pycache__", "venv", "s
 _DEPTH = 5
 _TAKEN = {*sys.stdlib_module_names, "tftool", "numpy", "yaml", "rich", "typer", "pytest"}
 """Python's own modules and ours: interfaces of a package with such a name would hide them."""
-
-_MARKS = ("package.xml", "setup.py", "setup.cfg", "pyproject.toml")
-
-
-@dataclass(frozen=True, slots=True)
-class Package:
-    """One package's sources.
-
-    Attributes:
-        name: What it is called.
-        path: Its folder; stands for its share directory too.
-        scripts: Its console scripts: name to "module:function".
-    """
-
-    name: str
-    path: Path
-    scripts: Mapping[str, str] = field(default_factory=dict)
-
-    def script_file(self, name: str) -> Path | None:
-        """A node's file of that name, for packages that install scripts as they are."""
-        for folder in ("scripts", "nodes", self.name, "."):
-            for file in (name, f"{name}.py"):
-                path = self.path / folder / file
-                if path.is_file() and (path.suffix == ".py" or _is_python(path)):
-                    return path
-        return None
-
-
-def _is_python(path: Path) -> bool:
-    with path.open("rb") as file:
-        return file.readline().startswith(b"#!") and b"python" in path.read_bytes()[:80]
 
 
 class Workspace:
@@ -71,7 +35,7 @@ class Workspace:
         for root in self._roots():
             for folder in _folders(root, _DEPTH):
                 try:
-                    package = _package(folder)
+                    package = read_package(folder)
                 except (InputError, OSError) as error:
                     self._skip(folder, error)
                     continue
@@ -98,7 +62,7 @@ class Workspace:
             if (parent / "src").is_dir():
                 roots.append(parent / "src")
                 break
-            if len(roots) == 1 and any((parent / mark).is_file() for mark in _MARKS):
+            if len(roots) == 1 and any((parent / mark).is_file() for mark in MARKS):
                 roots.append(parent)
         return roots
 
@@ -171,137 +135,9 @@ def _folders(root: Path, depth: int) -> Iterator[Path]:
             continue
         if not folder.is_symlink():
             yield from _folders(folder, depth - 1)
-        elif any((folder / mark).is_file() for mark in _MARKS):
+        elif any((folder / mark).is_file() for mark in MARKS):
             # A package linked into a workspace; where other links lead is not looked at.
             yield folder
-
-
-def _package(folder: Path) -> Package | None:
-    if not any((folder / mark).is_file() for mark in _MARKS) or (folder / "COLCON_IGNORE").exists():
-        return None
-    scripts: dict[str, str] = {}
-    name = ""
-    if (folder / "package.xml").is_file():
-        match = re.search(r"<name>\s*([\w-]+)\s*</name>", _text(folder / "package.xml"))
-        name = match[1] if match else ""
-    for file, read in (
-        ("setup.py", _from_setup_py),
-        ("setup.cfg", _from_setup_cfg),
-        ("pyproject.toml", _from_pyproject),
-    ):
-        if (folder / file).is_file():
-            told, found = read(folder / file)
-            name = name or told
-            scripts.update(found)
-    return Package(name or folder.name, folder, scripts)
-
-
-def _text(path: Path) -> str:
-    try:
-        return path.read_text(encoding="utf-8")
-    except (OSError, UnicodeDecodeError) as error:
-        raise InputError(f"cannot read '{path}': {error}") from None
-
-
-def _from_setup_py(path: Path) -> tuple[str, dict[str, str]]:
-    """Name and console scripts of a setup.py, read and not run."""
-    try:
-        tree = ast.parse(_text(path), str(path))
-    except (SyntaxError, ValueError, RecursionError, MemoryError):
-        # It says so itself when it is built; here it only names no scripts.
-        return "", {}
-    names: dict[str, Any] = {}
-    for statement in tree.body:
-        if isinstance(statement, ast.Assign) and isinstance(statement.targets[0], ast.Name):
-            names[statement.targets[0].id] = _value(statement.value, names)
-    for call in ast.walk(tree):
-        if isinstance(call, ast.Call) and _called(call.func) == "setup":
-            try:
-                given = {one.arg: _value(one.value, names) for one in call.keywords if one.arg}
-            except RecursionError:
-                return "", {}
-            points = given.get("entry_points")
-            listed = points.get("console_scripts", []) if isinstance(points, dict) else points
-            name = given.get("name")
-            return (name if isinstance(name, str) else "", _scripts(listed))
-    return "", {}
-
-
-def _called(function: ast.expr) -> str:
-    if isinstance(function, ast.Attribute):
-        return function.attr
-    return function.id if isinstance(function, ast.Name) else ""
-
-
-def _value(node: ast.expr, names: Mapping[str, Any]) -> Any:
-    """A literal, with names and joined texts; None for what only running it would tell."""
-    if isinstance(node, ast.Constant):
-        return node.value
-    if isinstance(node, ast.Name):
-        return names.get(node.id)
-    if isinstance(node, ast.List | ast.Tuple):
-        return [_value(one, names) for one in node.elts]
-    if isinstance(node, ast.Dict):
-        return {
-            _value(key, names): _value(value, names)
-            for key, value in zip(node.keys, node.values, strict=True)
-            if key is not None
-        }
-    if isinstance(node, ast.BinOp) and isinstance(node.op, ast.Add):
-        left, right = _value(node.left, names), _value(node.right, names)
-        if isinstance(left, type(right)) and isinstance(left, str | list):
-            return left + right
-    if isinstance(node, ast.JoinedStr):
-        parts = [
-            _value(one.value if isinstance(one, ast.FormattedValue) else one, names)
-            for one in node.values
-        ]
-        return "".join(parts) if all(isinstance(part, str) for part in parts) else None
-    return None
-
-
-def _scripts(listed: Any) -> dict[str, str]:
-    lines = listed.splitlines() if isinstance(listed, str) else listed or []
-    found = {}
-    for line in lines:
-        if isinstance(line, str) and "=" in line:
-            name, _, target = line.partition("=")
-            found[name.strip()] = target.split("[")[0].strip()
-    return found
-
-
-def _from_setup_cfg(path: Path) -> tuple[str, dict[str, str]]:
-    parser = configparser.ConfigParser(interpolation=None)
-    try:
-        parser.read_string(_text(path))
-    except configparser.Error as error:
-        raise InputError(f"{path}: {error}") from None
-    return (
-        parser.get("metadata", "name", fallback=""),
-        _scripts(parser.get("options.entry_points", "console_scripts", fallback="")),
-    )
-
-
-def _from_pyproject(path: Path) -> tuple[str, dict[str, str]]:
-    """Name and [project.scripts]; nothing of a file that is no TOML, which names no package."""
-    try:
-        project = tomllib.loads(_text(path)).get("project", {})
-    except (tomllib.TOMLDecodeError, RecursionError):
-        return "", {}
-    if not isinstance(project, dict):
-        return "", {}
-    name = project.get("name", "")
-    tables = [project.get("scripts"), project.get("entry-points")]
-    if isinstance(tables[1], dict):
-        tables[1] = tables[1].get("console_scripts")
-    scripts = {
-        key: target
-        for table in tables
-        if isinstance(table, dict)
-        for key, target in table.items()
-        if isinstance(target, str)
-    }
-    return name if isinstance(name, str) else "", scripts
 
 
 def _add_interfaces(package: Package) -> None:
@@ -310,7 +146,7 @@ def _add_interfaces(package: Package) -> None:
             raise InputError(f"a package of interfaces cannot be named '{package.name}' as well")
         return
     texts = {
-        (kind, file.stem): _text(file)
+        (kind, file.stem): read_text(file)
         for kind in ("msg", "srv", "action")
         for file in sorted((package.path / kind).glob(f"*.{kind}"))
     }
