@@ -59,6 +59,60 @@ def test_a_packages_scripts_are_read_and_nothing_is_run(tmp_path, file, text, na
     assert found.path == tmp_path / "src" / "pkg"
 
 
+INSTALLS = """
+import os
+from glob import glob
+from setuptools import setup
+package_name = 'arm_demo'
+setup(
+    name=package_name,
+    data_files=[
+        ('share/ament_index/resource_index/packages', ['resource/' + package_name]),
+        ('share/' + package_name, ['package.xml']),
+        (os.path.join('share', package_name), glob('urdf/*')),
+        (os.path.join('share', package_name, 'launch'), glob(os.path.join('bring_up', '*.py'))),
+        (f'share/{package_name}/config', ['cfg/arm.yaml', 'cfg/gone.yaml', made()]),
+        ('share/' + package_name + '/../../out', ['package.xml']),
+    ],
+)
+"""
+
+
+def test_a_share_directory_holds_what_setup_py_installs_there(tmp_path):
+    folder = package(
+        tmp_path / "src" / "arm", setup__py=INSTALLS, package__xml="<name>arm_demo</name>"
+    )
+    package(folder / "urdf", arm__urdf="<robot/>")
+    package(folder / "bring_up", arm__launch__py="bring up")
+    package(folder / "launch", other__launch__py="other")
+    package(folder / "cfg", arm__yaml="gain: 1")
+
+    workspace = Workspace(tmp_path)
+    share = workspace.share("arm_demo")
+
+    assert (share / "arm.urdf").read_text() == "<robot/>"
+    assert (share / "launch" / "arm.launch.py").read_text() == "bring up"
+    assert (share / "launch" / "other.launch.py").read_text() == "other"
+    assert (share / "config" / "arm.yaml").read_text() == "gain: 1"
+    assert (share / "urdf" / "arm.urdf").is_file()
+    assert (share / "package.xml").is_file()
+    assert not (tmp_path / "out").exists()
+    assert {one.name for one in share.iterdir()} == {
+        *("arm.urdf", "launch", "config", "urdf", "bring_up", "cfg", "package.xml", "setup.py"),
+    }
+
+
+def test_a_share_directory_is_the_sources_where_everything_lies_in_place(tmp_path):
+    listed = (
+        "[('share/x/launch', __import__('glob').glob('launch/*')), ('share/x', ['package.xml'])]"
+    )
+    setup = f"setup(name='x', data_files={listed})"
+    folder = package(tmp_path / "src" / "x", setup__py=setup, package__xml="<name>x</name>")
+    package(folder / "launch", x__launch__py="")
+
+    assert Workspace(tmp_path).share("x") == folder
+
+
 def test_build_folders_and_hidden_ones_hold_no_packages(tmp_path):
     for folder in ("build", "install", "log", ".git"):
         package(tmp_path / folder / "pkg", package__xml="<package><name>x</name></package>")

@@ -151,7 +151,8 @@ def find_launch_file(workspace: Workspace, words: Sequence[str]) -> tuple[Path, 
     for below in ("launch", "."):
         path = folder / below / rest[0]
         if path.is_file():
-            return path, rest[1:]
+            # Where its author knows it, which is what its errors name.
+            return path.resolve(), rest[1:]
     raise UsageError(f"package '{first}' has no launch file '{rest[0]}'. {_listed(folder)}")
 
 

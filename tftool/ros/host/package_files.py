@@ -2,11 +2,12 @@
 
 import ast
 import configparser
+import glob
 import re
 import tomllib
-from collections.abc import Mapping
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
-from pathlib import Path
+from pathlib import Path, PurePosixPath
 from typing import Any
 
 from tftool.errors import InputError
@@ -23,11 +24,14 @@ class Package:
         name: What it is called.
         path: Its folder; stands for its share directory too.
         scripts: Its console scripts: name to "module:function".
+        installed: Files that its setup.py installs into its share directory at another place
+            than the one where they lie: that place to the file.
     """
 
     name: str
     path: Path
     scripts: Mapping[str, str] = field(default_factory=dict)
+    installed: Mapping[str, Path] = field(default_factory=dict)
 
     def script_file(self, name: str) -> Path | None:
         """A node's file of that name, for packages that install scripts as they are."""
@@ -57,8 +61,11 @@ def read_package(folder: Path) -> Package | None:
     if (folder / "package.xml").is_file():
         match = re.search(r"<name>\s*([\w-]+)\s*</name>", read_text(folder / "package.xml"))
         name = match[1] if match else ""
+    installed: list[Any] = []
+    if (folder / "setup.py").is_file():
+        name_there, scripts, installed = _from_setup_py(folder / "setup.py")
+        name = name or name_there
     for file, read in (
-        ("setup.py", _from_setup_py),
         ("setup.cfg", _from_setup_cfg),
         ("pyproject.toml", _from_pyproject),
     ):
@@ -66,7 +73,24 @@ def read_package(folder: Path) -> Package | None:
             told, found = read(folder / file)
             name = name or told
             scripts.update(found)
-    return Package(name or folder.name, folder, scripts)
+    name = name or folder.name
+    return Package(name, folder, scripts, dict(_moved(folder, f"share/{name}", installed)))
+
+
+def _moved(folder: Path, share: str, data_files: Any) -> Iterator[tuple[str, Path]]:
+    """What lands in the share directory elsewhere than where it lies."""
+    for entry in data_files if isinstance(data_files, list) else ():
+        if not (isinstance(entry, list) and len(entry) == 2 and isinstance(entry[1], list)):
+            continue
+        target, files = entry
+        if not isinstance(target, str) or f"{target.rstrip('/')}/".partition(f"{share}/")[0]:
+            continue
+        below = target.rstrip("/")[len(share) :].strip("/")
+        for file in files:
+            if isinstance(file, str) and (folder / file).is_file():
+                place = str(PurePosixPath(below, PurePosixPath(file).name))
+                if ".." not in PurePosixPath(place).parts and place != str(PurePosixPath(file)):
+                    yield place, folder / file
 
 
 def read_text(path: Path) -> str:
@@ -81,28 +105,27 @@ def read_text(path: Path) -> str:
         raise InputError(f"cannot read '{path}': {error}") from None
 
 
-def _from_setup_py(path: Path) -> tuple[str, dict[str, str]]:
-    """Name and console scripts of a setup.py, read and not run."""
+def _from_setup_py(path: Path) -> tuple[str, dict[str, str], Any]:
+    """Name, console scripts and data files of a setup.py, read and not run."""
     try:
         tree = ast.parse(read_text(path), str(path))
     except (SyntaxError, ValueError, RecursionError, MemoryError):
         # It says so itself when it is built; here it only names no scripts.
-        return "", {}
-    names: dict[str, Any] = {}
-    for statement in tree.body:
-        if isinstance(statement, ast.Assign) and isinstance(statement.targets[0], ast.Name):
-            names[statement.targets[0].id] = _value(statement.value, names)
+        return "", {}, []
+    literals = _Literals(path.parent)
     for call in ast.walk(tree):
         if isinstance(call, ast.Call) and _called(call.func) == "setup":
             try:
-                given = {one.arg: _value(one.value, names) for one in call.keywords if one.arg}
+                literals.assign(tree.body)
+                given = {one.arg: literals.value(one.value) for one in call.keywords if one.arg}
             except RecursionError:
-                return "", {}
+                return "", {}, []
             points = given.get("entry_points")
             listed = points.get("console_scripts", []) if isinstance(points, dict) else points
             name = given.get("name")
-            return (name if isinstance(name, str) else "", _scripts(listed))
-    return "", {}
+            files = given.get("data_files")
+            return (name if isinstance(name, str) else "", _scripts(listed), files)
+    return "", {}, []
 
 
 def _called(function: ast.expr) -> str:
@@ -111,31 +134,61 @@ def _called(function: ast.expr) -> str:
     return function.id if isinstance(function, ast.Name) else ""
 
 
-def _value(node: ast.expr, names: Mapping[str, Any]) -> Any:
-    """A literal, with names and joined texts; None for what only running it would tell."""
-    if isinstance(node, ast.Constant):
-        return node.value
-    if isinstance(node, ast.Name):
-        return names.get(node.id)
-    if isinstance(node, ast.List | ast.Tuple):
-        return [_value(one, names) for one in node.elts]
-    if isinstance(node, ast.Dict):
-        return {
-            _value(key, names): _value(value, names)
-            for key, value in zip(node.keys, node.values, strict=True)
-            if key is not None
-        }
-    if isinstance(node, ast.BinOp) and isinstance(node.op, ast.Add):
-        left, right = _value(node.left, names), _value(node.right, names)
-        if isinstance(left, type(right)) and isinstance(left, str | list):
-            return left + right
-    if isinstance(node, ast.JoinedStr):
-        parts = [
-            _value(one.value if isinstance(one, ast.FormattedValue) else one, names)
-            for one in node.values
-        ]
-        return "".join(parts) if all(isinstance(part, str) for part in parts) else None
-    return None
+class _Literals:
+    """What expressions of a setup.py come to, as far as that is known without running it.
+
+    Literals, names, joined texts, and the two calls that name files: `glob` and `os.path.join`.
+    """
+
+    def __init__(self, folder: Path) -> None:
+        self._folder = folder
+        self._names: dict[str, Any] = {}
+
+    def assign(self, body: Iterable[ast.stmt]) -> None:
+        for statement in body:
+            if isinstance(statement, ast.Assign) and isinstance(statement.targets[0], ast.Name):
+                self._names[statement.targets[0].id] = self.value(statement.value)
+
+    def value(self, node: ast.expr) -> Any:
+        """Its value; None for what only running it would tell."""
+        match node:
+            case ast.Constant():
+                return node.value
+            case ast.Name():
+                return self._names.get(node.id)
+            case ast.List() | ast.Tuple():
+                return [self.value(one) for one in node.elts]
+            case ast.Dict():
+                return {
+                    self.value(key): self.value(value)
+                    for key, value in zip(node.keys, node.values, strict=True)
+                    if key is not None
+                }
+            case ast.BinOp(op=ast.Add()):
+                left, right = self.value(node.left), self.value(node.right)
+                alike = isinstance(left, str | list) and isinstance(left, type(right))
+                return left + right if alike else None
+            case ast.JoinedStr():
+                inner = (
+                    one.value if isinstance(one, ast.FormattedValue) else one for one in node.values
+                )
+                return _joined("", [self.value(one) for one in inner])
+            case ast.Call() if _called(node.func) == "join":
+                return _joined("/", [self.value(one) for one in node.args])
+            case ast.Call() if _called(node.func) in ("glob", "iglob") and node.args:
+                deep = any(one.arg == "recursive" for one in node.keywords)
+                return self._files(self.value(node.args[0]), deep=deep)
+        return None
+
+    def _files(self, pattern: Any, *, deep: bool) -> list[str]:
+        """What a pattern names in the package's own folder, and nowhere else."""
+        if not isinstance(pattern, str) or Path(pattern).is_absolute() or ".." in pattern:
+            return []
+        return sorted(glob.glob(pattern, root_dir=self._folder, recursive=deep))
+
+
+def _joined(between: str, parts: Sequence[Any]) -> str | None:
+    return between.join(parts) if all(isinstance(part, str) for part in parts) else None
 
 
 def _scripts(listed: Any) -> dict[str, str]:

@@ -8,6 +8,7 @@ from pathlib import Path
 from tftool.errors import InputError, UsageError
 from tftool.interfaces.classes import INTERFACES
 from tftool.ros.host.package_files import MARKS, Package, read_package, read_text
+from tftool.ros.host.share_folder import ShareFolder
 
 SHARE = Path(__file__).resolve().parents[1] / "share"
 """Launch files of the packages we stand in for."""
@@ -32,6 +33,7 @@ class Workspace:
         self.start = start.resolve()
         self.packages: dict[str, Package] = {}
         self.skipped: list[str] = []
+        self._shares: dict[str, ShareFolder] = {}
         for root in self._roots():
             for folder in _folders(root, _DEPTH):
                 try:
@@ -99,12 +101,19 @@ class Workspace:
     def share(self, name: str) -> Path:
         """A package's share directory: its sources, or our stand-in's launch files.
 
+        Files that its setup.py installs at another place than where they lie are there too.
+
         Raises:
             UsageError: If there is no such package.
         """
         if name not in self.packages and (SHARE / name).is_dir():
             return SHARE / name
-        return self.package(name).path
+        package = self.package(name)
+        if not package.installed:
+            return package.path
+        if name not in self._shares:
+            self._shares[name] = ShareFolder(package.path, package.installed)
+        return self._shares[name].path
 
 
 def missing_package(name: str, workspace: Workspace, ours: tuple[str, ...] = ()) -> str:
