@@ -22,6 +22,7 @@ if TYPE_CHECKING:
     from tftool.cli.hosting import Session
     from tftool.frames.sample import Snapshot
     from tftool.runtime.log import LogRecord
+    from tftool.runtime.world import World
     from tftool.views.frame_tree import Marks
 
     Moving = frozenset[str] | None
@@ -79,7 +80,10 @@ def tree(
         ),
     ] = False,
     at: AtOption = None,
-    watch: Annotated[bool, typer.Option("--watch", "-w", help="Draw it again and again.")] = False,
+    watch: Annotated[
+        bool,
+        typer.Option("--watch", "-w", help="Show it as it changes; keys scroll, sort and filter."),
+    ] = False,
     run_for: RunFor = None,
     cache_time: CacheTime = None,
 ) -> ExitStatus:
@@ -228,7 +232,46 @@ def _fitting(snapshot: "Snapshot", moving: "Moving", marks: "Marks", console: "C
 
 
 def _watch(open_session: "Callable[[], Session]", duration: Duration | None) -> None:
-    from rich.console import Console, Group
+    """Show the tree as it changes: with keys where there are some, else redrawn in place."""
+    from rich.console import Console
+
+    from tftool.cli.onscreen import has_terminal
+
+    console = Console()
+    if not console.is_terminal:
+        raise UsageError("--watch needs a terminal; without it the tree is written once.")
+    session = open_session()
+    if has_terminal():
+        _watch_with_keys(session, duration)
+    else:
+        session.run(_redrawn(session.world, duration, console))
+
+
+def _watch_with_keys(session: "Session", duration: Duration | None) -> None:
+    import os
+
+    from tftool.cli.notices import is_news
+    from tftool.diagnostics.asking import marks
+    from tftool.runtime.clock import run
+    from tftool.screens.setting import Setting, setting_from
+    from tftool.screens.showing import show
+    from tftool.screens.tree_watch import TreeWatch
+
+    world = session.world
+    setting = setting_from(os.environ, sys.stdout.encoding or "ascii", Setting())
+    app = TreeWatch(world, lambda: marks(world.buffer), setting)
+
+    def tell(record: "LogRecord") -> None:
+        if is_news(record):
+            app.tell(record.text)
+
+    world.log.listen(tell, "screen")
+    run(world.clock, show(app, session.along(session.lasting(duration))))
+
+
+async def _redrawn(world: "World", duration: Duration | None, console: "Console") -> None:
+    """Draw the tree on the world's own ticks; rich's thread would draw half a change."""
+    from rich.console import Group
     from rich.live import Live
     from rich.text import Text
 
@@ -238,11 +281,6 @@ def _watch(open_session: "Callable[[], Session]", duration: Duration | None) -> 
     from tftool.runtime.stopping import leave_screen
     from tftool.views.escaping import visible
 
-    console = Console()
-    if not console.is_terminal:
-        raise UsageError("--watch needs a terminal; without it the tree is written once.")
-    session = open_session()
-    world = session.world
     # On this screen nothing else can be read.
     news = Text(style="yellow")
 
@@ -252,20 +290,15 @@ def _watch(open_session: "Callable[[], Session]", duration: Duration | None) -> 
 
     world.log.listen(tell, "console")
     world.clock.when_killed.add(leave_screen, "screen")
-
-    async def draw() -> None:
-        # Redrawn on the world's own ticks; rich's thread would draw half a change.
-        with Live(console=console, auto_refresh=False, screen=True) as live:
-            pace = pace_of(world.clock)
-            due = pace.now()
-            end = None if duration is None else due + duration
-            pace.limit(end)
-            while end is None or due <= end:
-                picture = _fitting(
-                    world.buffer.snapshot(world.clock.now()), None, marks(world.buffer), console
-                )
-                live.update(Group(picture, news), refresh=True)
-                due = max(due + seconds(0.5), pace.now())
-                await pace.sleep_until(due, Phase.WATCH)
-
-    session.run(draw())
+    with Live(console=console, auto_refresh=False, screen=True) as live:
+        pace = pace_of(world.clock)
+        due = pace.now()
+        end = None if duration is None else due + duration
+        pace.limit(end)
+        while end is None or due <= end:
+            picture = _fitting(
+                world.buffer.snapshot(world.clock.now()), None, marks(world.buffer), console
+            )
+            live.update(Group(picture, news), refresh=True)
+            due = max(due + seconds(0.5), pace.now())
+            await pace.sleep_until(due, Phase.WATCH)

@@ -1,0 +1,145 @@
+"""The screen of `tftool tree --watch`: scrolled, sorted, filtered."""
+
+import asyncio
+import shutil
+
+import pytest
+from rich.cells import cell_len
+
+from tests.nodes.harness import new_world
+from tests.terminals import Terminal
+from tftool.frames.sample import TransformStamped
+from tftool.geometry.rigid import Transform
+from tftool.screens.setting import Setting
+from tftool.screens.tree_watch import TreeWatch
+from tftool.stamps import seconds
+
+
+def shown(*keys, frames=60, size=(80, 24), news="", **setting):
+    """What is on the screen after some keys; its tree is a fan below `world`."""
+    world = new_world()
+    now = world.clock.now()
+    for n in range(frames):
+        pose = Transform((float(n), 0.0, 0.0))
+        # The last is the fastest and the newest.
+        samples = [
+            TransformStamped(
+                now - seconds(0.1 * (frames - n) + step), "world", f"link_{n:02}", pose
+            )
+            for step in (2.0 * (frames - n) / frames, 0.0)
+        ]
+        for sample in samples:
+            world.buffer.set_transform(sample, "me")
+    app = TreeWatch(world, lambda: {"link_01": ("two-parents",)}, setting=Setting(**setting))
+    lines = []
+
+    async def main():
+        async with app.run_test(size=size) as pilot:
+            await pilot.pause()
+            app.look()
+            await pilot.press(*keys)
+            if news:
+                app.tell(news)
+            await pilot.pause()
+            if app.is_running:
+                strips = app.screen._compositor.render_strips(app.size)
+                lines.extend(strip.text for strip in strips)
+
+    asyncio.run(main())
+    assert app.failure is None
+    assert [cell_len(line) for line in lines] == [size[0]] * len(lines)
+    return [line.rstrip() for line in lines]
+
+
+def first_words(lines):
+    return [line.split()[0] for line in lines if line]
+
+
+def test_what_does_not_fit_is_counted():
+    lines = shown()
+
+    assert lines[0].startswith("at 1000.000")
+    assert lines[1] == "world"
+    assert "link_20" not in "".join(lines)
+    # 61 frames, of which 21 have room between the heading and the two lines at the bottom.
+    assert lines[-2] == "↓ 40 more"
+    assert lines[-1].startswith("q quit  s sort: tree  / filter")
+
+
+def test_all_of_it_needs_no_count():
+    lines = shown(size=(80, 63))
+
+    assert "more" not in "".join(lines)
+    assert "link_59" in lines[-2]
+
+
+@pytest.mark.parametrize(
+    ("keys", "top", "told"),
+    [
+        (["down"], "link_00", "↓ 39 more   ↑ 1 above"),
+        (["j", "j", "k"], "link_00", "↓ 39 more   ↑ 1 above"),
+        (["pagedown"], "link_19", "↓ 20 more   ↑ 20 above"),
+        (["end"], "link_39", "↑ 40 above"),
+        (["G", "up"], "link_38", "↓ 1 more   ↑ 39 above"),
+        (["end", "home"], "world", "↓ 40 more"),
+    ],
+)
+def test_keys_scroll(keys, top, told):
+    lines = shown(*keys)
+
+    assert top in lines[1]
+    assert lines[-2] == told
+
+
+def test_s_sorts_by_name_rate_age_and_broadcaster():
+    assert "link_59" in shown("s", "s")[1]
+    assert "link_00" in shown("s", "s", "s")[1]
+    assert "sort: broadcaster" in shown("s", "s", "s", "s")[-1]
+    assert shown("s", "s", "s", "s", "s")[1] == "world"
+
+
+def test_letters_behind_a_slash_filter_and_escape_shows_all():
+    lines = shown("slash", *"K_5")
+
+    assert lines[-1] == "filter: K_5_"
+    assert first_words(lines[:-1]) == ["at", "world", *["├──"] * 9, "└──"]
+    assert all(f"link_5{n}" in line for n, line in enumerate(lines[2:12]))
+    assert "filter: K_5  Esc all frames" in shown("slash", *"K_5", "enter")[-1]
+    assert shown("slash", *"K_5", "enter", "escape")[-2] == "↓ 40 more"
+    assert "link_03" in "".join(shown("slash", *"05", "backspace", "3"))
+
+
+def test_q_in_a_filter_is_a_letter_and_else_the_end():
+    assert "filter: q_" in shown("slash", "q")[-1]
+    assert shown("q") == []
+
+
+def test_what_is_wrong_stands_beside_the_frame():
+    (line,) = [line for line in shown() if "link_01" in line]
+
+    assert line.endswith("two-parents")
+
+
+def test_news_are_told_in_place_of_the_keys_until_one_is_pressed():
+    assert shown(news="the host \x1b[2J left")[-1] == "the host ␛[2J left"
+
+
+@pytest.mark.parametrize("size", [(30, 5), (12, 2), (200, 60)])
+@pytest.mark.parametrize("frames", [0, 3, 60])
+def test_it_fits_into_any_terminal(size, frames):
+    assert shown("down", size=size, frames=frames, ascii_only=True)
+
+
+@pytest.mark.skipif(shutil.which("tmux") is None, reason="needs tmux")
+def test_in_a_terminal_it_takes_keys_and_leaves_it_as_it_was(tmp_path):
+    terminal = Terminal(tmp_path, 80, 24, ("-m", "tftool", "tree", "robot", "--watch"), {})
+    try:
+        terminal.shows("laser_point")
+        terminal.press("s")
+        terminal.shows("sort: name")
+        terminal.press("/", "o", "d", "Enter")
+        terminal.until(lambda screen: "odom" in screen and "laser" not in screen, "only odom")
+        terminal.press("q")
+        terminal.ended(0)
+    finally:
+        terminal.tmux("kill-server")
