@@ -193,17 +193,12 @@ class Session:
     is_played: bool = False
 
     def first_look(self) -> Stamp | None:
-        """Where to begin to look at what is recorded; None to look at the present.
-
-        That is when all has come that comes within `SETTLING` of the beginning.
-        """
+        """Where to begin to look at what is recorded; None to look at the present."""
         if not self.is_recorded or not self.duration:
             return None
-        clock, begin = self.world.clock, self.world.clock.epoch
-        frames = self.world.buffer.snapshot(begin + self.duration).frames
-        first = [info.oldest for info in frames if info.samples and not info.is_static]
-        soon = [stamp for stamp in first if stamp <= min(begin + SETTLING, clock.now())]
-        return max([begin, *soon])
+        clock = self.world.clock
+        end = min(clock.epoch + self.duration, clock.now())
+        return first_moment(self.world.buffer, clock.epoch, end) or clock.epoch
 
     def departures(self) -> int:
         """How many of the other processes have left by now that transforms came from."""
@@ -288,6 +283,17 @@ class Session:
             if is_clock_shown(self.link.graph):
                 await clock.told_once(TOLD)
         return await work
+
+
+def first_moment(buffer: "Buffer", begin: Stamp, end: Stamp) -> Stamp | None:
+    """Where to begin to look at frames that are all there; None where nothing moves.
+
+    That is when all has come that comes within `SETTLING` of the beginning.
+    """
+    frames = buffer.snapshot(end).frames
+    first = [info.oldest for info in frames if info.samples and not info.is_static]
+    soon = [stamp for stamp in first if stamp <= min(begin + SETTLING, end)]
+    return max([begin, *soon]) if first else None
 
 
 @contextmanager

@@ -26,9 +26,11 @@ from tftool.sources.find import Kind
 from tftool.stamps import Duration, Stamp, as_seconds
 
 if TYPE_CHECKING:
+    from collections.abc import Callable
+
     from tftool.cli.options import At
     from tftool.frames.buffer import Buffer
-    from tftool.runtime.world import TransformMessage
+    from tftool.runtime.world import TransformMessage, World
 
 
 @dataclass(frozen=True, slots=True)
@@ -51,6 +53,7 @@ def stored_frames(
     *,
     listen: Duration = LISTENING,
     is_one_of_several: bool = False,
+    beside: "Callable[[World], object] | None" = None,
 ) -> StoredFrames:
     """All frames that FROM names, over the whole of its time.
 
@@ -60,6 +63,7 @@ def stored_frames(
         lasting: How long a scenario is played or a session listened to, nanoseconds.
         listen: How long a session is listened to where `lasting` is None.
         is_one_of_several: Whether `lasting` may be meant for another of several sources.
+        beside: Is handed a world that is listened to before it lives, to hear more of it.
 
     Raises:
         InputError: If the word names nothing, or it cannot be read.
@@ -75,9 +79,9 @@ def stored_frames(
         return connection.open_stored(found)
     session = join_session(connection) if word is None else None
     if session is not None:
-        return _listened(session, lasting or listen)
+        return _listened(session, lasting or listen, beside)
     session = open_session(connection, word, simulated=True, because=NO_SESSION)
-    return _heard(session, lasting or session.duration or LISTEN)
+    return _heard(session, lasting or session.duration or LISTEN, beside)
 
 
 def session_frames(connection: Connection, lasting: Duration) -> HeardFrames:
@@ -92,15 +96,21 @@ def session_frames(connection: Connection, lasting: Duration) -> HeardFrames:
     return _listened(session, lasting)
 
 
-def _listened(session: Session, lasting: Duration) -> HeardFrames:
+def _listened(
+    session: Session, lasting: Duration, beside: "Callable[[World], object] | None" = None
+) -> HeardFrames:
     notice(f"Listening for {as_seconds(lasting):g} s ...")
-    return _heard(session, lasting)
+    return _heard(session, lasting, beside)
 
 
-def _heard(session: Session, lasting: Duration) -> HeardFrames:
+def _heard(
+    session: Session, lasting: Duration, beside: "Callable[[World], object] | None" = None
+) -> HeardFrames:
     from tftool.frames.buffer import NO_LIMIT, Buffer
 
     world = session.world
+    if beside is not None:
+        beside(world)
     buffer = Buffer(NO_LIMIT, max_frames=world.buffer.max_frames)
 
     def hear(message: "TransformMessage", *, is_static: bool) -> None:

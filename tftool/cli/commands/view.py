@@ -8,14 +8,15 @@ import typer
 
 from tftool.cli.app import ExitStatus
 from tftool.cli.connection import ROBOT, Connection
-from tftool.cli.options import CacheTime, From, RunFor, within
+from tftool.cli.options import OUTPUT, CacheTime, From, RunFor, within
 from tftool.errors import UsageError
 from tftool.stamps import Duration, as_seconds
 
 if TYPE_CHECKING:
-    from collections.abc import Sequence
+    from collections.abc import Callable, Sequence
 
-    from tftool.cli.hosting import Session
+    from tftool.cli.hosting import Session, StoredFrames
+    from tftool.runtime.world import World
     from tftool.screens.browser.robots import ShownRobot
     from tftool.screens.browser.server import PageServer
     from tftool.sources.find import Found
@@ -54,6 +55,19 @@ def view(
             help="Where packages with meshes lie; again for more. Nothing outside is shown.",
         ),
     ] = None,
+    output: Annotated[
+        Path | None,
+        typer.Option(
+            "-o",
+            "--output",
+            metavar="FILE",
+            rich_help_panel=OUTPUT,
+            help="Write the page with all of its data into one .html file, and serve nothing.",
+        ),
+    ] = None,
+    force: Annotated[
+        bool, typer.Option("--force", rich_help_panel=OUTPUT, help="Replace what is there.")
+    ] = False,
 ) -> ExitStatus:
     """Show the frames in 3-D, in a browser (rviz2 with its TF display).
 
@@ -61,11 +75,20 @@ def view(
     names and arrows in any fixed frame, scrubs back through the buffer, and tells the transform
     of a pair you pick. A robot is drawn by its description: FROM itself, the one in a
     recording, or what is published on /robot_description; sliders move the joints of FROM.
+    With -o the page becomes one file that opens anywhere, without tftool: a recording or a
+    scenario as a whole, a session for so long as --for says.
 
     tftool view --open
     tftool view robot --port 8800
     tftool view arm.urdf --meshes ~/ws/src --open
+    tftool view run.mcap -o run.html
     """
+    if output is not None:
+        if cache_time is not None:
+            raise UsageError("A file holds everything: leave out --cache-time.")
+        return _write(connection, place, output, run_for, meshes or [], force, open_browser)
+    if force:
+        raise UsageError("--force goes with -o FILE.")
     try:
         from tftool.screens.browser.server import PageServer
     except ModuleNotFoundError as error:
@@ -87,7 +110,7 @@ def view(
         if session.robot is not None:
             folders = MeshFolders(connection.robot.urdf, meshes or [])
             shown = ShownRobot(session.robot, folders)
-    page = PageServer(session.world, port=port, rate=rate, tell=notice)
+    page = PageServer(session.world, port=port, rate=rate, tell=notice, name=session.name)
     if shown is not None:
         page.show_robot(shown)
         _tell_missing(shown)
@@ -95,6 +118,87 @@ def view(
         _listen(session, page, meshes or [])
     session.run(_show(session, page, run_for, open_browser))
     return ExitStatus.DONE
+
+
+def _write(
+    connection: Connection,
+    place: str | None,
+    output: Path,
+    run_for: Duration | None,
+    meshes: "Sequence[Path]",
+    force: bool,
+    open_browser: bool,
+) -> ExitStatus:
+    """Write the page with its data into one file."""
+    from tftool.cli.hosting import first_moment
+    from tftool.cli.interrupting import interruptible
+    from tftool.cli.notices import notice
+    from tftool.cli.recorded import Bar
+    from tftool.cli.stored import stored_frames
+    from tftool.screens.browser.standalone import MOST_BYTES, StandaloneData, standalone_page
+    from tftool.sinks.trajectory_files import whole_file
+    from tftool.views.escaping import visible
+
+    if output.suffix.lower() not in (".html", ".htm"):
+        raise UsageError(f"'{output}' does not say that it is a page: end it in .html.")
+    if not force and (output.exists() or output.is_symlink()):
+        raise UsageError(f"'{output}' exists: --force replaces it.")
+    published: list[ShownRobot] = []
+    stored = stored_frames(
+        connection,
+        place,
+        run_for,
+        beside=lambda world: _hear_description(world, published.append, meshes),
+    )
+    # 0 would mean the latest; what only holds at all times has no other moment.
+    epoch = max(1, stored.start)
+    now = max(epoch, stored.end)
+    shown = _robot_of(connection, stored, meshes) or (published[-1] if published else None)
+    begin = first_moment(stored.buffer, epoch, now)
+    data = StandaloneData(stored.name, stored.buffer, epoch, now, begin, shown)
+    bar = Bar("Packing")
+    with interruptible(), whole_file(output, force=force) as file:
+        try:
+            page = standalone_page(data, progress=bar)
+        finally:
+            bar.stop()
+        file.write(page.content)
+    if shown is not None:
+        _tell_missing(shown)
+    size = len(page.content)
+    notice(visible(f"Wrote {output}, {size / 1e6:.1f} MB: it opens in any browser, from disk."))
+    if page.is_rounded:
+        notice(
+            "Its numbers are rounded to a micrometre, and to 1e-7 in quaternions, because all "
+            f"digits would not fit {MOST_BYTES / 1e6:g} MB."
+        )
+    if size > MOST_BYTES:
+        notice("'tftool edit --from --to' cuts a part out of a recording, which is smaller.")
+    if open_browser:
+        import webbrowser
+
+        if not webbrowser.open(output.resolve().as_uri()):
+            notice("No browser could be started: open the file yourself.")
+    return ExitStatus.DONE
+
+
+def _robot_of(
+    connection: Connection, stored: "StoredFrames", meshes: "Sequence[Path]"
+) -> "ShownRobot | None":
+    """The robot of a description, or that of a recording."""
+    from tftool.cli.hosting import named
+    from tftool.screens.browser.meshes import MeshFolders
+    from tftool.screens.browser.robots import ShownRobot
+
+    robot = getattr(stored, "robot", None)
+    if robot is None:
+        return None
+    from tftool.cli.described import RobotAtRest
+
+    described = connection.robot.urdf
+    if isinstance(stored, RobotAtRest):
+        described = named(stored.name).paths[0]
+    return ShownRobot(robot, MeshFolders(described, meshes))
 
 
 def _alive(
@@ -124,6 +228,18 @@ def _alive(
 
 def _listen(session: "Session", page: "PageServer", meshes: "Sequence[Path]") -> None:
     """Show the robot whose description is published, as soon as it is."""
+
+    def show(shown: "ShownRobot") -> None:
+        page.show_robot(shown)
+        _tell_missing(shown)
+
+    _hear_description(session.world, show, meshes)
+
+
+def _hear_description(
+    world: "World", show: "Callable[[ShownRobot], object]", meshes: "Sequence[Path]"
+) -> None:
+    """Hand on each robot whose description is published."""
     from tftool.cli.notices import notice
     from tftool.errors import InputError
     from tftool.nodes.joints import DESCRIPTION, LATCHED, description_type
@@ -139,11 +255,9 @@ def _listen(session: "Session", page: "PageServer", meshes: "Sequence[Path]") ->
         except InputError as error:
             notice(f"The description on /{DESCRIPTION} is not shown: {visible(str(error))}")
             return
-        shown = ShownRobot(robot, MeshFolders(given=meshes))
-        page.show_robot(shown)
-        _tell_missing(shown)
+        show(ShownRobot(robot, MeshFolders(given=meshes)))
 
-    session.world.subscribe("view", DESCRIPTION, description_type(), described, LATCHED)
+    world.subscribe("view", DESCRIPTION, description_type(), described, LATCHED)
 
 
 def _tell_missing(shown: "ShownRobot") -> None:

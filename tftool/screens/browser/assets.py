@@ -12,6 +12,7 @@ _FILES = {
     "page.css": ("page", "text/css; charset=utf-8"),
     "icon.svg": ("page", "image/svg+xml"),
     "page.js": ("bundle", "text/javascript; charset=utf-8"),
+    "unpack.js": ("bundle", "text/javascript; charset=utf-8"),
     "three-LICENSE.txt": ("bundle", "text/plain; charset=utf-8"),
 }
 

@@ -33,6 +33,7 @@ from tftool.frames.buffer import Buffer
 from tftool.frames.sample import FrameInfo, Snapshot
 from tftool.geometry.conversions import rpy_from_quaternion
 from tftool.stamps import NANOSECONDS, Stamp, display
+from tftool.views.forest import grow
 
 MAGIC = b"TFP1"
 HEADER = struct.Struct("<4sIIIdddd")
@@ -158,6 +159,14 @@ def reach(frames: Iterable[FrameInfo]) -> tuple[Stamp, Stamp] | None:
             oldest = frame.oldest if not newest else min(oldest, frame.oldest)
             newest = max(newest, frame.newest)
     return (oldest, newest) if newest else None
+
+
+def chosen(snapshot: Snapshot) -> list[int]:
+    """Which frames are shown when there are too many: those nearest to their roots."""
+    if len(snapshot.frames) <= MOST_FRAMES:
+        return list(range(len(snapshot.frames)))
+    kept = grow(snapshot, most=MOST_FRAMES).children
+    return [index for index, frame in enumerate(snapshot.frames) if frame.frame in kept]
 
 
 def moments(frames: Sequence[FrameInfo]) -> list[Stamp]:

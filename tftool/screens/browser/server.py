@@ -16,6 +16,7 @@ from collections.abc import Callable
 from http import HTTPStatus
 from types import TracebackType
 from typing import Any, Protocol
+from urllib.parse import parse_qs
 
 from websockets.asyncio.server import Server, ServerConnection, serve
 from websockets.datastructures import Headers
@@ -30,9 +31,9 @@ from tftool.screens.browser import assets, protocol
 from tftool.screens.browser.client import PageClient, Poses, SharedMoment, TreeMessage
 from tftool.screens.browser.meshes import MeshRefused
 from tftool.screens.browser.robots import ShownRobot
+from tftool.screens.browser.standalone import StandaloneData, standalone_page
 from tftool.screens.sliders import slide_range
 from tftool.stamps import NANOSECONDS, Stamp
-from tftool.views.forest import grow
 
 HOST = "127.0.0.1"
 PORT = 8765
@@ -83,6 +84,7 @@ class PageServer:
         port: int = PORT,
         rate: float = 30.0,
         tell: Callable[[str], object] = _LOGGER.warning,
+        name: str = "a session",
     ) -> None:
         """Prepare to serve.
 
@@ -91,8 +93,10 @@ class PageServer:
             port: Where to listen; the next free one is taken instead, 0 takes any.
             rate: Pictures a second.
             tell: Takes a sentence for the user.
+            name: Whose frames they are, for a page that is saved.
         """
         self.source = source
+        self._name = name
         self._tell = tell
         self._is_full = False
         self.asked_port = self.port = port
@@ -223,7 +227,7 @@ class PageServer:
         tree = self._trees.get(key)
         if tree is None:
             self._revision += 1
-            shown = _chosen(snapshot)
+            shown = protocol.chosen(snapshot)
             text = protocol.encode_names(
                 self.source.clock.epoch,
                 self._revision,
@@ -252,7 +256,7 @@ class PageServer:
             )
         client.offer(picture.tree, pair, picture.poses)
 
-    def _receive(self, connection: ServerConnection, request: Request) -> Response | None:
+    async def _receive(self, connection: ServerConnection, request: Request) -> Response | None:
         """Answer a request for a file; None lets a WebSocket open."""
         ours = [f"{host}:{self.port}" for host in (HOST, "localhost")]
         if request.headers.get_all("Host") not in [[host] for host in ours]:
@@ -270,6 +274,8 @@ class PageServer:
             return None
         if path.startswith("/mesh/"):
             return self._mesh(path)
+        if path == "/standalone.html":
+            return await self._standalone(request.path.partition("?")[2])
         found = self._files.get(path)
         if found is None:
             return _refuse(HTTPStatus.NOT_FOUND, "There is no such page here.")
@@ -283,6 +289,18 @@ class PageServer:
         except MeshRefused as refusal:
             return _refuse(HTTPStatus.NOT_FOUND, str(refusal))
         return _answer(HTTPStatus.OK, served.kind, served.content)
+
+    async def _standalone(self, query: str) -> Response:
+        """All that is remembered now as a file of its own, which begins with a view."""
+        view = parse_qs(query).get("view", [""])[0]
+        clock, buffer = self.source.clock, self.source.buffer
+        data = StandaloneData(self._name, buffer, clock.epoch, clock.now(), None, self._robot, view)
+        # Beside the loop: a recording takes seconds.
+        page = await asyncio.get_running_loop().run_in_executor(None, standalone_page, data)
+        answer = _answer(HTTPStatus.OK, "text/html; charset=utf-8", page.content)
+        # To be kept, not looked at here, where the policy for our own page would stop it.
+        answer.headers["Content-Disposition"] = "attachment"
+        return answer
 
     async def _talk(self, socket: ServerConnection) -> None:
         client = PageClient(socket)
@@ -331,14 +349,6 @@ def _candidates(port: int) -> list[int]:
         return [0]
     ports = range(port, min(port + PORTS_TRIED, 65536))
     return [candidate for candidate in ports if candidate != ROUTER_PORT]
-
-
-def _chosen(snapshot: Snapshot) -> list[int]:
-    """Which frames are shown when there are too many: those nearest to their roots."""
-    if len(snapshot.frames) <= protocol.MOST_FRAMES:
-        return list(range(len(snapshot.frames)))
-    kept = grow(snapshot, most=protocol.MOST_FRAMES).children
-    return [index for index, frame in enumerate(snapshot.frames) if frame.frame in kept]
 
 
 def _refuse(status: HTTPStatus, sentence: str) -> Response:

@@ -18,7 +18,7 @@ for (const name of sources) {
 
 await mkdir(out, { recursive: true });
 await build({
-  entryPoints: { page: join(here, "main.js") },
+  entryPoints: { page: join(here, "main.js"), unpack: join(here, "unpack.js") },
   outdir: out,
   bundle: true,
   minify: true,

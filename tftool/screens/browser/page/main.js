@@ -2,14 +2,16 @@
 // The page: joins the server, the model, the choices, the time and the picture.
 import { Bounds, spread } from "./bounds.js";
 import { Choices, LIMITS } from "./choices.js";
+import { keepFiles } from "./files.js";
 import { chain, describe, trails } from "./frames.js";
 import { fade, Model } from "./model.js";
 import { $, showCounts, showEmpty, showFrame, showPair, showReach, showStatus, showTime, toast } from "./panels.js";
 import { Redraw } from "./redraw.js";
 import { Robot } from "./robot.js";
 import { Stage } from "./scene.js";
-import { read, write } from "./share.js";
+import { FILE, linkTo, read, showAddress, told, write } from "./share.js";
 import { Sliders, showRobot } from "./sliders.js";
+import { Standalone, packed } from "./standalone.js";
 import { Timeline } from "./timeline.js";
 import { Tree } from "./tree.js";
 import { Wire } from "./wire.js";
@@ -20,7 +22,10 @@ const SWITCHES = ["names", "axes", "arrows", "grid", "trails", "visuals", "colli
 // because what came while the page was busy starting has gaps.
 const PAST_AFTER = [300, 3000];
 
-const given = read(location.hash);
+// What is packed into the page, where it comes as a file of its own.
+const inside = packed();
+if (inside) keepFiles(inside);
+const given = read(location.hash || (inside?.header.view ?? ""));
 const choices = new Choices(given, matchMedia("(prefers-color-scheme: light)").matches ? "light" : "dark");
 const redraw = new Redraw();
 const model = new Model();
@@ -29,7 +34,7 @@ const stage = new Stage($("under"), $("main"), $("over"));
 stage.taken = given.camera !== undefined;
 const robot = new Robot(stage.scene, () => redraw.everything());
 
-/** @type {{ connection: "wait" | "open" | "ended", pair: any, unacknowledged: number }} */
+/** @type {{ connection: "wait" | "open" | "ended" | "stored", pair: any, unacknowledged: number }} */
 const server = { connection: "wait", pair: null, unacknowledged: 0 };
 /**
  * What is on screen: of every frame, of those drawn, the trails.
@@ -48,9 +53,10 @@ const timeline = new Timeline(
     },
     reached: () => showReach(timeline),
   },
-  given.at ?? null,
+  given.at ?? inside?.header.begin ?? null,
 );
 timeline.speed = choices.speed;
+timeline.ends = inside !== null;
 
 const tree = new Tree($("tree"), {
   choose: (name) => choose(choices.chosen === name ? undefined : name),
@@ -70,9 +76,9 @@ const tree = new Tree($("tree"), {
 
 // ---- the server
 
-const wire = new Wire({
+const handlers = {
   open() {
-    server.connection = "open";
+    server.connection = inside ? "stored" : "open";
     toast("");
     changed();
   },
@@ -122,7 +128,12 @@ const wire = new Wire({
     if (poses.at !== null && poses.at < poses.oldest && model.poses?.at === poses.at) return;
     model.setPoses(poses, performance.now());
   },
-});
+};
+if (inside) {
+  document.title = `${inside.header.name} · tftool view`;
+  $("live").hidden = true;
+}
+const wire = inside ? new Standalone(handlers, inside) : new Wire(handlers);
 
 const sliders = new Sliders($("sliders"), (joint, position) => wire.move(joint, position));
 
@@ -317,31 +328,39 @@ function address(at) {
 
 function remember() {
   clearTimeout(timers.address);
-  timers.address = setTimeout(() => {
-    history.replaceState(null, "", address(timeline.playing ? null : timeline.at));
-  }, 400);
+  timers.address = setTimeout(() => showAddress(address(timeline.playing ? null : timeline.at)), 400);
 }
 
 async function share() {
   // What is shared by hand shows the very moment, even if it is being played through.
-  history.replaceState(null, "", address(timeline.at));
+  const hash = address(timeline.at);
+  showAddress(hash);
+  const link = linkTo(location.href, hash);
+  let copied = link.text !== "";
   try {
-    await navigator.clipboard.writeText(location.href);
-    toast("Link to this view copied");
+    if (copied) await navigator.clipboard.writeText(link.text);
   } catch {
-    toast("The link to this view is in the address bar");
+    copied = false;
   }
+  if (!inside) save(`standalone.html?view=${encodeURIComponent(hash.slice(1))}`, FILE);
+  toast(told(link.reach, copied));
+}
+
+/** Have the browser save what is at an address. */
+function save(address, name) {
+  const link = document.createElement("a");
+  link.href = address;
+  link.download = name;
+  link.click();
 }
 
 function shot() {
   paint();
   stage.picture().toBlob((blob) => {
     if (!blob) return;
-    const link = document.createElement("a");
-    link.href = URL.createObjectURL(blob);
-    link.download = "tftool-view.png";
-    link.click();
-    setTimeout(() => URL.revokeObjectURL(link.href), 10_000);
+    const address = URL.createObjectURL(blob);
+    save(address, "tftool-view.png");
+    setTimeout(() => URL.revokeObjectURL(address), 10_000);
     toast("Picture saved");
   }, "image/png");
 }

@@ -98,14 +98,15 @@ function setText(element, text) {
 }
 
 /**
- * @param {"wait" | "open" | "ended"} connection
+ * @param {"wait" | "open" | "ended" | "stored"} connection stored: all there is is in the page
  * @param {import("./timeline.js").Timeline} timeline
  */
 export function showStatus(connection, timeline) {
   const { past, playing } = timeline;
   document.body.classList.toggle("past", past);
   const [state, text] =
-    connection === "open" ? (past ? ["past", playing ? "replay" : "past"] : ["live", "live"])
+    connection === "stored" ? ["past", playing && past ? "replay" : "recorded"]
+    : connection === "open" ? (past ? ["past", playing ? "replay" : "past"] : ["live", "live"])
     : connection === "ended" ? ["ended", "session ended, waiting for it to come back"]
     : ["wait", "connecting"];
   $("status").dataset.state = state;

@@ -22,6 +22,7 @@ import { ColladaLoader } from "three/addons/loaders/ColladaLoader.js";
 import { GLTFLoader } from "three/addons/loaders/GLTFLoader.js";
 import { OBJLoader } from "three/addons/loaders/OBJLoader.js";
 import { STLLoader } from "three/addons/loaders/STLLoader.js";
+import { fetchFile } from "./files.js";
 
 const GREY = [0.75, 0.75, 0.77, 1]; // where a description says no colour
 const COLLISION = [0.95, 0.45, 0.2, 0.45];
@@ -269,7 +270,7 @@ function release(part) {
 
 /** Fetch and read a mesh; fails with a sentence. */
 async function load(address) {
-  const answer = await fetch(address);
+  const answer = await fetchFile(address);
   if (!answer.ok) throw new Error((await answer.text()).trim() || `status ${answer.status}`);
   const folder = address.slice(0, address.lastIndexOf("/") + 1);
   const kind = address.slice(address.lastIndexOf(".")).toLowerCase();

@@ -31,3 +31,41 @@ export function write(state) {
   if (state.camera) said.set("camera", state.camera.join(","));
   return `#${said}`;
 }
+
+/** What a live page is saved as. */
+export const FILE = "tftool-view.html";
+
+/**
+ * What to give to others of a page at an address, and where it works: everywhere; beside the file,
+ * whose folder is different with everyone who has it; on this machine, while tftool runs; or nowhere.
+ * @param {string} href the page's own address
+ * @param {string} hash the view
+ * @returns {{ text: string, reach: "web" | "file" | "here" | "none" }}
+ */
+export function linkTo(href, hash) {
+  const { protocol, hostname, pathname } = new URL(href);
+  if (protocol === "file:") return { text: pathname.slice(pathname.lastIndexOf("/") + 1) + hash, reach: "file" };
+  if (!/^https?:$/.test(protocol)) return { text: "", reach: "none" };
+  const here = hostname === "localhost" || hostname === "127.0.0.1";
+  return { text: href.replace(/#.*$/s, "") + hash, reach: here ? "here" : "web" };
+}
+
+/**
+ * What was shared, in a sentence.
+ * @param {"web" | "file" | "here" | "none"} reach
+ * @param {boolean} copied whether the link is on the clipboard
+ */
+export function told(reach, copied) {
+  if (reach === "here") return `Saved as ${FILE}, which opens anywhere.${copied ? " A link for this machine is copied." : ""}`;
+  if (!copied) return reach === "none" ? "This view has no address of its own" : "The link to this view is in the address bar";
+  return reach === "file" ? "Copied: the file's name with this view, for those who have the file" : "Link to this view copied";
+}
+
+/** Show the view in the page's own address, where it has one. */
+export function showAddress(hash) {
+  try {
+    history.replaceState(null, "", hash);
+  } catch {
+    // In a notebook's output a page has no address.
+  }
+}

@@ -29,6 +29,7 @@ export class Timeline {
     this.rate = 1; // session seconds per second
     this.speed = 1; // of play, chosen by a person
     this.tickedAt = 0;
+    this.ends = false; // nothing more comes: there is no present to run into
   }
 
   get past() {
@@ -73,9 +74,11 @@ export class Timeline {
 
   /** Pause or play on; pausing the present rests on its newest moment. */
   toggle() {
-    if (this.at === null) this.scrub(this.reach.newest);
+    if (this.at === null && !this.ends) this.scrub(this.reach.newest);
     else {
       this.playing = !this.playing;
+      // What has run to its end begins anew.
+      if (this.ends && (this.at ?? this.reach.newest) >= this.reach.newest) this.show(this.reach.oldest);
       this.hooks.moved();
     }
   }
@@ -89,7 +92,7 @@ export class Timeline {
     this.tickedAt = now;
     if (this.at === null || !this.playing || this.awaiting) return;
     const next = Math.max(this.at, this.reach.oldest) + passed * this.rate * this.speed;
-    if (next >= this.reach.newest) this.goLive();
+    if (next >= this.reach.newest) this.ends ? this.scrub(next) : this.goLive();
     else this.show(next);
   }
 

@@ -2,7 +2,7 @@
 // The connection to the server: decodes what comes, connects again when it ends.
 
 const HEADER = 48;
-const FIELDS = 11;
+export const FIELDS = 11; // numbers of a frame
 const RETRY = 1000;
 
 /** What a binary message holds; null for anything else. */

@@ -1,0 +1,140 @@
+"""The page as one file, opened from disk in a real browser, with no server anywhere."""
+
+import json
+from types import SimpleNamespace
+
+import pytest
+
+pytest.importorskip("websockets", reason="the extra `view` is not installed")
+
+from tests.screens.browser.mesh_files import write_package
+from tests.screens.browser.test_page import (  # noqa: F401
+    Page,
+    chromium,
+    pytestmark,
+    stage,
+)
+from tests.screens.browser.test_robots import ROBOT
+from tests.screens.browser.test_standalone import EPOCH, WILD, drawn_world
+from tftool.cli.app import main
+from tftool.frames.buffer import Buffer
+from tftool.frames.sample import TransformStamped
+from tftool.geometry.rigid import Transform
+from tftool.screens.browser import protocol
+from tftool.screens.browser.standalone import StandaloneData, standalone_page
+from tftool.stamps import seconds
+
+
+def opened(driver, path, state=""):
+    """A file as a person opens it: by a double click."""
+    return Page(driver, SimpleNamespace(url=path.as_uri()), state)
+
+
+def file_of(tmp_path, buffer, *, end=0.0, **words):
+    path = tmp_path / "run one.html"
+    data = StandaloneData("recording 'run.mcap'", buffer, EPOCH, EPOCH + seconds(end), **words)
+    path.write_bytes(standalone_page(data).content)
+    return path
+
+
+def asked_elsewhere(page):
+    """What the page has fetched that does not lie in it."""
+    script = "performance.getEntriesByType('resource').map((entry) => entry.name)"
+    return [name for name in page.said(script) if not name.startswith(("data:", "blob:"))]
+
+
+def test_a_recording_is_scrubbed_played_and_measured_without_a_server(chromium, tmp_path):  # noqa: F811
+    buffer = drawn_world(4)
+    path = file_of(tmp_path, buffer, end=3.1, begin=EPOCH + seconds(0.5))
+    page = opened(chromium, path, "fixed=map&target=map&source=laser")
+    page.until(lambda: page.said("tftool.pair()?.found"))
+
+    assert page.said("tftool.moment()") == 0.5
+    assert page.text("#status") == "recorded"
+    assert page.said("document.title") == "recording 'run.mcap' · tftool view"
+    page.scrub(1.25)
+    page.until(lambda: page.said("tftool.moment()") == 1.25)
+    at = EPOCH + seconds(1.25)
+    wanted = json.loads(protocol.encode_pair(buffer, EPOCH, "map", "laser", at))
+    assert page.said("tftool.pair()")["translation"] == pytest.approx(wanted["translation"])
+    assert page.x_of("base") == pytest.approx(
+        buffer.lookup_transform("map", "base", at).transform.translation.x
+    )
+    # Played to its end it rests there: there is no present to run into.
+    page.scrub(2.9)
+    page.find("#play").click()
+    page.until(lambda: page.said("tftool.moment()") == page.said("tftool.reach().newest"))
+    page.until(lambda: page.find("#play").get_attribute("aria-label") == "Play")
+    assert not page.find("#live").is_displayed()
+    assert asked_elsewhere(page) == []
+    assert page.complaints() == []
+
+
+def test_wild_names_are_shown_as_they_are_and_do_nothing(chromium, tmp_path):  # noqa: F811
+    buffer = Buffer()
+    for name in WILD:
+        buffer.set_transform(TransformStamped(EPOCH, "world", name, Transform()), name)
+    page = opened(chromium, file_of(tmp_path, buffer, view="chosen=</script><script>alert(3)"))
+    page.until(lambda: len(page.drawn()) == len(WILD) + 1)
+
+    assert set(page.drawn()) == {"world", *WILD}
+    assert set(page.texts("#tree .name")) == {"world", *WILD}
+    assert page.said("document.querySelectorAll('script').length") == 3
+    assert page.complaints() == []
+
+
+def test_a_description_brings_its_meshes_along(chromium, tmp_path):  # noqa: F811
+    package = write_package(tmp_path)
+    (package / "urdf").mkdir(exist_ok=True)
+    description = package / "urdf" / "arm.urdf"
+    description.write_text(ROBOT)
+    path = tmp_path / "arm.html"
+
+    assert main(["view", str(description), "-o", str(path)]) == 0
+    page = opened(chromium, path, "view=orbit")
+    page.until(lambda: page.said("tftool.robot().waiting") == 0 and page.drawn())
+    assert page.said("tftool.robot()")["links"] == {"base": [4, 0, 0], "hand": [6, 0, 0]}
+    assert not [one for one in page.texts("#missing li") if "cannot be drawn" in one]
+    assert asked_elsewhere(page) == []
+    assert page.complaints() == []
+
+
+COPIED = """
+    globalThis.copied = "";
+    Object.defineProperty(navigator, "clipboard", {
+      value: { writeText: async (text) => { globalThis.copied = text; } },
+    });
+"""
+
+
+def test_share_in_a_file_copies_its_name_and_the_view(chromium, tmp_path):  # noqa: F811
+    page = opened(chromium, file_of(tmp_path, drawn_world(5), end=3.1), "at=1.5&fixed=map")
+    page.until(lambda: page.drawn())
+    chromium.execute_script(COPIED)
+    page.find("#share").click()
+
+    copied = page.until(lambda: page.said("copied"))
+    assert copied.startswith("run%20one.html#")
+    assert "at=1.5" in copied
+    assert str(tmp_path) not in copied
+    assert "for those who have the file" in page.text("#toast")
+
+
+def test_share_of_a_live_page_saves_a_file_that_shows_the_same(chromium, stage, tmp_path):  # noqa: F811
+    chromium.execute_cdp_cmd(
+        "Browser.setDownloadBehavior", {"behavior": "allow", "downloadPath": str(tmp_path)}
+    )
+    stage.put(3.0, 1.0, at=1.0)
+    page = Page(chromium, stage, "names=0")
+    page.until(lambda: page.x_of("turtle") == 3.0)
+    page.find("#share").click()
+    path = tmp_path / "tftool-view.html"
+    page.until(path.exists)
+    assert "opens anywhere" in page.text("#toast")
+    stage.end()
+
+    saved = opened(chromium, path)
+    saved.until(lambda: saved.x_of("turtle") == 3.0)
+    assert saved.find("#names").get_attribute("aria-pressed") == "false"
+    assert asked_elsewhere(saved) == []
+    assert saved.complaints() == []

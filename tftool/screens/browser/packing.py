@@ -1,0 +1,153 @@
+"""Frames over the whole of their time as one block of bytes, for a page that has no server.
+
+A block, before it is deflated: `MAGIC`, the length of a header in 32 bits, the header as JSON,
+padded so that what follows begins at a multiple of eight; then the sections the header points at,
+as [offset, length] from there on. Numbers are little-endian. `page/packed.js` reads it.
+
+A column of numbers is stored the way that deflates best, and its description in the header says
+which it is:
+
+  {"value": x}            every number is x
+  {"bits": section}       doubles, the bits of each XORed with those of the one before; then the
+                          first byte of all, the second byte of all, up to the eighth
+  {"whole": section,      whole numbers times `step`: their differences, taken `order` times and
+   "order": 1 or 2,       written zigzag (0, -1, 1, -2 …), the bytes ordered likewise
+   "step": s}
+"""
+
+import hashlib
+import json
+import struct
+import zlib
+from collections.abc import Callable, Iterator, Sequence
+from typing import Any, Final
+
+import numpy as np
+import numpy.typing as npt
+
+MAGIC: Final = b"TFS1"
+
+METRES: Final = 1e-6
+"""To what translations are rounded where not all digits have room."""
+
+QUATERNION: Final = 1e-7
+"""To what the numbers of a quaternion are rounded then: turns of a fifth of a microradian."""
+
+_WHOLE_BELOW: Final = 2.0**52
+_PIECE: Final = 1 << 20
+
+Progress = Callable[[int, int], object]
+"""Is told how far it has come: bytes done, bytes in all."""
+
+
+class TooLarge(Exception):
+    """What was packed is larger than was allowed."""
+
+
+class Block:
+    """A block under construction: sections one by one, columns that are equal once."""
+
+    def __init__(self, *, is_rounded: bool = False) -> None:
+        """Begin an empty one.
+
+        Args:
+            is_rounded: Whether numbers may lose digits beyond `METRES` and `QUATERNION`.
+        """
+        self.is_rounded = is_rounded
+        self._sections: list[bytes] = []
+        self._length = 0
+        self._known: dict[bytes, dict[str, Any]] = {}
+
+    def section(self, content: bytes) -> list[int]:
+        """Add bytes; where they are."""
+        where = [self._length, len(content)]
+        padded = content + bytes(-len(content) % 8)
+        self._sections.append(padded)
+        self._length += len(padded)
+        return where
+
+    def wholes(self, numbers: npt.NDArray[np.int64], step: float = 1.0) -> dict[str, Any]:
+        """Add whole numbers as a column; of two orders of differences the smaller one."""
+        if len(numbers) and (numbers == numbers[0]).all():
+            return {"value": float(numbers[0]) * step}
+        return self._once(numbers, lambda: self._differences(numbers, step))
+
+    def doubles(self, numbers: npt.NDArray[np.float64], step: float) -> dict[str, Any]:
+        """Add doubles as a column: every bit of them, or rounded to `step`."""
+        numbers = np.ascontiguousarray(numbers, dtype=np.float64)
+        bits = numbers.view(np.uint64)
+        if len(bits) and (bits == bits[0]).all():
+            return {"value": float(numbers[0])}
+        if self.is_rounded and float(np.abs(numbers).max()) / step < _WHOLE_BELOW:
+            return self.wholes(np.rint(numbers / step).astype(np.int64), step)
+
+        def stored() -> dict[str, Any]:
+            changed = bits.copy()
+            changed[1:] ^= bits[:-1]
+            return {"bits": self.section(_planes(changed))}
+
+        return self._once(bits, stored)
+
+    def _differences(self, numbers: npt.NDArray[np.int64], step: float) -> dict[str, Any]:
+        first = np.diff(numbers, prepend=np.int64(0))
+        second = np.diff(first, prepend=np.int64(0))
+        order, chosen = min(
+            ((1, first), (2, second)), key=lambda one: float(np.abs(one[1][2:]).astype(float).sum())
+        )
+        zigzag = (chosen << 1) ^ (chosen >> 63)
+        return {"whole": self.section(_planes(zigzag)), "order": order, "step": step}
+
+    def _once(
+        self, numbers: npt.NDArray[Any], store: Callable[[], dict[str, Any]]
+    ) -> dict[str, Any]:
+        # Links that are sent together have the same stamps.
+        key = numbers.dtype.char.encode() + hashlib.blake2b(numbers.tobytes()).digest()
+        known = self._known.get(key)
+        if known is None:
+            known = self._known[key] = store()
+        return known
+
+    def deflated(
+        self, header: object, *, most: int | None = None, progress: Progress | None = None
+    ) -> bytes:
+        """The whole block, deflated as zlib does it.
+
+        Args:
+            header: What is written as JSON in front.
+            most: How many bytes it may take.
+            progress: Is told how far it has come.
+
+        Raises:
+            TooLarge: If it takes more.
+        """
+        text = json.dumps(header, separators=(",", ":"), allow_nan=False).encode("ascii")
+        text += b" " * (-(len(MAGIC) + 4 + len(text)) % 8)
+        head = MAGIC + struct.pack("<I", len(text)) + text
+        squeeze = zlib.compressobj(9)
+        packed = []
+        done = taken = 0
+        for piece in _pieces([head, *self._sections]):
+            packed.append(squeeze.compress(piece))
+            taken += len(packed[-1])
+            done += len(piece)
+            if most is not None and taken > most:
+                raise TooLarge
+            if progress is not None:
+                progress(done, len(head) + self._length)
+        packed.append(squeeze.flush())
+        if most is not None and taken + len(packed[-1]) > most:
+            raise TooLarge
+        return b"".join(packed)
+
+
+def _planes(words: npt.NDArray[Any]) -> bytes:
+    """The first byte of every word, then the second of every word, up to the eighth."""
+    little = np.ascontiguousarray(words).astype("<u8", copy=False)
+    return np.ascontiguousarray(little.view(np.uint8).reshape(-1, 8).T).tobytes()
+
+
+def _pieces(parts: Sequence[bytes]) -> Iterator[memoryview]:
+    for part in parts:
+        view = memoryview(part)
+        for start in range(0, len(view), _PIECE):
+            yield view[start : start + _PIECE]

@@ -1,0 +1,32 @@
+// @ts-check
+// Meshes and textures: from our own server, or from the file the page came in.
+import { DefaultLoadingManager } from "three";
+
+/** @type {Map<string, Blob> | null} */
+let kept = null;
+
+/**
+ * Give out what is packed into the page from now on, and nothing else.
+ * @param {import("./packed.js").Packed} packed
+ */
+export function keepFiles(packed) {
+  kept = new Map(
+    packed.header.files.map(({ address, kind, content }) => [
+      address,
+      new Blob([/** @type {Uint8Array<ArrayBuffer>} */ (packed.section(content))], { type: kind }),
+    ]),
+  );
+  // Textures and buffers that a mesh names are loaded by three's own loaders.
+  DefaultLoadingManager.setURLModifier((address) => {
+    if (/^(data|blob):/.test(address)) return address;
+    const found = kept?.get(new URL(address, "http://page/").pathname);
+    return found ? URL.createObjectURL(found) : "data:,";
+  });
+}
+
+/** @param {string} address */
+export async function fetchFile(address) {
+  if (!kept) return fetch(address);
+  const found = kept.get(address);
+  return found ? new Response(found) : new Response("it is not in this file", { status: 404 });
+}

@@ -1,0 +1,78 @@
+// @ts-check
+// In place of the connection to a server: answers from what is packed into the file.
+import { Lookups } from "./lookups.js";
+import { Packed } from "./packed.js";
+
+/** @returns {Packed | null} what is packed into this page; null where a server is behind it */
+export function packed() {
+  const found = /** @type {any} */ (globalThis).tftoolPacked;
+  return found ? new Packed(found.header, found.bytes) : null;
+}
+
+export class Standalone {
+  /**
+   * @param {any} handlers as those of `Wire`
+   * @param {Packed} packed
+   */
+  constructor(handlers, packed) {
+    this.handlers = handlers;
+    this.lookups = new Lookups(packed);
+    this.robot = packed.header.robot;
+    /** @type {number | null} */
+    this.at = null;
+    this.frames = { target: null, source: null };
+    this.revision = -1;
+    this.sequence = 0;
+    this.due = false;
+    // As from a server, nothing is answered before the page is ready.
+    queueMicrotask(() => {
+      handlers.open();
+      if (this.robot) handlers.robot(this.robot);
+      this.later();
+    });
+  }
+
+  want(type, fields) {
+    if (type === "show") this.at = fields.at === null ? null : even(fields.at * 1e9);
+    if (type === "pair") this.frames = fields;
+    this.later();
+  }
+
+  /** What is asked for several times in a row is answered once. */
+  later() {
+    if (this.due) return;
+    this.due = true;
+    queueMicrotask(() => {
+      this.due = false;
+      this.answer();
+    });
+  }
+
+  answer() {
+    const { names, poses } = this.lookups.picture(this.at);
+    if (names.revision !== this.revision) this.handlers.names(names);
+    this.revision = names.revision;
+    const { target, source } = this.frames;
+    if (target !== null && source !== null) this.handlers.pair(this.lookups.pair(target, source, this.at));
+    poses.sequence = ++this.sequence;
+    this.handlers.poses(poses);
+  }
+
+  past() {
+    for (const moment of this.lookups.moments()) {
+      const { names, poses } = this.lookups.picture(moment);
+      if (names.revision === this.revision) this.handlers.past(poses);
+    }
+  }
+
+  got() {}
+
+  move() {}
+}
+
+/** A number rounded to a whole one, halves to the even one, as Python does. */
+function even(value) {
+  const below = Math.floor(value);
+  if (value - below !== 0.5) return Math.round(value);
+  return below % 2 === 0 ? below : below + 1;
+}

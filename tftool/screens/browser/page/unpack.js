@@ -1,0 +1,27 @@
+// @ts-check
+// Begins a page that has no server: inflates what is packed into the file, then runs the page's script.
+import { open } from "./packed.js";
+
+async function inflated() {
+  const text = atob(document.getElementById("packed")?.textContent ?? "");
+  const bytes = new Uint8Array(text.length);
+  for (let at = 0; at < text.length; at++) bytes[at] = text.charCodeAt(at);
+  const stream = new Blob([bytes]).stream().pipeThrough(new DecompressionStream("deflate"));
+  return open(await new Response(stream).arrayBuffer());
+}
+
+inflated().then(
+  (packed) => {
+    Object.assign(globalThis, { tftoolPacked: packed });
+    const [offset, length] = packed.header.script;
+    const script = document.createElement("script");
+    script.textContent = new TextDecoder().decode(packed.bytes.subarray(offset, offset + length));
+    document.body.append(script);
+  },
+  (error) => {
+    const empty = document.getElementById("empty");
+    if (!empty) return;
+    empty.hidden = false;
+    empty.textContent = `This browser cannot unpack the frames in this file: ${error.message}`;
+  },
+);

@@ -1,0 +1,265 @@
+"""The page of `tftool view` with all of its data in one file, which opens without a server.
+
+What the page's server would be asked is answered by `page/lookups.js` from the packed samples,
+with the same numbers. The file asks no other for anything, and its content security policy
+lets nothing run but the two scripts of ours, by their digests.
+"""
+
+import base64
+import hashlib
+import json
+import re
+from collections.abc import Iterable
+from dataclasses import dataclass
+from html import escape
+from typing import Any, Final
+from urllib.parse import quote, urljoin
+
+import numpy as np
+
+from tftool.frames.buffer import Buffer
+from tftool.frames.sample import FrameInfo
+from tftool.screens.browser import assets, protocol
+from tftool.screens.browser.meshes import MeshRefused
+from tftool.screens.browser.packing import METRES, QUATERNION, Block, Progress, TooLarge
+from tftool.screens.browser.robots import ShownRobot
+from tftool.stamps import Stamp
+
+MOST_BYTES: Final = 10_000_000
+"""How large a file may become before numbers lose digits that no robot's sensors have."""
+
+_LARGEST_REFERENCE: Final = 64 * 1024 * 1024
+
+
+@dataclass(frozen=True, slots=True)
+class StandaloneData:
+    """What a page shows that has no server.
+
+    Attributes:
+        name: Whose frames they are, in sentences: "recording 'run.mcap'".
+        buffer: The frames.
+        epoch: The moment from which the page counts; not 0.
+        now: The last moment.
+        begin: Where it begins to look; None for the latest of everything.
+        robot: The robot among them, and where its meshes lie.
+        view: What is chosen at first, as an address of the page has it behind its #.
+    """
+
+    name: str
+    buffer: Buffer
+    epoch: Stamp
+    now: Stamp
+    begin: Stamp | None = None
+    robot: ShownRobot | None = None
+    view: str = ""
+
+
+@dataclass(frozen=True, slots=True)
+class StandalonePage:
+    """A file that shows the frames in any browser.
+
+    Attributes:
+        content: Its bytes: HTML.
+        is_rounded: Whether numbers lost digits, so that it is not too large.
+    """
+
+    content: bytes
+    is_rounded: bool
+
+
+def standalone_page(
+    data: StandaloneData, *, most: int = MOST_BYTES, progress: Progress | None = None
+) -> StandalonePage:
+    """Make the file.
+
+    Args:
+        data: What it shows.
+        most: From how many bytes on numbers are rounded, to a micrometre and 1e-7 in
+            quaternions. What is rounded may still be larger.
+        progress: Is told how far it has come.
+
+    Raises:
+        TftoolError: If the page was not built, which happens in a source tree only.
+    """
+    files = assets.load()
+    frame = _Frame.of(files)
+    room = max(0, (most - len(frame.head) - len(frame.tail)) // 4 * 3)
+    is_rounded = False
+    try:
+        packed = _packed(data, files, is_rounded=False, most=room, progress=progress)
+    except TooLarge:
+        is_rounded = True
+        packed = _packed(data, files, is_rounded=True, most=None, progress=progress)
+    return StandalonePage(frame.around(packed), is_rounded)
+
+
+@dataclass(frozen=True, slots=True)
+class _Frame:
+    """The HTML before and behind the packed data."""
+
+    head: bytes
+    tail: bytes
+
+    @classmethod
+    def of(cls, files: dict[str, assets.Asset]) -> "_Frame":
+        text = files["/index.html"].content.decode()
+        style = files["/page.css"].content.decode()
+        icon = "data:image/svg+xml," + quote(files["/icon.svg"].content.decode())
+        script = files["/page.js"].content.decode()
+        unpack = files["/unpack.js"].content.decode()
+        policy = (
+            "default-src 'none'; "
+            f"script-src '{_digest(unpack)}' '{_digest(script)}'; style-src '{_digest(style)}'; "
+            "connect-src data: blob:; img-src data: blob:; base-uri 'none'; form-action 'none'"
+        )
+        text = text.replace('href="icon.svg"', f'href="{icon}"')
+        text = text.replace('src="icon.svg"', f'src="{icon}"')
+        text = text.replace(
+            '<link rel="stylesheet" href="page.css">', f"<style>{_inert(style)}</style>"
+        )
+        text = text.replace(
+            '<meta charset="utf-8">',
+            '<meta charset="utf-8">\n    '
+            f'<meta http-equiv="Content-Security-Policy" content="{escape(policy)}">',
+        )
+        head, script_tag, tail = text.partition('<script src="page.js"></script>')
+        assert script_tag, "the page names its script"
+        assert "icon.svg" not in text
+        assert "page.css" not in text
+        return cls(
+            f'{head}<script id="packed" type="application/octet-stream">'.encode(),
+            f"</script>\n    <script>{_inert(unpack)}</script>{tail}".encode(),
+        )
+
+    def around(self, packed: bytes) -> bytes:
+        return self.head + base64.b64encode(packed) + self.tail
+
+
+def _digest(script: str) -> str:
+    return "sha256-" + base64.b64encode(hashlib.sha256(script.encode()).digest()).decode()
+
+
+def _inert(text: str) -> str:
+    """What stands inside of an element as it is: it must not end it."""
+    assert not re.search(r"</(script|style)|<!--", text, re.IGNORECASE)
+    return text
+
+
+def _packed(
+    data: StandaloneData,
+    files: dict[str, assets.Asset],
+    *,
+    is_rounded: bool,
+    most: int | None,
+    progress: Progress | None,
+) -> bytes:
+    block = Block(is_rounded=is_rounded)
+    header = _header(data, block)
+    # Deflated with the rest, which saves half a megabyte of every file.
+    header["script"] = block.section(files["/page.js"].content)
+    return block.deflated(header, most=most, progress=progress)
+
+
+def _header(data: StandaloneData, block: Block) -> dict[str, Any]:
+    snapshot = data.buffer.snapshot(data.now)
+    shown = [snapshot.frames[index] for index in protocol.chosen(snapshot)]
+    since = protocol.since
+    robot, meshes = _robot(data.robot, shown, block)
+    return {
+        "name": data.name,
+        "epoch": str(data.epoch),
+        "now": since(data.epoch, data.now),
+        "begin": None if data.begin is None else since(data.epoch, data.begin),
+        "view": data.view,
+        "rounded": block.is_rounded,
+        "total": len(snapshot.frames),
+        "frames": _frames(data, shown, block),
+        "robot": robot,
+        "files": meshes,
+    }
+
+
+def _frames(data: StandaloneData, shown: list[FrameInfo], block: Block) -> list[dict[str, Any]]:
+    places = {frame.frame: place for place, frame in enumerate(shown)}
+    told: list[dict[str, Any]] = []
+    for frame in shown:
+        samples = data.buffer.samples(frame.frame)
+        one: dict[str, Any] = {"name": frame.frame, "authority": frame.authority}
+        told.append(one)
+        if not len(samples):
+            continue
+        names, which = np.unique(samples.parents.astype(str), return_inverse=True)
+        # A parent that is not shown stands for none.
+        parents = np.array([places.get(name, -1) for name in names.tolist()])[which]
+        one |= {
+            "static": samples.is_static,
+            "count": len(samples),
+            "parents": block.wholes(parents.astype(np.int64)),
+            "poses": [
+                block.doubles(samples.poses[:, place], METRES if place < 3 else QUATERNION)
+                for place in range(7)
+            ],
+        }
+        if not samples.is_static:
+            one["stamps"] = block.wholes(samples.stamps - data.epoch)
+    return told
+
+
+def _robot(
+    robot: ShownRobot | None, shown: Iterable[FrameInfo], block: Block
+) -> tuple[dict[str, Any] | None, list[dict[str, Any]]]:
+    """The robot's message, and the files it names with those that they name."""
+    if robot is None:
+        return None, []
+    robot.place(frozenset(frame.frame for frame in shown))
+    message: dict[str, Any] = json.loads(robot.as_text())
+    # No one is there who could move them.
+    message["sliders"] = []
+    wanted = [
+        address
+        for link in message["links"]
+        for shape in (*link["visuals"], *link["collisions"])
+        for address in (shape.get("address"), shape.get("texture"))
+        if address
+    ]
+    files: list[dict[str, Any]] = []
+    seen: set[str] = set()
+    while wanted:
+        address = wanted.pop()
+        if address in seen:
+            continue
+        seen.add(address)
+        try:
+            served = robot.folders.read(address)
+        except MeshRefused:
+            # The page then says that it cannot be drawn, as it does of its server's.
+            continue
+        files.append(
+            {"address": address, "kind": served.kind, "content": block.section(served.content)}
+        )
+        wanted += [urljoin(address, name) for name in _named_in(address, served.content)]
+    return message, files
+
+
+def _named_in(address: str, content: bytes) -> list[str]:
+    """The files that a mesh names, relative to itself; inside of its folders they are read."""
+    kind = address[address.rfind(".") :].lower()
+    if len(content) > _LARGEST_REFERENCE:
+        return []
+    if kind == ".dae":
+        found = re.findall(rb"<init_from>\s*(?:<ref>)?\s*([^<]+?)\s*<", content)
+        return [name.decode("utf-8", "replace") for name in found]
+    if kind != ".gltf":
+        return []
+    try:
+        said = json.loads(content)
+    except (ValueError, RecursionError):
+        return []
+    entries = [
+        entry
+        for key in ("buffers", "images")
+        if isinstance(said, dict) and isinstance(said.get(key), list)
+        for entry in said[key]
+    ]
+    names = [entry.get("uri") for entry in entries if isinstance(entry, dict)]
+    return [name for name in names if isinstance(name, str) and not name.startswith("data:")]
