@@ -2,6 +2,7 @@
 
 import math
 from array import array
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -11,6 +12,7 @@ from hypothesis import strategies as st
 from tests.strategies import transforms
 from tests.twins import REASON, Twins, is_native, worst
 from tftool.frames.buffer import Buffer
+from tftool.frames.native import Door
 from tftool.frames.sample import Snapshot, TransformStamped
 from tftool.geometry.rigid import Quaternion, Transform, Vector3
 from tftool.stamps import seconds
@@ -58,6 +60,15 @@ lookups = st.tuples(
     st.sampled_from(FRAMES),
     st.one_of(stamps, st.integers(1, 4 * 10**9)),
 )
+fulls = st.tuples(
+    st.just("lookup_transform_full"),
+    st.sampled_from(FRAMES),
+    st.one_of(stamps, st.integers(1, 4 * 10**9)),
+    st.sampled_from(FRAMES),
+    st.one_of(stamps, st.integers(1, 4 * 10**9)),
+    st.sampled_from((*FRAMES, "nowhere")),
+)
+whether = lookups.map(lambda call: ("can_transform", *call[1:]))
 others = st.sampled_from([("clear",), ("snapshot", 10**10), ("snapshot", 10**10, 10**9)])
 
 
@@ -88,7 +99,11 @@ def same(ours, plain, tolerance=0.0):
     return repr(ours) == repr(plain)
 
 
-@given(st.lists(st.one_of(samples, samples, lookups, lookups, statics, others), max_size=25))
+@given(
+    st.lists(
+        st.one_of(samples, samples, lookups, lookups, fulls, whether, statics, others), max_size=25
+    )
+)
 @settings(max_examples=150)
 def test_whatever_is_set_and_asked_both_answer_alike(calls):
     twins = Twins(seconds(2))
@@ -182,10 +197,28 @@ def hostile_buffers(draw):
     }[kind]
 
 
+PLAINLY = "plainly"
+
+
+class Bare(Door):
+    """The kernel's methods of a buffer, and in place of the plain ones a word."""
+
+    def __init__(self, paths=None, senders=None, listeners=(), pending=None):
+        self._paths = paths
+        self._senders = senders
+        self._listeners = SimpleNamespace(registered=listeners)
+        self._pending = {} if pending is None else pending
+
+    def _plainly(self, *arguments, **named):
+        return PLAINLY
+
+    _plain_lookup_transform = _plain_lookup_transform_full = _plainly
+    _plain_can_transform = _plain_set_transform = _plainly
+
+
 @given(st.data())
 @settings(max_examples=150)
 def test_fields_that_no_history_has_are_survived(data):
-    from tftool.frames import _kernel
     from tftool.frames.history import History
 
     link = History(10**9)
@@ -200,15 +233,19 @@ def test_fields_that_no_history_has_are_survived(data):
             setattr(link, name, data.draw(NUMBERS))
     if data.draw(st.booleans()):
         link.records = data.draw(hostile_buffers())
-    path = ((link,), (link,) * data.draw(st.integers(0, 2)), (link,))
-    moment = data.draw(NUMBERS)
+    path = ((link,) * data.draw(st.integers(1, 9)), (link,) * data.draw(st.integers(0, 2)), (link,))
+    door = Bare({"a": {"b": path, "c": path}, "b": {"c": path}}, {"b": ("a", "", 5, link)})
+    moment, then = data.draw(NUMBERS), data.draw(NUMBERS)
 
-    assert _kernel.at(link, moment) is None or len(_kernel.at(link, moment)) == 7
-    found = _kernel.lookup({"a": {"b": path}}, "a", "b", moment)
-    assert found is None or isinstance(found, TransformStamped)
+    found = (
+        door.lookup_transform("a", "b", moment),
+        door.lookup_transform_full("a", moment, "c", then, "b"),
+        door.lookup_transform_full("a", moment, "b", then, "a"),
+    )
+    assert all(one is PLAINLY or isinstance(one, TransformStamped) for one in found)
+    assert door.can_transform("a", "b", moment) in (True, PLAINLY)
     sample = TransformStamped(moment, "a", "b", Transform())
-    done = _kernel.insert({"b": ("a", "", 5, link)}, sample, "")
-    assert done in (True, False)
+    assert door.set_transform(sample) in (True, PLAINLY)
 
 
 @given(st.data())
@@ -240,14 +277,32 @@ def test_lengths_that_no_batch_has_are_survived(data):
 
 
 @pytest.mark.parametrize("arguments", [(), (1,), (1, 2, 3, 4), ({}, 1, 2, 3, 4, 5, 6)])
-@pytest.mark.parametrize("name", ["lookup", "at", "insert", "solve"])
-def test_wrong_arguments_are_told(name, arguments):
+def test_wrong_arguments_of_a_batch_are_told(arguments):
     from tftool.frames import _kernel
 
-    if (name, len(arguments)) == ("lookup", 4):
-        arguments = (1,)
     with pytest.raises(TypeError, match="takes"):
-        getattr(_kernel, name)(*arguments)
+        _kernel.solve(*arguments)
+
+
+@pytest.mark.parametrize(
+    "arguments", [(), ("a",), ("a", "b", 3, 4, 5, 6, 7), (None,) * 5, (1.5,) * 3]
+)
+@pytest.mark.parametrize(
+    "name", ["lookup_transform", "lookup_transform_full", "can_transform", "set_transform"]
+)
+def test_what_is_not_plain_is_asked_plainly(name, arguments):
+    link = object()
+    for door in (Bare(), Bare({}, {}), Bare([], []), Bare({"a": {"b": link}}, {"b": link})):
+        assert getattr(door, name)(*arguments) == PLAINLY
+        assert getattr(door, name)(*arguments, time=0) == PLAINLY
+
+
+def test_a_door_that_nothing_was_put_into_asks_plainly():
+    door = Bare.__new__(Bare)
+
+    assert door.lookup_transform("a", "b") == PLAINLY
+    assert door.can_transform("a", "b") == PLAINLY
+    assert door.set_transform(TransformStamped(1, "a", "b", Transform())) == PLAINLY
 
 
 @pytest.mark.parametrize(
@@ -255,18 +310,50 @@ def test_wrong_arguments_are_told(name, arguments):
     [None, (), (1, 2, 3, 4), ("a", None, 5, None), ("a", "", "five", None), ("a", "", 5, "link")],
 )
 def test_a_sender_that_is_none_is_left_to_the_plain_path(sender):
-    from tftool.frames import _kernel
-
     sample = TransformStamped(1, "a", "b", Transform())
 
-    assert not _kernel.insert({"b": sender}, sample, "")
+    assert Bare({}, {"b": sender}).set_transform(sample) == PLAINLY
 
 
 @pytest.mark.parametrize("path", [None, (), (1, 2, 3), ((1,), (), ()), ((), (), (1,))])
 def test_a_path_that_is_none_is_left_to_the_plain_path(path):
-    from tftool.frames import _kernel
+    door = Bare({"a": {"b": path}})
 
-    assert _kernel.lookup({"a": {"b": path}}, "a", "b", 0) is None
+    assert door.lookup_transform("a", "b", 0) == PLAINLY
+
+
+def test_arguments_by_name_and_wrong_ones_are_as_in_plain_python():
+    twins = Twins(seconds(10))
+    for stamp in (1, 2):
+        twins.ask("set_transform", TransformStamped(stamp, "a", "b", Transform()), authority="me")
+    both = [
+        twins.ask("lookup_transform", "a", source_frame="b", time=1),
+        twins.ask("lookup_transform", target_frame="a", source_frame="b"),
+        twins.ask("can_transform", "a", "b", time=5),
+        twins.ask("lookup_transform_full", "a", 1, "b", source_time=2, fixed_frame="b"),
+        twins.ask("lookup_transform_full", "a", 1, "a", 2, "a"),
+        twins.ask("lookup_transform_full", "c", 1, "c", 2, "c"),
+    ]
+
+    assert all(same(ours, plain) for ours, plain in both)
+    for wrong in (("a",), ("a", "b", 1, 2)):
+        ours, plain = twins.ask("lookup_transform", *wrong)
+        assert ours[0] is plain[0] is TypeError
+        assert ours[1].split("lookup_transform()")[1] == plain[1].split("lookup_transform()")[1]
+
+
+def test_listeners_and_requests_are_told_of_what_the_kernel_took():
+    buffer = Buffer()
+    told = []
+    buffer.set_transform(TransformStamped(1, "a", "b", Transform()), "me")
+    stop = buffer.listen(lambda sample, static, authority: told.append((sample.stamp, authority)))
+    buffer.set_transform(TransformStamped(2, "a", "b", Transform()), "me")
+    buffer.request(lambda handle, answered: told.append(answered), "a", "b", 3)
+    stop()
+    buffer.set_transform(TransformStamped(3, "a", "b", Transform()), "me")
+    buffer.set_transform(TransformStamped(4, "a", "b", Transform()), "me")
+
+    assert told == [(2, "me"), True]
 
 
 def test_a_batch_and_inserts_go_together():

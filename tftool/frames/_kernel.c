@@ -15,6 +15,7 @@
 #define PY_SSIZE_T_CLEAN
 #define Py_LIMITED_API 0x030B0000
 #include <Python.h>
+#include <float.h>
 #include <math.h>
 #include <stdint.h>
 #include <string.h>
@@ -24,11 +25,24 @@
 #define RECORD (8 * WORD)
 #define PARENT_MASK 0xffffffffLL
 #define EXACT (1ULL << 53) /* Whole numbers below this are exact as doubles. */
+#define ROUNDING 8e-16      /* So far from 1 is the square of a unit quaternion at most. */
 
 /* What `tftool.frames.native` expects; a build of another interface is not used. */
-#define INTERFACE 1
+#define INTERFACE 2
+
+#if defined(__GNUC__)
+#define INLINE static inline __attribute__((always_inline))
+#define PREFETCH(place) __builtin_prefetch(place)
+#elif defined(_MSC_VER)
+#define INLINE static __forceinline
+#define PREFETCH(place) (void)(place)
+#else
+#define INLINE static inline
+#define PREFETCH(place) (void)(place)
+#endif
 
 typedef struct { double n[7]; } Pose; /* x y z qx qy qz qw */
+static const Pose identity = {{0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 1.0}};
 
 /* Records ---------------------------------------------------------------- */
 
@@ -46,31 +60,42 @@ static inline void pose_of(const char *records, Py_ssize_t index, Pose *pose) {
     memcpy(pose->n, records + RECORD * index + WORD, sizeof pose->n);
 }
 
-/* The last of `count` records at or before a moment; count > 1, stamp[0] <= time < stamp[count - 1].
-   Whatever the stamps are, it is less than count - 1. Guess by the mean rate, correct the guess once, and search only when that fails. */
-static inline Py_ssize_t find(const char *records, Py_ssize_t count, int64_t time) {
-    Py_ssize_t low = 0, high = count - 1;
-    const int64_t oldest = stamp_of(records, 0);
-    const double span = (double)((uint64_t)stamp_of(records, high) - (uint64_t)oldest);
-    const double rate = (double)high / span;
-    double guess = (double)((uint64_t)time - (uint64_t)oldest) * rate;
+/* Where a moment is looked for first: by the mean rate of the samples. */
+typedef struct {
+    Py_ssize_t at;
+    double rate; /* Samples a nanosecond. */
+} Guess;
+
+/* A guess between the first and the last record; oldest < time < newest, last > 0. */
+static inline Guess guess(int64_t oldest, int64_t newest, Py_ssize_t last, int64_t time) {
+    Guess made = {0, (double)last / (double)((uint64_t)newest - (uint64_t)oldest)};
+    made.at = (Py_ssize_t)((double)((uint64_t)time - (uint64_t)oldest) * made.rate);
+    if (made.at > last - 1)
+        made.at = last - 1;
+    return made;
+}
+
+/* The last record at or before a moment, given stamp[0] <= time < stamp[last] and a guess;
+   whatever the stamps are, it is less than `last`. Correct the guess once, and search only when
+   that fails. */
+static inline Py_ssize_t find(const char *records, Py_ssize_t last, int64_t time, Guess guess) {
+    Py_ssize_t low = 0, high = last, at = guess.at;
     for (int turn = 0; turn < 2; turn++) {
-        Py_ssize_t at = guess > (double)low ? (guess < (double)high ? (Py_ssize_t)guess : high - 1) : low;
-        if (at > high - 1)
-            at = high - 1;
         const int64_t there = stamp_of(records, at);
+        double next = (double)at;
         if (there > time) {
             high = at;
-            guess = (double)at - (double)((uint64_t)there - (uint64_t)time) * rate;
+            next -= (double)((uint64_t)there - (uint64_t)time) * guess.rate;
         }
         else if (time < stamp_of(records, at + 1))
             return at;
         else {
             low = at + 1;
-            guess = (double)at + (double)((uint64_t)time - (uint64_t)there) * rate;
+            next += (double)((uint64_t)time - (uint64_t)there) * guess.rate;
         }
         if (high - low <= 1)
             break;
+        at = next < (double)high ? (next > (double)low ? (Py_ssize_t)next : low) : high - 1;
     }
     while (high - low > 1) {
         const Py_ssize_t middle = low + (high - low) / 2;
@@ -79,7 +104,7 @@ static inline Py_ssize_t find(const char *records, Py_ssize_t count, int64_t tim
         else
             high = middle;
     }
-    return low < count - 1 ? low : count - 2;
+    return low < last ? low : last - 1;
 }
 
 /* sin(f θ) / sin θ for u = 1 - cos θ, as a product of terms that are all positive:
@@ -175,7 +200,18 @@ static inline void canonical(double *turn) {
             turn[i] = -turn[i];
 }
 
-/* What a link keeps ------------------------------------------------------ */
+/* `quaternions.unit`; returns 0 where there is no direction, or none that is plain to see. */
+static inline int unit(double *turn) {
+    const double square = turn[0] * turn[0] + turn[1] * turn[1] + turn[2] * turn[2] + turn[3] * turn[3];
+    if (-ROUNDING < square - 1.0 && square - 1.0 < ROUNDING)
+        return 1;
+    const double scale = 1.0 / sqrt(square);
+    for (int i = 0; i < 4; i++)
+        turn[i] *= scale;
+    return square > 2.0 / DBL_MAX && square < HUGE_VAL;
+}
+
+/* What a link keeps, and what a buffer does ------------------------------- */
 
 /* The fields of both kinds of links. Python's classes inherit them, and Python's code reads and
    writes them by their names; see `History` for what they mean. */
@@ -187,19 +223,107 @@ typedef struct {
     char is_static, mixed, borrowed;
 } Link;
 
-#define FIELD(name, kind) {#name, kind, offsetof(Link, name), 0, NULL}
-#define PRIVATE(name, kind) {"_" #name, kind, offsetof(Link, name), 0, NULL}
+/* What the methods of a buffer read: `Buffer` inherits it; see there. */
+typedef struct {
+    PyObject_HEAD
+    PyObject *paths, *senders, *listeners, *pending;
+} Door;
+
+/* Both begin with so many objects. */
+#define HELD 4
+#define HELD_OF(self) ((PyObject **)((char *)(self) + sizeof(PyObject)))
+
+#define MEMBER(type, name, kind) {#name, kind, offsetof(type, name), 0, NULL}
+#define PRIVATE(type, name, kind) {"_" #name, kind, offsetof(type, name), 0, NULL}
 static PyMemberDef link_members[] = {
-    FIELD(records, T_OBJECT_EX), FIELD(origins, T_OBJECT_EX),
-    FIELD(newest_stamp, T_LONGLONG), FIELD(oldest_stamp, T_LONGLONG), FIELD(limit, T_LONGLONG),
-    FIELD(start, T_LONGLONG), FIELD(count, T_LONGLONG), FIELD(origin, T_LONGLONG),
-    FIELD(parent, T_LONGLONG), FIELD(is_static, T_BOOL), FIELD(mixed, T_BOOL),
-    PRIVATE(newest_pair, T_OBJECT_EX), PRIVATE(prune_after, T_LONGLONG),
-    PRIVATE(compact_at, T_LONGLONG), PRIVATE(borrowed, T_BOOL), {NULL, 0, 0, 0, NULL},
+    MEMBER(Link, records, T_OBJECT_EX), MEMBER(Link, origins, T_OBJECT_EX),
+    MEMBER(Link, newest_stamp, T_LONGLONG), MEMBER(Link, oldest_stamp, T_LONGLONG),
+    MEMBER(Link, limit, T_LONGLONG), MEMBER(Link, start, T_LONGLONG),
+    MEMBER(Link, count, T_LONGLONG), MEMBER(Link, origin, T_LONGLONG),
+    MEMBER(Link, parent, T_LONGLONG), MEMBER(Link, is_static, T_BOOL),
+    MEMBER(Link, mixed, T_BOOL), PRIVATE(Link, newest_pair, T_OBJECT_EX),
+    PRIVATE(Link, prune_after, T_LONGLONG), PRIVATE(Link, compact_at, T_LONGLONG),
+    PRIVATE(Link, borrowed, T_BOOL), {NULL, 0, 0, 0, NULL},
+};
+static PyMemberDef door_members[] = {
+    PRIVATE(Door, paths, T_OBJECT_EX), PRIVATE(Door, senders, T_OBJECT_EX),
+    PRIVATE(Door, listeners, T_OBJECT_EX), PRIVATE(Door, pending, T_OBJECT_EX),
+    {NULL, 0, 0, 0, NULL},
 };
 
-static int read_records(const Link *link, int flags, Py_buffer *view);
-static PyObject *floats(PyTypeObject *type, const double *numbers, Py_ssize_t size);
+static int held_traverse(PyObject *self, visitproc visit, void *arg) {
+    Py_VISIT(Py_TYPE(self));
+    for (int i = 0; i < HELD; i++)
+        Py_VISIT(HELD_OF(self)[i]);
+    return 0;
+}
+
+static int held_clear(PyObject *self) {
+    for (int i = 0; i < HELD; i++)
+        Py_CLEAR(HELD_OF(self)[i]);
+    return 0;
+}
+
+static void held_dealloc(PyObject *self) {
+    PyTypeObject *type = Py_TYPE(self);
+    PyObject_GC_UnTrack(self);
+    held_clear(self);
+    ((freefunc)PyType_GetSlot(type, Py_tp_free))(self);
+    Py_DECREF(type);
+}
+
+/* What answers are made of and read by; the state of the module, which Python never unloads. */
+typedef struct {
+    PyTypeObject *fields, *stamped, *transform, *vector, *quaternion;
+    PyObject *registered, *empty; /* The name of what says whether anything listens; "". */
+} Types;
+
+/* That many floats of a tuple. Returns whether that is what it is; never sets an error. */
+static int read_floats(PyObject *tuple, double *numbers, Py_ssize_t size) {
+    if (!PyTuple_Check(tuple) || PyTuple_Size(tuple) != size)
+        return 0;
+    for (Py_ssize_t i = 0; i < size; i++) {
+        PyObject *number = PyTuple_GetItem(tuple, i);
+        if (!PyFloat_CheckExact(number))
+            return 0;
+        numbers[i] = PyFloat_AsDouble(number);
+    }
+    return 1;
+}
+
+/* A moment as 64 bits. Returns whether it is an `int` that fits; never sets an error. */
+static int read_stamp(PyObject *stamp, int64_t *value) {
+    int overflow = 0;
+    if (!PyLong_CheckExact(stamp))
+        return 0;
+    *value = PyLong_AsLongLongAndOverflow(stamp, &overflow);
+    return !overflow;
+}
+
+/* Whether a moving link is one the kernel reads: its records in `view`, to be released. */
+static int read_records(const Link *link, int flags, Py_buffer *view) {
+    if (link->records == NULL || link->start < 0 || link->count <= link->start)
+        return 0;
+    if (PyObject_GetBuffer(link->records, view, flags) < 0) {
+        PyErr_Clear();
+        return 0;
+    }
+    if (link->count <= view->len / RECORD)
+        return 1;
+    PyBuffer_Release(view);
+    return 0;
+}
+
+/* A new tuple of that many floats; NULL with an error set on failure. */
+static PyObject *floats(PyTypeObject *type, const double *numbers, Py_ssize_t size) {
+    PyObject *made = PyType_GenericAlloc(type, size);
+    for (Py_ssize_t i = 0; made != NULL && i < size; i++) {
+        PyObject *number = PyFloat_FromDouble(numbers[i]);
+        if (number == NULL || PyTuple_SetItem(made, i, number) < 0)
+            Py_CLEAR(made);
+    }
+    return made;
+}
 
 /* `newest`: what was set, or what was appended since, made when it is first asked for. */
 static PyObject *get_newest(PyObject *self, void *Py_UNUSED(closure)) {
@@ -222,180 +346,128 @@ static int set_newest(PyObject *self, PyObject *value, void *Py_UNUSED(closure))
     return 0;
 }
 
-static PyGetSetDef link_getset[] = {
-    {"newest", get_newest, set_newest, NULL, NULL}, {NULL, NULL, NULL, NULL, NULL},
-};
+/* Looking up -------------------------------------------------------------- */
 
-static int link_traverse(PyObject *self, visitproc visit, void *arg) {
-    Link *link = (Link *)self;
-    Py_VISIT(Py_TYPE(self));
-    Py_VISIT(link->records);
-    Py_VISIT(link->origins);
-    Py_VISIT(link->newest);
-    Py_VISIT(link->newest_pair);
-    return 0;
-}
+/* So many links are made ready before the first is read: meanwhile memory brings their samples. */
+#define AHEAD 8
 
-static int link_clear(PyObject *self) {
-    Link *link = (Link *)self;
-    Py_CLEAR(link->records);
-    Py_CLEAR(link->origins);
-    Py_CLEAR(link->newest);
-    Py_CLEAR(link->newest_pair);
-    return 0;
-}
-
-static void link_dealloc(PyObject *self) {
-    PyTypeObject *type = Py_TYPE(self);
-    PyObject_GC_UnTrack(self);
-    link_clear(self);
-    ((freefunc)PyType_GetSlot(type, Py_tp_free))(self);
-    Py_DECREF(type);
-}
-
-static PyType_Slot link_slots[] = {
-    {Py_tp_doc, "The fields of a link, laid out so that the kernel can read them."},
-    {Py_tp_members, link_members},
-    {Py_tp_getset, link_getset},
-    {Py_tp_traverse, link_traverse},
-    {Py_tp_clear, link_clear},
-    {Py_tp_dealloc, link_dealloc},
-    {0, NULL},
-};
-
-static PyType_Spec link_spec = {
-    "tftool.frames._kernel.Fields", sizeof(Link), 0,
-    Py_TPFLAGS_DEFAULT | Py_TPFLAGS_BASETYPE | Py_TPFLAGS_HAVE_GC, link_slots,
-};
-
-/* The types that answers are made of; never let go of, as Python never unloads the module. */
+/* A link made ready for a moment: the pose it has, or records to find it in. */
 typedef struct {
-    PyTypeObject *fields, *stamped, *transform, *vector, *quaternion;
-} Types;
+    Py_buffer view;
+    const char *records; /* NULL: `pose` is the answer. */
+    Py_ssize_t last;
+    Guess guess;
+    Pose pose;
+} Step;
 
-/* That many floats of a tuple. Returns whether that is what it is; never sets an error. */
-static int read_floats(PyObject *tuple, double *numbers, Py_ssize_t size) {
-    if (!PyTuple_Check(tuple) || PyTuple_Size(tuple) != size)
+/* Make a link ready for a moment (0: its newest). Returns whether it is plain and has a pose
+   then; what `records` are of is then to be released. Never sets an error. */
+static int prepare(const Link *link, int64_t time, Step *step) {
+    step->records = NULL;
+    if (link->is_static)
+        return link->newest != NULL && read_floats(link->newest, step->pose.n, 7);
+    const int64_t oldest = link->oldest_stamp, newest = link->newest_stamp;
+    const int between = oldest < time && time < newest;
+    if (link->mixed || (!between && time != newest && time != oldest && time != 0)
+        || !read_records(link, PyBUF_SIMPLE, &step->view))
         return 0;
-    for (Py_ssize_t i = 0; i < size; i++) {
-        PyObject *number = PyTuple_GetItem(tuple, i);
-        if (!PyFloat_CheckExact(number))
-            return 0;
-        numbers[i] = PyFloat_AsDouble(number);
+    const char *records = (const char *)step->view.buf + RECORD * link->start;
+    step->last = (Py_ssize_t)(link->count - link->start) - 1;
+    if (between && step->last > 0) {
+        step->records = records;
+        step->guess = guess(oldest, newest, step->last, time);
+        PREFETCH(records + RECORD * step->guess.at);
+        PREFETCH(records + RECORD * step->guess.at + RECORD);
+        PREFETCH(records + RECORD * step->guess.at + 2 * RECORD - 1);
+        return 1;
     }
+    pose_of(records, time == oldest && time != newest ? 0 : step->last, &step->pose);
+    PyBuffer_Release(&step->view);
+    return !between;
+}
+
+/* The pose of a link that is ready: `History.at`. Returns 0 where the samples are too far apart
+   to be told exactly. */
+static int pose_at(const Step *step, int64_t time, Pose *pose) {
+    const Py_ssize_t index = find(step->records, step->last, time, step->guess);
+    const uint64_t before = (uint64_t)stamp_of(step->records, index);
+    const uint64_t length = (uint64_t)stamp_of(step->records, index + 1) - before;
+    Pose first, second;
+    pose_of(step->records, index, &first);
+    pose_of(step->records, index + 1, &second);
+    /* A quotient of whole numbers; of larger ones it would be rounded twice. */
+    if (length >= EXACT)
+        return 0;
+    interpolate(&first, &second, (double)((uint64_t)time - before) / (double)length, pose);
     return 1;
 }
 
-/* Whether a moving link is one the kernel reads: its records in `view`, to be released. */
-static int read_records(const Link *link, int flags, Py_buffer *view) {
-    if (link->records == NULL || link->start < 0 || link->count <= link->start)
-        return 0;
-    if (PyObject_GetBuffer(link->records, view, flags) < 0) {
-        PyErr_Clear();
-        return 0;
-    }
-    if (link->count <= view->len / RECORD)
-        return 1;
-    PyBuffer_Release(view);
-    return 0;
-}
-
-/* The pose of a link at a moment (0: the newest): `History.at`. Returns 0 where there is none,
-   or where the parent changes nearby; never sets an error. */
-static int link_at(const Link *link, int64_t time, Pose *pose) {
-    Py_buffer view;
-    if (link->is_static)
-        return link->newest != NULL && read_floats(link->newest, pose->n, 7);
-    if (link->mixed || !read_records(link, PyBUF_SIMPLE, &view))
-        return 0;
-    const char *records = (const char *)view.buf + RECORD * link->start;
-    const Py_ssize_t last = (Py_ssize_t)(link->count - link->start) - 1;
-    const int64_t oldest = stamp_of(records, 0), newest = stamp_of(records, last);
+/* The poses of several links one after the other, lowest first: `path.chain`. Returns 0 if one
+   is not plain or has none; never sets an error. */
+static int chain(PyObject *links, PyTypeObject *fields, int64_t time, Pose *pose) {
+    const Py_ssize_t count = PyTuple_Size(links);
+    PyTypeObject *known = fields;
+    Step steps[AHEAD];
     int found = 1;
-    if (oldest < time && time < newest) {
-        const Py_ssize_t index = find(records, last + 1, time);
-        const uint64_t before = (uint64_t)stamp_of(records, index);
-        const uint64_t length = (uint64_t)stamp_of(records, index + 1) - before;
-        Pose first, second;
-        pose_of(records, index, &first);
-        pose_of(records, index + 1, &second);
-        /* A quotient of whole numbers; of larger ones it would be rounded twice. */
-        found = length < EXACT;
-        if (found)
-            interpolate(&first, &second, (double)((uint64_t)time - before) / (double)length, pose);
+    *pose = identity;
+    for (Py_ssize_t first = 0; found && first < count; first += AHEAD) {
+        const int most = count - first < AHEAD ? (int)(count - first) : AHEAD;
+        int ready = 0;
+        for (; found && ready < most; ready += found) {
+            PyObject *link = PyTuple_GetItem(links, first + ready);
+            found = Py_TYPE(link) == known || PyObject_TypeCheck(link, fields);
+            if (found) {
+                known = Py_TYPE(link);
+                found = prepare((const Link *)link, time, &steps[ready]);
+            }
+        }
+        for (int i = 0; i < ready; i++) {
+            Step *step = &steps[i];
+            if (step->records != NULL) {
+                found = found && pose_at(step, time, &step->pose);
+                PyBuffer_Release(&step->view);
+            }
+            if (first + i == 0)
+                *pose = step->pose;
+            else if (found)
+                compose(&step->pose, pose);
+        }
     }
-    else if (time == newest || time == 0)
-        pose_of(records, last, pose);
-    else if (time == oldest)
-        pose_of(records, 0, pose);
-    else
-        found = 0;
-    PyBuffer_Release(&view);
     return found;
 }
 
-/* The poses of several links one after the other, lowest first: `path.chain`. */
-static int chain(PyObject *links, PyTypeObject *fields, int64_t time, Pose *pose) {
-    static const Pose identity = {{0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 1.0}};
-    const Py_ssize_t count = PyTuple_Size(links);
-    if (count == 0)
-        *pose = identity;
-    for (Py_ssize_t i = 0; i < count; i++) {
-        PyObject *link = PyTuple_GetItem(links, i);
-        Pose step;
-        if (!PyObject_TypeCheck(link, fields) || !link_at((const Link *)link, time, i ? &step : pose))
-            return 0;
-        if (i)
-            compose(&step, pose);
-    }
-    return 1;
+/* Whether two plain strings are equal; one that is none is equal to nothing. */
+static int same_text(PyObject *known, PyObject *given) {
+    return known == given
+        || (PyUnicode_CheckExact(known) && PyUnicode_Compare(known, given) == 0);
 }
 
-/* A tuple of that many floats. */
-static PyObject *floats(PyTypeObject *type, const double *numbers, Py_ssize_t size) {
-    PyObject *made = PyType_GenericAlloc(type, size);
-    for (Py_ssize_t i = 0; made != NULL && i < size; i++) {
-        PyObject *number = PyFloat_FromDouble(numbers[i]);
-        if (number == NULL || PyTuple_SetItem(made, i, number) < 0)
-            Py_CLEAR(made);
-    }
-    return made;
+/* The path between two frames that is kept: NULL if there is none, or it is not plain. Never
+   sets an error: plain strings are looked for, which runs no code of others. */
+static PyObject *path_of(const Door *door, PyObject *target, PyObject *source) {
+    PyObject *found = door->paths;
+    if (found == NULL || !PyDict_Check(found) || !PyUnicode_CheckExact(target)
+        || !PyUnicode_CheckExact(source))
+        return NULL;
+    found = PyDict_GetItemWithError(found, target);
+    if (found != NULL && PyDict_Check(found))
+        found = PyDict_GetItemWithError(found, source);
+    if (found == NULL || !PyTuple_Check(found) || PyTuple_Size(found) != 3)
+        return NULL;
+    for (Py_ssize_t i = 0; i < 3; i++)
+        if (!PyTuple_Check(PyTuple_GetItem(found, i)))
+            return NULL;
+    return found;
 }
 
-/* Put two new references into a tuple of two; all of them are given up on failure. */
-static PyObject *pair_of(PyObject *made, PyObject *first, PyObject *second) {
-    if (made != NULL && first != NULL && second != NULL) {
-        PyTuple_SetItem(made, 0, first);
-        PyTuple_SetItem(made, 1, second);
-        return made;
-    }
-    Py_XDECREF(made);
-    Py_XDECREF(first);
-    Py_XDECREF(second);
-    return NULL;
-}
-
-/* A Transform of seven numbers, the rotation given tf2's sign. */
-static PyObject *new_transform(const Types *types, Pose *pose) {
-    canonical(pose->n + 3);
-    PyObject *place = floats(types->vector, pose->n, 3);
-    PyObject *turn = place == NULL ? NULL : floats(types->quaternion, pose->n + 3, 4);
-    return pair_of(turn == NULL ? NULL : PyType_GenericAlloc(types->transform, 2), place, turn);
-}
-
-/* A moment as 64 bits. Returns whether it is an `int` that fits; never sets an error. */
-static int read_stamp(PyObject *stamp, int64_t *value) {
-    int overflow = 0;
-    if (!PyLong_CheckExact(stamp))
-        return 0;
-    *value = PyLong_AsLongLongAndOverflow(stamp, &overflow);
-    return !overflow;
-}
-
-/* The newest moment for which every moving link has data: `Path.latest`. */
-static int latest(PyObject *moving, PyTypeObject *fields, int64_t *moment) {
+/* The newest moment for which every moving link has data: `Path.latest`. With `covered`, whether
+   all of them have data at that moment, or at `*moment` if it is not 0: `Path.covers`. Returns
+   whether the links are plain; never sets an error. */
+static int latest(PyObject *path, PyTypeObject *fields, int64_t *moment, int *covered) {
+    PyObject *moving = PyTuple_GetItem(path, 2);
+    const Py_ssize_t count = PyTuple_Size(moving);
     int64_t oldest = 0;
-    for (Py_ssize_t i = 0; i < PyTuple_Size(moving); i++) {
+    for (Py_ssize_t i = 0; i < count; i++) {
         PyObject *link = PyTuple_GetItem(moving, i);
         if (!PyObject_TypeCheck(link, fields))
             return 0;
@@ -403,75 +475,127 @@ static int latest(PyObject *moving, PyTypeObject *fields, int64_t *moment) {
         if (stamp != 0 && (stamp < oldest || oldest == 0))
             oldest = stamp;
     }
-    *moment = oldest;
+    if (*moment == 0)
+        *moment = oldest;
+    for (Py_ssize_t i = 0; covered != NULL && i < count; i++) {
+        const Link *link = (const Link *)PyTuple_GetItem(moving, i);
+        *covered &= *moment == link->newest_stamp || *moment == 0
+            || (link->oldest_stamp <= *moment && *moment < link->newest_stamp);
+    }
     return 1;
 }
 
-PyDoc_STRVAR(lookup_doc, "lookup(paths, target, source, time)\n--\n\n"
-"The answer of `Buffer.lookup_transform` by a path that is known, or None if it is not plain.");
-
-static PyObject *lookup(PyObject *module, PyObject *const *args, Py_ssize_t count) {
-    const Types *types = PyModule_GetState(module);
-    int64_t time;
-    Pose pose, other;
-    if (count != 4 || !PyDict_Check(args[0]))
-        return PyErr_Format(PyExc_TypeError, "lookup takes paths, two names and a moment");
-    /* Plain strings: looking for one runs no code of others. */
-    if (!PyUnicode_CheckExact(args[1]) || !PyUnicode_CheckExact(args[2]) || !read_stamp(args[3], &time))
-        Py_RETURN_NONE;
-    PyObject *found = PyDict_GetItemWithError(args[0], args[1]);
-    if (found != NULL && PyDict_Check(found))
-        found = PyDict_GetItemWithError(found, args[2]);
-    if (found == NULL || !PyTuple_Check(found) || PyTuple_Size(found) != 3) {
-        if (PyErr_Occurred())
-            return NULL;
-        Py_RETURN_NONE;
-    }
-    PyObject *up = PyTuple_GetItem(found, 0), *down = PyTuple_GetItem(found, 1);
-    PyObject *moving = PyTuple_GetItem(found, 2);
-    const int asked = time != 0;
-    if (!PyTuple_Check(up) || !PyTuple_Check(down) || !PyTuple_Check(moving)
-        || (!asked && !latest(moving, types->fields, &time))
-        || !chain(up, types->fields, time, &pose))
-        Py_RETURN_NONE;
+/* The pose of source in target by a path that is kept, of tf2's sign, and the moment it holds
+   for in place of 0: `Path.solve`. Returns 0 if that is not plain; never sets an error. */
+static int solve_path(const Door *door, const Types *types, PyObject *target, PyObject *source,
+                      int64_t *time, Pose *pose) {
+    PyObject *path = path_of(door, target, source);
+    Pose other;
+    if (path == NULL || (*time == 0 && !latest(path, types->fields, time, NULL))
+        || !chain(PyTuple_GetItem(path, 0), types->fields, *time, pose))
+        return 0;
+    PyObject *down = PyTuple_GetItem(path, 1);
     if (PyTuple_Size(down) > 0) {
-        if (!chain(down, types->fields, time, &other))
-            Py_RETURN_NONE;
-        between(&other, &pose);
+        if (!chain(down, types->fields, *time, &other))
+            return 0;
+        between(&other, pose);
     }
-    if (pose.n[6] != pose.n[6])
-        Py_RETURN_NONE;
-    PyObject *transform = new_transform(types, &pose);
-    PyObject *moment = asked ? Py_NewRef(args[3]) : PyLong_FromLongLong(time);
-    PyObject *made = transform && moment ? PyType_GenericAlloc(types->stamped, 4) : NULL;
-    if (made != NULL) {
-        PyTuple_SetItem(made, 1, Py_NewRef(args[1]));
-        PyTuple_SetItem(made, 2, Py_NewRef(args[2]));
-        PyTuple_SetItem(made, 3, transform);
-        PyTuple_SetItem(made, 0, moment);
-        return made;
-    }
-    Py_XDECREF(transform);
-    Py_XDECREF(moment);
-    return NULL;
+    canonical(pose->n + 3);
+    return pose->n[6] == pose->n[6];
 }
 
-PyDoc_STRVAR(at_doc, "at(link, time)\n--\n\n"
-"The pose of a link at a moment as a tuple of seven floats, or None if it is not plain.");
+/* Put new references into a new tuple; all of them are given up on failure. */
+static PyObject *tuple_of(PyTypeObject *type, PyObject **parts, Py_ssize_t size) {
+    int whole = 1;
+    for (Py_ssize_t i = 0; i < size; i++)
+        whole &= parts[i] != NULL;
+    PyObject *made = whole ? PyType_GenericAlloc(type, size) : NULL;
+    for (Py_ssize_t i = 0; i < size; i++)
+        if (made == NULL)
+            Py_XDECREF(parts[i]);
+        else
+            PyTuple_SetItem(made, i, parts[i]);
+    return made;
+}
 
-static PyObject *at(PyObject *module, PyObject *const *args, Py_ssize_t count) {
-    const Types *types = PyModule_GetState(module);
-    int64_t time;
+/* A TransformStamped; NULL with an error set on failure. */
+static PyObject *answer(const Types *types, int64_t stamp, PyObject *target, PyObject *source, const Pose *pose) {
+    PyObject *numbers[2] = {floats(types->vector, pose->n, 3), floats(types->quaternion, pose->n + 3, 4)};
+    PyObject *parts[4] = {PyLong_FromLongLong(stamp), Py_NewRef(target), Py_NewRef(source), tuple_of(types->transform, numbers, 2)};
+    return tuple_of(types->stamped, parts, 4);
+}
+
+/* What `Buffer` does in plain Python, as it was asked. */
+static PyObject *plainly(PyObject *self, const char *name, PyObject *const *args, Py_ssize_t count,
+                         PyObject *names) {
+    const Py_ssize_t named = names == NULL ? 0 : PyTuple_Size(names);
+    PyObject *call = PyObject_GetAttrString(self, name), *given = PyTuple_New(count), *by_name = PyDict_New(), *result = NULL;
+    int whole = call != NULL && given != NULL && by_name != NULL;
+    for (Py_ssize_t i = 0; whole && i < count; i++)
+        PyTuple_SetItem(given, i, Py_NewRef(args[i]));
+    for (Py_ssize_t i = 0; whole && i < named; i++)
+        whole = PyDict_SetItem(by_name, PyTuple_GetItem(names, i), args[count + i]) == 0;
+    if (whole)
+        result = PyObject_Call(call, given, by_name);
+    Py_XDECREF(call);
+    Py_XDECREF(given);
+    Py_XDECREF(by_name);
+    return result;
+}
+
+#define METHOD(name)                                                                              \
+    static PyObject *name(PyObject *self, PyTypeObject *door, PyObject *const *args,              \
+                          Py_ssize_t count, PyObject *names)
+#define PLAINLY(name) plainly(self, "_plain_" #name, args, count, names)
+
+METHOD(lookup_transform) {
+    const Types *types = PyType_GetModuleState(door);
+    int64_t time = 0;
     Pose pose;
-    if (count != 2)
-        return PyErr_Format(PyExc_TypeError, "at takes a link and a moment");
-    if (!PyObject_TypeCheck(args[0], types->fields) || !read_stamp(args[1], &time)
-        || !link_at((const Link *)args[0], time, &pose))
-        Py_RETURN_NONE;
-    return floats(&PyTuple_Type, pose.n, 7);
+    if (names == NULL && (count == 2 || (count == 3 && read_stamp(args[2], &time)))
+        && solve_path((const Door *)self, types, args[0], args[1], &time, &pose))
+        return answer(types, time, args[0], args[1], &pose);
+    return PLAINLY(lookup_transform);
 }
 
-/* Inserting -------------------------------------------------------------- */
+/* The same where target and source may be one frame, whose name another path has shown good. */
+static int solve_leg(const Door *door, const Types *types, PyObject *target, PyObject *source,
+                     int64_t *time, Pose *pose) {
+    *pose = identity;
+    return (*time != 0 && same_text(target, source))
+        || solve_path(door, types, target, source, time, pose);
+}
+
+METHOD(lookup_transform_full) {
+    const Types *types = PyType_GetModuleState(door);
+    int64_t here, there;
+    Pose inner, outer;
+    if (names == NULL && count == 5 && read_stamp(args[1], &here) && read_stamp(args[3], &there)
+        && !same_text(args[0], args[2])
+        && solve_leg((const Door *)self, types, args[4], args[2], &there, &inner)
+        && solve_leg((const Door *)self, types, args[0], args[4], &here, &outer)) {
+        compose(&outer, &inner);
+        if (unit(inner.n + 3)) {
+            canonical(inner.n + 3);
+            return answer(types, here, args[0], args[2], &inner);
+        }
+    }
+    return PLAINLY(lookup_transform_full);
+}
+
+METHOD(can_transform) {
+    const Types *types = PyType_GetModuleState(door);
+    int64_t time = 0;
+    int covered = 1;
+    if (names == NULL && (count == 2 || (count == 3 && read_stamp(args[2], &time)))) {
+        PyObject *path = path_of((const Door *)self, args[0], args[1]);
+        if (path != NULL && latest(path, types->fields, &time, &covered) && covered)
+            Py_RETURN_TRUE;
+    }
+    return PLAINLY(can_transform);
+}
+
+/* Inserting --------------------------------------------------------------- */
 
 /* Append a sample to a link: `History.insert` where it is newer than all others, of the same
    origin, and prunes one sample at most. Returns whether it was done; never sets an error. */
@@ -479,7 +603,7 @@ static int append(Link *link, int64_t stamp, int64_t origin, Pose *pose) {
     Py_buffer view;
     double *n = pose->n;
     const double square = n[3] * n[3] + n[4] * n[4] + n[5] * n[5] + n[6] * n[6];
-    if (!(1.0 - 8e-16 < square && square < 1.0 + 8e-16 && n[0] + n[1] + n[2] < HUGE_VAL))
+    if (!(1.0 - ROUNDING < square && square < 1.0 + ROUNDING && n[0] + n[1] + n[2] < HUGE_VAL))
         return 0;
     if (link->is_static || link->mixed || link->borrowed || link->origins != Py_None
         || link->origin != origin || stamp <= link->newest_stamp
@@ -498,9 +622,7 @@ static int append(Link *link, int64_t stamp, int64_t origin, Pose *pose) {
         }
     }
     if (fits) {
-        if (n[6] < -0.5 || (n[6] <= 0.5 && leading(n[3], n[4], n[5], n[6]) < 0.0))
-            for (int i = 3; i < 7; i++)
-                n[i] *= -1.0;
+        canonical(n + 3);
         char *record = records + RECORD * link->count;
         memcpy(record, &stamp, WORD);
         memcpy(record + WORD, n, sizeof pose->n);
@@ -522,44 +644,89 @@ static int append(Link *link, int64_t stamp, int64_t origin, Pose *pose) {
     return 1;
 }
 
-/* Whether two plain strings are equal; one that is none is equal to nothing. */
-static int same_text(PyObject *known, PyObject *given) {
-    return known == given
-        || (PyUnicode_CheckExact(known) && PyUnicode_Compare(known, given) == 0);
-}
-
-PyDoc_STRVAR(insert_doc, "insert(senders, transform, authority)\n--\n\n"
-"Remember a plain sample of a link that is known by its child. Returns whether it was done.");
-
-static PyObject *insert(PyObject *module, PyObject *const *args, Py_ssize_t count) {
-    const Types *types = PyModule_GetState(module);
+/* Remember a sample of plain parts, of a link that is known by its child. Returns whether it
+   was done; never sets an error. */
+static int insert(const Door *door, const Types *types, PyObject *sample, PyObject *authority) {
     int64_t stamp, origin;
     Pose pose;
-    if (count != 3 || !PyDict_Check(args[0]))
-        return PyErr_Format(PyExc_TypeError, "insert takes senders, a sample and an authority");
-    if (Py_TYPE(args[1]) != types->stamped || PyTuple_Size(args[1]) != 4)
-        Py_RETURN_FALSE;
-    PyObject *parent = PyTuple_GetItem(args[1], 1), *child = PyTuple_GetItem(args[1], 2);
-    PyObject *transform = PyTuple_GetItem(args[1], 3);
-    if (!PyUnicode_CheckExact(child) || !PyUnicode_CheckExact(parent) || !PyUnicode_CheckExact(args[2])
-        || Py_TYPE(transform) != types->transform || PyTuple_Size(transform) != 2
-        || !read_stamp(PyTuple_GetItem(args[1], 0), &stamp)
+    if (Py_TYPE(sample) != types->stamped || PyTuple_Size(sample) != 4 || door->senders == NULL
+        || !PyDict_Check(door->senders))
+        return 0;
+    PyObject *parent = PyTuple_GetItem(sample, 1), *child = PyTuple_GetItem(sample, 2);
+    PyObject *transform = PyTuple_GetItem(sample, 3);
+    if (!PyUnicode_CheckExact(child) || !PyUnicode_CheckExact(parent)
+        || !PyUnicode_CheckExact(authority) || Py_TYPE(transform) != types->transform
+        || PyTuple_Size(transform) != 2 || !read_stamp(PyTuple_GetItem(sample, 0), &stamp)
         || !read_floats(PyTuple_GetItem(transform, 0), pose.n, 3)
         || !read_floats(PyTuple_GetItem(transform, 1), pose.n + 3, 4))
-        Py_RETURN_FALSE;
-    PyObject *sender = PyDict_GetItemWithError(args[0], child);
-    if (sender == NULL || !PyTuple_Check(sender) || PyTuple_Size(sender) != 4) {
-        if (PyErr_Occurred())
-            return NULL;
-        Py_RETURN_FALSE;
-    }
+        return 0;
+    PyObject *sender = PyDict_GetItemWithError(door->senders, child);
+    if (sender == NULL || !PyTuple_Check(sender) || PyTuple_Size(sender) != 4)
+        return 0;
     PyObject *link = PyTuple_GetItem(sender, 3);
-    if (!same_text(PyTuple_GetItem(sender, 0), parent) || !same_text(PyTuple_GetItem(sender, 1), args[2])
-        || !read_stamp(PyTuple_GetItem(sender, 2), &origin)
-        || !PyObject_TypeCheck(link, types->fields))
-        Py_RETURN_FALSE;
-    return PyBool_FromLong(append((Link *)link, stamp, origin, &pose));
+    return same_text(PyTuple_GetItem(sender, 0), parent)
+        && same_text(PyTuple_GetItem(sender, 1), authority)
+        && read_stamp(PyTuple_GetItem(sender, 2), &origin)
+        && PyObject_TypeCheck(link, types->fields) && append((Link *)link, stamp, origin, &pose);
 }
+
+METHOD(set_transform) {
+    const Types *types = PyType_GetModuleState(door);
+    const Door *buffer = (const Door *)self;
+    PyObject *authority = count == 2 ? args[1] : types->empty;
+    if (names != NULL || count < 1 || count > 2 || buffer->listeners == NULL
+        || buffer->pending == NULL || !PyDict_Check(buffer->pending)
+        || !insert(buffer, types, args[0], authority))
+        return PLAINLY(set_transform);
+    PyObject *listening = PyObject_GetAttr(buffer->listeners, types->registered);
+    const int told = listening == NULL ? -1 : PyObject_IsTrue(listening);
+    Py_XDECREF(listening);
+    if (told > 0 || (told == 0 && PyDict_Size(buffer->pending) > 0)) {
+        PyObject *done = PyObject_CallMethod(self, "_tell_of", "OO", args[0], authority);
+        if (done == NULL)
+            return NULL;
+        Py_DECREF(done);
+    }
+    return told < 0 ? NULL : Py_NewRef(Py_True);
+}
+
+#define CALL METH_METHOD | METH_FASTCALL | METH_KEYWORDS
+#define ENTRY(name, doc) {#name, (PyCFunction)(void (*)(void))name, CALL, #name doc}
+static PyMethodDef door_methods[] = {
+    ENTRY(set_transform, "($self, transform, authority='')\n--\n\n"
+        "Remember a sample of a link that moves, from whom `authority` says.\n\n"
+        "Returns whether it was taken. If not, the log was told why, and nothing is lost."),
+    ENTRY(lookup_transform, "($self, target_frame, source_frame, time=0)\n--\n\n"
+        "The pose of source in target: moves points given in source into target.\n\n"
+        "`time` is the moment; 0 is the newest one for which the whole chain has data. The stamp\n"
+        "of the answer is the moment it holds for, or 0 if it holds at all times.\n\n"
+        "Raises TransformException where there is no answer, TypeError for a time that is no\n"
+        "whole number."),
+    ENTRY(lookup_transform_full, "($self, target_frame, target_time, source_frame, source_time, "
+        "fixed_frame)\n--\n\n"
+        "Where source was at its time, in target as target is at its own time.\n\n"
+        "Both are looked up against `fixed_frame`, which is taken not to move in between.\n\n"
+        "Raises TransformException as `lookup_transform` does; frames are always checked."),
+    ENTRY(can_transform, "($self, target_frame, source_frame, time=0)\n--\n\n"
+        "Whether `lookup_transform` would answer; it never raises for a name or a time."),
+    {NULL, NULL, 0, NULL},
+};
+
+static PyGetSetDef link_getset[] = {
+    {"newest", get_newest, set_newest, NULL, NULL}, {NULL, NULL, NULL, NULL, NULL},
+};
+
+#define HOLDER(name, what, ...)                                                                   \
+    static PyType_Slot name##_slots[] = {                                                         \
+        {Py_tp_doc, what}, {Py_tp_members, name##_members}, {Py_tp_traverse, held_traverse},      \
+        {Py_tp_clear, held_clear}, {Py_tp_dealloc, held_dealloc}, __VA_ARGS__, {0, NULL},         \
+    }
+HOLDER(link, "The fields of a link, laid out so that the kernel can read them.", {Py_tp_getset, link_getset});
+HOLDER(door, "The methods of a buffer that are called most.", {Py_tp_methods, door_methods});
+
+#define FLAGS Py_TPFLAGS_DEFAULT | Py_TPFLAGS_BASETYPE | Py_TPFLAGS_HAVE_GC
+static PyType_Spec link_spec = {"tftool.frames._kernel.Fields", sizeof(Link), 0, FLAGS, link_slots};
+static PyType_Spec door_spec = {"tftool.frames._kernel.Door", sizeof(Door), 0, FLAGS, door_slots};
 
 /* A batch ---------------------------------------------------------------- */
 
@@ -592,14 +759,6 @@ typedef struct {
 #if defined(__GNUC__) && (defined(__x86_64__) || defined(__i386__))
 #define DISPATCH 1
 #endif
-#if defined(__GNUC__)
-#define INLINE static inline __attribute__((always_inline))
-#elif defined(_MSC_VER)
-#define INLINE static __forceinline
-#else
-#define INLINE static inline
-#endif
-
 /* Fetch both neighbours of each moment, and how far it lies between them. Where a link has no
    data for a moment, `valid` becomes 0 and what is fetched is of no use. */
 INLINE void fetch(Edge *edge, const int64_t *times, int n, Room *room, unsigned char *valid) {
@@ -619,7 +778,7 @@ INLINE void fetch(Edge *edge, const int64_t *times, int n, Room *room, unsigned 
                 && time < stamp_of(records, here + 2))
                 here++;
             else
-                here = find(records, edge->count, time);
+                here = find(records, last, time, guess(oldest, newest, last, time));
         }
         const Py_ssize_t next = here < last ? here + 1 : last;
         const int64_t before = stamp_of(records, here);
@@ -864,9 +1023,6 @@ done:
 /* The module ------------------------------------------------------------- */
 
 static PyMethodDef methods[] = {
-    {"lookup", (PyCFunction)(void (*)(void))lookup, METH_FASTCALL, lookup_doc},
-    {"at", (PyCFunction)(void (*)(void))at, METH_FASTCALL, at_doc},
-    {"insert", (PyCFunction)(void (*)(void))insert, METH_FASTCALL, insert_doc},
     {"solve", (PyCFunction)(void (*)(void))solve, METH_FASTCALL, solve_doc},
     {NULL, NULL, 0, NULL},
 };
@@ -893,11 +1049,15 @@ static PyTypeObject * tuple_type(const char *module, const char *name) {
 
 static int module_exec(PyObject *module) {
     Types *types = PyModule_GetState(module);
+    PyObject *door = PyType_FromModuleAndSpec(module, &door_spec, NULL);
+    const int added = door == NULL ? -1 : PyModule_AddType(module, (PyTypeObject *)door);
+    Py_XDECREF(door);
     types->fields = (PyTypeObject *)PyType_FromSpec(&link_spec);
-    if (types->fields == NULL || PyModule_AddType(module, types->fields) < 0
-        || PyModule_AddIntConstant(module, "INTERFACE", INTERFACE) < 0)
-        return -1;
-    if ((types->vector = tuple_type("tftool.geometry.rigid", "Vector3")) == NULL
+    if (added < 0 || types->fields == NULL || PyModule_AddType(module, types->fields) < 0
+        || PyModule_AddIntConstant(module, "INTERFACE", INTERFACE) < 0
+        || (types->registered = PyUnicode_InternFromString("registered")) == NULL
+        || (types->empty = PyUnicode_InternFromString("")) == NULL
+        || (types->vector = tuple_type("tftool.geometry.rigid", "Vector3")) == NULL
         || (types->quaternion = tuple_type("tftool.geometry.rigid", "Quaternion")) == NULL
         || (types->transform = tuple_type("tftool.geometry.rigid", "Transform")) == NULL
         || (types->stamped = tuple_type("tftool.frames.sample", "TransformStamped")) == NULL)

@@ -1,6 +1,5 @@
 """What the native kernel offers; each function says what it is the twin of."""
 
-from collections.abc import Mapping
 from typing import Any
 
 from tftool.frames.sample import TransformStamped
@@ -10,16 +9,33 @@ INTERFACE: int
 class Fields:
     """The fields of a link, laid out so that the kernel can read them: see `history`."""
 
-def lookup(
-    paths: Mapping[str, Mapping[str, Any]], target: str, source: str, time: object, /
-) -> TransformStamped | None:
-    """The answer of `Buffer.lookup_transform` by a known path; None if it is not plain."""
+class Door:
+    """The methods of a buffer that are called most; each is the twin of the one in `Buffer`.
 
-def at(link: object, time: int, /) -> tuple[float, float, float, float, float, float, float] | None:
-    """`History.at`; None if it is not plain."""
+    They answer what is plain, and call `_plain_` and their name for all else: a refusal, a path
+    that is not known yet, an argument given by its name.
+    """
 
-def insert(senders: Mapping[str, Any], transform: object, authority: str, /) -> bool:
-    """`Buffer.set_transform` of a plain sample; False, and nothing was done, if it is not."""
+    def set_transform(self, transform: TransformStamped, authority: str = "") -> bool:
+        """`Buffer.set_transform` of a sample newer than the link's others."""
+
+    def lookup_transform(
+        self, target_frame: str, source_frame: str, time: int = 0
+    ) -> TransformStamped:
+        """`Buffer.lookup_transform` by a known path."""
+
+    def lookup_transform_full(
+        self,
+        target_frame: str,
+        target_time: int,
+        source_frame: str,
+        source_time: int,
+        fixed_frame: str,
+    ) -> TransformStamped:
+        """`Buffer.lookup_transform_full` by two known paths."""
+
+    def can_transform(self, target_frame: str, source_frame: str, time: int = 0) -> bool:
+        """`Buffer.can_transform` by a known path; it says no in plain Python."""
 
 def solve(
     up: tuple[Any, ...],

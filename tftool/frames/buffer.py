@@ -16,7 +16,7 @@ from tftool.frames.history import (
     History,
     Sample,
 )
-from tftool.frames.native import IS_NATIVE
+from tftool.frames.native import Door, usual_by_kernel
 from tftool.frames.path import Path
 from tftool.frames.requests import NEVER, Callback, Requests
 from tftool.frames.sample import FrameInfo, Snapshot, TransformStamped
@@ -26,9 +26,6 @@ from tftool.geometry import poses, quaternions, rigid
 from tftool.geometry.rigid import Transform
 from tftool.listeners import Listeners, Report, listener_text
 from tftool.stamps import CACHE_TIME, Duration, Stamp, whole
-
-if IS_NATIVE:
-    from tftool.frames import _kernel
 
 if TYPE_CHECKING:
     import numpy as np
@@ -65,7 +62,8 @@ _new: Final = tuple.__new__
 _joined: Final = tuple.__add__
 
 
-class Buffer:
+@usual_by_kernel
+class Buffer(Door):
     """Named frames over time, as tf2 keeps them.
 
     It knows no clock and waits for nothing: time comes in with the samples and with
@@ -116,6 +114,7 @@ class Buffer:
         self._tree = FrameTree(cache_time, max_name)
         self._senders = self._tree.senders
         self._solver = Solver(self._tree, cache_time)
+        self._paths = self._solver.paths
         self._requests = Requests(self._solver.examine)
         self._pending = self._requests.pending
         self._report = report or self._log_failure
@@ -137,10 +136,6 @@ class Buffer:
         Raises:
             TypeError: If the stamp is not a whole number.
         """
-        if IS_NATIVE and _kernel.insert(self._senders, transform, authority):
-            if self._listeners.registered or self._pending:
-                self._tell_of(transform, authority)
-            return True
         try:
             stamp, parent, child, pose = transform
             known_parent, known_authority, origin, history = self._senders[child]
@@ -358,15 +353,11 @@ class Buffer:
             ExtrapolationException: If a link has no data for that moment.
             TypeError: If `time` is not a whole number.
         """
-        if IS_NATIVE:
-            found = _kernel.lookup(self._solver.paths, target_frame, source_frame, time)
-            if found is not None:
-                return found
         if time.__class__ is not int:
             time = whole(time)
         pose: Transform | None = None
         try:
-            path = self._solver.paths[target_frame][source_frame]
+            path = self._paths[target_frame][source_frame]
         except KeyError:
             pass
         except TypeError:
@@ -397,7 +388,7 @@ class Buffer:
             TransformException: As `lookup_transform`; frames are always checked, even equal ones.
         """
         tree.require_text(target_frame, source_frame, fixed_frame)
-        paths = self._solver.paths
+        paths = self._paths
         if not (
             # Whose names were found good before.
             source_frame in paths.get(fixed_frame, _NO_PATHS)
@@ -490,7 +481,7 @@ class Buffer:
             TransformException: If a name is unknown or invalid, or nothing joins the two.
         """
         tree.require_text(target_frame, source_frame)
-        path = self._solver.paths.get(target_frame, _NO_PATHS).get(source_frame)
+        path = self._paths.get(target_frame, _NO_PATHS).get(source_frame)
         if path is not None:
             return path.latest()
         call = "get_latest_common_time"
@@ -569,7 +560,7 @@ class Buffer:
         if time.__class__ is not int:
             time = whole(time)
         try:
-            path = self._solver.paths.get(target_frame, _NO_PATHS).get(source_frame)
+            path = self._paths.get(target_frame, _NO_PATHS).get(source_frame)
         except TypeError:
             tree.require_text(target_frame, source_frame)
             raise

@@ -5,15 +5,23 @@ Python and means the same; `TFTOOL_PURE=1` has it so even where the kernel is th
 """
 
 import os
-from typing import TYPE_CHECKING, Final
+from typing import TYPE_CHECKING, Final, TypeVar
 
 if TYPE_CHECKING:
     from types import ModuleType
 
+    from tftool.frames.path import Path
+    from tftool.frames.requests import Request
+    from tftool.frames.sample import TransformStamped
+    from tftool.frames.tree import Sender
+    from tftool.listeners import Listeners
+
+_Class = TypeVar("_Class", bound=type)
+
 SWITCH = "TFTOOL_PURE"
 """The environment variable that has everything run in plain Python, if it is not empty or 0."""
 
-_INTERFACE = 1
+_INTERFACE = 2
 """What these modules expect of a kernel; one that was built for others is left alone."""
 
 
@@ -34,3 +42,38 @@ IS_NATIVE: Final[bool] = _found is not None
 
 BUILD: Final = "native" if IS_NATIVE else "pure Python"
 """What `tftool --version` says."""
+
+
+if TYPE_CHECKING or not IS_NATIVE:
+
+    class Door:
+        """What a buffer's methods read first; natively the same, where C code can read it.
+
+        Attributes:
+            _paths: The solver's.
+            _senders: The tree's.
+            _listeners: Those that each accepted sample is told to.
+            _pending: Requests that wait, by handle.
+        """
+
+        __slots__ = ("_listeners", "_paths", "_pending", "_senders")
+
+        _paths: "dict[str, dict[str, Path]]"
+        _senders: "dict[str, Sender]"
+        _listeners: "Listeners[TransformStamped, bool, str]"
+        _pending: "dict[int, Request]"
+
+else:
+    from tftool.frames._kernel import Door
+
+
+def usual_by_kernel(plain: _Class) -> _Class:
+    """Have the kernel's methods do what is usual, and the plain ones of that name all else.
+
+    The kernel's are inherited from `Door`; it finds a plain one under `_plain_` and its name.
+    """
+    for name in vars(Door).keys() & vars(plain).keys() if IS_NATIVE else ():
+        if not name.startswith("__"):
+            setattr(plain, f"_plain_{name}", vars(plain)[name])
+            delattr(plain, name)
+    return plain
