@@ -8,6 +8,9 @@ from pathlib import Path
 
 import pytest
 
+import tftool
+from tftool import Buffer, Transform, TransformStamped, UsageError, seconds
+
 NOTEBOOK = Path(__file__).parents[1] / "docs" / "learn" / "notebook.ipynb"
 
 RUN = """
@@ -51,7 +54,7 @@ def told(code, *words, place):
 
 @pytest.mark.skipif(not importlib.util.find_spec("nbclient"), reason="nbclient is not installed")
 def test_the_notebook_of_the_docs_runs_and_shows_trees_and_tables(tmp_path):
-    buffer, poses, why = json.loads(told(RUN, str(NOTEBOOK), place=tmp_path))
+    buffer, poses, why, view = json.loads(told(RUN, str(NOTEBOOK), place=tmp_path))
 
     (shown,) = [one["data"] for one in buffer if one["output_type"] == "execute_result"]
     assert "laser" in "".join(shown["image/svg+xml"])
@@ -61,6 +64,28 @@ def test_the_notebook_of_the_docs_runs_and_shows_trees_and_tables(tmp_path):
     # The header, five rows of each end, and a row of dots between.
     assert table.count("<tr>") == 12
     assert "newest" in "".join(why[0]["text"]) or "ended" in "".join(why[0]["text"])
+    (shown,) = [one["data"] for one in view if one["output_type"] == "execute_result"]
+    assert "".join(shown["text/html"]).startswith("<iframe srcdoc=")
+    assert "view.html" in "".join(shown["text/plain"])
+
+
+def test_a_view_is_a_frame_of_its_own_that_gives_nothing_away(tmp_path):
+    buffer = Buffer()
+    pose = TransformStamped(seconds(2), "world", '"></iframe><script>', Transform())
+    buffer.set_transform(pose, "</iframe>")
+
+    shown = tftool.view(buffer, height=300)
+    shown.save(tmp_path / "view.html")
+
+    written = shown._repr_html_()
+    assert written.count("<") == 2
+    assert "allow-same-origin" not in written
+    assert "height: 300px" in written
+    assert (tmp_path / "view.html").read_text("utf-8") == shown.html
+    with pytest.raises(UsageError, match="exists"):
+        shown.save(tmp_path / "view.html")
+    with pytest.raises(TypeError, match="a Buffer or a Recording is shown"):
+        tftool.view("run.mcap")
 
 
 @pytest.mark.skipif(not importlib.util.find_spec("IPython"), reason="IPython is not installed")

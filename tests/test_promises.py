@@ -29,6 +29,7 @@ PROMISED = [
     "NoDataForExtrapolationException",
     "Node",
     "NodeFailed",
+    "PageView",
     "Phase",
     "Quaternion",
     "Recording",
@@ -59,6 +60,7 @@ PROMISED = [
     "rpy_from_quaternion",
     "run",
     "seconds",
+    "view",
     "write_recording",
 ]
 

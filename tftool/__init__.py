@@ -66,6 +66,7 @@ __all__ = [
     "NoDataForExtrapolationException",
     "Node",
     "NodeFailed",
+    "PageView",
     "Phase",
     "Quaternion",
     "Recording",
@@ -96,6 +97,7 @@ __all__ = [
     "rpy_from_quaternion",
     "run",
     "seconds",
+    "view",
     "write_recording",
 ]
 
@@ -131,6 +133,7 @@ _HOMES = {
     "tftool.diagnostics.asking": ("diagnose", "explain"),
     "tftool.diagnostics.explanation": ("Explanation",),
     "tftool.diagnostics.findings": ("Finding",),
+    "tftool.notebook": ("PageView", "view"),
     "tftool.sinks.export": ("Exported", "export"),
     "tftool.sources.recording": ("Recording", "open_recording"),
     "tftool.sources.joint_states": ("JointStates",),

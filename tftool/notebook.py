@@ -1,4 +1,4 @@
-"""How values look in a notebook: trees as pictures, poses and recordings as tables.
+"""How values look in a notebook: trees as pictures, poses and recordings as tables, frames in 3-D.
 
 `import tftool` registers these where IPython runs. The classes are named, not imported: what a
 notebook does not show costs it nothing.
@@ -6,7 +6,9 @@ notebook does not show costs it nothing.
 
 import sys
 from collections.abc import Callable, Sequence
+from dataclasses import dataclass
 from html import escape
+from pathlib import Path
 from typing import TYPE_CHECKING, Any, Final
 
 from tftool.views.escaping import visible
@@ -17,6 +19,7 @@ if TYPE_CHECKING:
     from tftool.frames.buffer import Buffer
     from tftool.frames.sample import Snapshot
     from tftool.sources.recording import Recording
+    from tftool.sources.robot import Robot
 
 ROWS: Final = 10
 """How many rows of a long array are shown, half of them from its end."""
@@ -86,6 +89,90 @@ def finding_table(finding: "Finding") -> str:
     rows.append(("so", finding.consequence))
     rows.extend(("fix", f"{fix.text} {fix.command}".rstrip()) for fix in finding.fixes)
     return _table(f"{finding.severity.value} {finding.id}", (), rows)
+
+
+@dataclass(frozen=True, slots=True)
+class PageView:
+    """The page of `tftool view` with its data in it, for a notebook's output or a file.
+
+    Attributes:
+        html: The page, which needs nothing from elsewhere.
+        height: How tall a notebook shows it, pixels.
+    """
+
+    html: str
+    height: int
+
+    def __repr__(self) -> str:
+        return f"<PageView, {len(self.html) / 1e6:.1f} MB; .save('view.html') writes it to a file>"
+
+    def _repr_html_(self) -> str:
+        # In a frame of its own, it reaches nothing of the notebook.
+        return (
+            f'<iframe srcdoc="{escape(self.html)}" sandbox="allow-scripts allow-downloads" '
+            f'style="width: 100%; height: {self.height}px; border: 0" title="tftool view"></iframe>'
+        )
+
+    def save(self, path: str | Path, *, force: bool = False) -> None:
+        """Write the page to a file, which opens in any browser.
+
+        Args:
+            path: Its name, in .html.
+            force: Whether to replace what is there.
+
+        Raises:
+            UsageError: If something has that name and `force` is not given.
+            InputError: If it cannot be written.
+        """
+        from tftool.sinks.trajectory_files import whole_file
+
+        with whole_file(Path(path), force=force) as file:
+            file.write(self.html.encode())
+
+
+def view(
+    shown: "Buffer | Recording",
+    *,
+    robot: "Robot | None" = None,
+    meshes: Sequence[str | Path] = (),
+    height: int = 480,
+) -> PageView:
+    """Show frames in 3-D: in a notebook below the cell, elsewhere by `.save("view.html")`.
+
+    Args:
+        shown: Whose frames: all that a buffer remembers, or a whole recording.
+        robot: A robot to draw; that of the recording if None.
+        meshes: Folders in which its meshes lie.
+        height: How tall it is shown, pixels.
+
+    Returns:
+        The page as `tftool view -o` writes it.
+
+    Raises:
+        InputError: If nothing of the recording can be read.
+        TypeError: If it is neither a buffer nor a recording.
+    """
+    from tftool.frames.buffer import Buffer
+    from tftool.screens.beginning import first_moment
+    from tftool.screens.browser.meshes import MeshFolders
+    from tftool.screens.browser.protocol import reach
+    from tftool.screens.browser.robots import ShownRobot
+    from tftool.screens.browser.standalone import StandaloneData, standalone_page
+    from tftool.sources.recording import Recording
+
+    if isinstance(shown, Recording):
+        name, buffer, robot = f"recording '{shown.name}'", shown.buffer, robot or shown.robot
+        span: tuple[int, int] | None = shown.span
+    elif isinstance(shown, Buffer):
+        name, buffer, span = "a buffer", shown, reach(shown.snapshot(0).frames)
+    else:
+        raise TypeError(f"a Buffer or a Recording is shown, not {shown!r:.80}")
+    begin, end = span or (1, 1)
+    begin = max(1, begin)
+    drawn = None if robot is None else ShownRobot(robot, MeshFolders(given=[*map(Path, meshes)]))
+    first = first_moment(buffer, begin, max(begin, end))
+    page = standalone_page(StandaloneData(name, buffer, begin, max(begin, end), first, drawn))
+    return PageView(page.content.decode(), height)
 
 
 def _table(title: str, heads: Sequence[str], rows: Sequence[Sequence[str]]) -> str:

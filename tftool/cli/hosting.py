@@ -83,9 +83,6 @@ LISTEN_LIVE = seconds(2)
 TOLD = seconds(2)
 """How long a joined world waits for the first that `/clock` says, where it is published."""
 
-SETTLING = seconds(1)
-"""How long after a recording's beginning all of its frames are expected to have come."""
-
 AHEAD = seconds(1)
 """How long past the moment asked about a scenario is played, for what comes late."""
 
@@ -196,6 +193,8 @@ class Session:
         """Where to begin to look at what is recorded; None to look at the present."""
         if not self.is_recorded or not self.duration:
             return None
+        from tftool.screens.beginning import first_moment
+
         clock = self.world.clock
         end = min(clock.epoch + self.duration, clock.now())
         return first_moment(self.world.buffer, clock.epoch, end) or clock.epoch
@@ -283,17 +282,6 @@ class Session:
             if is_clock_shown(self.link.graph):
                 await clock.told_once(TOLD)
         return await work
-
-
-def first_moment(buffer: "Buffer", begin: Stamp, end: Stamp) -> Stamp | None:
-    """Where to begin to look at frames that are all there; None where nothing moves.
-
-    That is when all has come that comes within `SETTLING` of the beginning.
-    """
-    frames = buffer.snapshot(end).frames
-    first = [info.oldest for info in frames if info.samples and not info.is_static]
-    soon = [stamp for stamp in first if stamp <= min(begin + SETTLING, end)]
-    return max([begin, *soon]) if first else None
 
 
 @contextmanager

@@ -7,6 +7,7 @@ import pytest
 
 pytest.importorskip("websockets", reason="the extra `view` is not installed")
 
+import tftool
 from tests.screens.browser.mesh_files import write_package
 from tests.screens.browser.test_page import (  # noqa: F401
     Page,
@@ -138,3 +139,20 @@ def test_share_of_a_live_page_saves_a_file_that_shows_the_same(chromium, stage, 
     assert saved.find("#names").get_attribute("aria-pressed") == "false"
     assert asked_elsewhere(saved) == []
     assert saved.complaints() == []
+
+
+def test_a_notebooks_output_shows_the_frames_in_a_frame_of_its_own(chromium, tmp_path):  # noqa: F811
+    path = tmp_path / "notebook.html"
+    shown = tftool.view(drawn_world(6), height=500)
+    path.write_text(f"<!doctype html><meta charset=utf-8><p>In [1]:</p>{shown._repr_html_()}")
+    page = opened(chromium, path)
+    chromium.switch_to.frame(page.find("iframe"))
+    page.until(lambda: page.said("globalThis.tftool?.drawn().length"))
+
+    assert page.text("#status") == "recorded"
+    page.scrub(2.0)
+    page.until(lambda: page.said("tftool.moment()") == 2.0)
+    page.find("#share").click()
+    assert page.until(lambda: page.text("#toast")) == "This view has no address of its own"
+    chromium.switch_to.default_content()
+    assert page.complaints() == []

@@ -130,11 +130,11 @@ def _write(
     open_browser: bool,
 ) -> ExitStatus:
     """Write the page with its data into one file."""
-    from tftool.cli.hosting import first_moment
     from tftool.cli.interrupting import interruptible
     from tftool.cli.notices import notice
     from tftool.cli.recorded import Bar
     from tftool.cli.stored import stored_frames
+    from tftool.screens.beginning import first_moment
     from tftool.screens.browser.standalone import MOST_BYTES, StandaloneData, standalone_page
     from tftool.sinks.trajectory_files import whole_file
     from tftool.views.escaping import visible

@@ -44,7 +44,7 @@ class TooLarge(Exception):
     """What was packed is larger than was allowed."""
 
 
-class Block:
+class PackedBlock:
     """A block under construction: sections one by one, columns that are equal once."""
 
     def __init__(self, *, is_rounded: bool = False) -> None:

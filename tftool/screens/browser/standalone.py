@@ -21,7 +21,7 @@ from tftool.frames.buffer import Buffer
 from tftool.frames.sample import FrameInfo
 from tftool.screens.browser import assets, protocol
 from tftool.screens.browser.meshes import MeshRefused
-from tftool.screens.browser.packing import METRES, QUATERNION, Block, Progress, TooLarge
+from tftool.screens.browser.packing import METRES, QUATERNION, PackedBlock, Progress, TooLarge
 from tftool.screens.browser.robots import ShownRobot
 from tftool.stamps import Stamp
 
@@ -153,14 +153,14 @@ def _packed(
     most: int | None,
     progress: Progress | None,
 ) -> bytes:
-    block = Block(is_rounded=is_rounded)
+    block = PackedBlock(is_rounded=is_rounded)
     header = _header(data, block)
     # Deflated with the rest, which saves half a megabyte of every file.
     header["script"] = block.section(files["/page.js"].content)
     return block.deflated(header, most=most, progress=progress)
 
 
-def _header(data: StandaloneData, block: Block) -> dict[str, Any]:
+def _header(data: StandaloneData, block: PackedBlock) -> dict[str, Any]:
     snapshot = data.buffer.snapshot(data.now)
     shown = [snapshot.frames[index] for index in protocol.chosen(snapshot)]
     since = protocol.since
@@ -179,7 +179,9 @@ def _header(data: StandaloneData, block: Block) -> dict[str, Any]:
     }
 
 
-def _frames(data: StandaloneData, shown: list[FrameInfo], block: Block) -> list[dict[str, Any]]:
+def _frames(
+    data: StandaloneData, shown: list[FrameInfo], block: PackedBlock
+) -> list[dict[str, Any]]:
     places = {frame.frame: place for place, frame in enumerate(shown)}
     told: list[dict[str, Any]] = []
     for frame in shown:
@@ -206,7 +208,7 @@ def _frames(data: StandaloneData, shown: list[FrameInfo], block: Block) -> list[
 
 
 def _robot(
-    robot: ShownRobot | None, shown: Iterable[FrameInfo], block: Block
+    robot: ShownRobot | None, shown: Iterable[FrameInfo], block: PackedBlock
 ) -> tuple[dict[str, Any] | None, list[dict[str, Any]]]:
     """The robot's message, and the files it names with those that they name."""
     if robot is None:

@@ -1,0 +1,25 @@
+"""Where to begin to look at frames that are all there."""
+
+from typing import Final
+
+from tftool.frames.buffer import Buffer
+from tftool.stamps import Duration, Stamp, seconds
+
+SETTLING: Final[Duration] = seconds(1)
+"""How long after a recording's beginning all of its frames are expected to have come."""
+
+
+def first_moment(buffer: Buffer, begin: Stamp, end: Stamp) -> Stamp | None:
+    """The moment to show first; None where nothing moves.
+
+    That is when all has come that comes within `SETTLING` of the beginning.
+
+    Args:
+        buffer: The frames.
+        begin: The first moment there is.
+        end: The last one.
+    """
+    frames = buffer.snapshot(end).frames
+    first = [info.oldest for info in frames if info.samples and not info.is_static]
+    soon = [stamp for stamp in first if stamp <= min(begin + SETTLING, end)]
+    return max([begin, *soon]) if first else None
