@@ -39,11 +39,8 @@ class CopiedPiece(Protocol):
     def length(self) -> int:
         """How many they are."""
 
-    def read(self) -> bytes:
-        """The bytes."""
-
-    def copy_to(self, file: int, place: int) -> None:
-        """Copy them to a place in the file of a number."""
+    def copy_to(self, file: int, place: int, crc: int | None = None) -> int:
+        """Copy them to a place in the file of a number, and go on with a CRC if there is one."""
 
 
 class ContainerWriter(Protocol):

@@ -7,7 +7,7 @@ import io
 import struct
 import zlib
 from array import array
-from collections.abc import Callable, Collection, Mapping
+from collections.abc import Callable, Collection, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Final
@@ -48,6 +48,7 @@ MESSAGE_HEAD: Final = struct.Struct("<BQHIQQ")
 
 _U16, _U32, _U64 = struct.Struct("<H"), struct.Struct("<I"), struct.Struct("<Q")
 _UNCHUNKED: Final = 1 << 16  # bytes that are written at a time where there are no chunks
+_LARGE_PIECE: Final = 1 << 16  # bytes from which on joining costs more than a write of its own
 _NOTHING_YET: Final = 2**64 - 1
 
 
@@ -150,7 +151,7 @@ class McapWriter:
         self.position = 0
         self._crc = 0
         self._path = path
-        self._file: io.FileIO = open(path, "wb", buffering=0)  # noqa: SIM115 -- `finish` closes it
+        self._file: io.FileIO = open(path, "wb+", buffering=0)  # noqa: SIM115 -- `finish` closes it
         self._put(MCAP_MAGIC + record(HEADER, text(profile) + text(library)))
 
     def _new_chunk(self) -> None:
@@ -297,31 +298,34 @@ class McapWriter:
         """Put the messages that wait into the file, as a chunk."""
         if not self._length:
             return
-        records = b"".join(self._pieces)
+        pieces, length = self._pieces, self._length
         indexes, low, high = self._indexes, self._chunk_low, self._chunk_high
         self._new_chunk()
         if not indexes:
             low = high = 0
         if not self._chunk_size:
-            self._put(records)
+            self._put(*pieces)
             self._count_all(indexes, low, high)
             return
-        packed = self._pack(records)
-        crc = zlib.crc32(records) if self._with_chunk_crc else 0
-        head = (
-            CHUNK_HEAD.pack(low, high, len(records), crc)
-            + text(self.method)
-            + _U64.pack(len(packed))
-        )
+        packed, crc = length, 0
+        if self.method:
+            records = b"".join(pieces)
+            pieces = [self._pack(records)]
+            packed = len(pieces[0])
+            crc = zlib.crc32(records) if self._with_chunk_crc else 0
+        elif self._with_chunk_crc:
+            for piece in pieces:
+                crc = zlib.crc32(piece, crc)
+        head = CHUNK_HEAD.pack(low, high, length, crc) + text(self.method) + _U64.pack(packed)
         place = self.position
-        parts = [RECORD.pack(CHUNK, len(head) + len(packed)), head, packed]
-        begin = behind = place + 9 + len(head) + len(packed)
+        parts = [RECORD.pack(CHUNK, len(head) + packed), head, *pieces]
+        begin = behind = place + 9 + len(head) + packed
         offsets = {}
         for channel, index in indexes.items():
             offsets[channel] = begin
             parts.append(_index_record(channel, index))
             begin += len(parts[-1])
-        self._put(b"".join(parts))
+        self._put(*parts)
         self._count_all(indexes, low, high)
         self._chunks.append(
             ChunkEntry(
@@ -332,8 +336,8 @@ class McapWriter:
                 offsets,
                 begin - behind,
                 self.method,
-                len(packed),
-                len(records),
+                packed,
+                length,
             )
         )
 
@@ -372,11 +376,9 @@ class McapWriter:
         for channel, count in counts.items():
             self._count(channel, count, entry.start, entry.end)
         self._defined.update(counts)
-        if self._with_crc:
-            self._put(piece.read())
-        else:
-            piece.copy_to(self._file.fileno(), self.position)
-            self.position = self._file.seek(self.position + piece.length)
+        before = self._crc if self._with_crc else None
+        self._crc = piece.copy_to(self._file.fileno(), self.position, before)
+        self.position = self._file.seek(self.position + piece.length)
         self._chunks.append(
             ChunkEntry(
                 entry.start,
@@ -527,14 +529,29 @@ class McapWriter:
         summary += RECORD.pack(FOOTER, 20) + struct.pack("<QQ", begin, place)
         return summary + _U32.pack(zlib.crc32(summary))
 
-    def _put(self, piece: bytes) -> None:
+    def _put(self, *pieces: bytes) -> None:
         """Append to the file, all of it or none that counts."""
-        view = memoryview(piece)
-        while view:
-            view = view[self._file.write(view) or 0 :]
+        for run in _runs(pieces):
+            view = memoryview(run)
+            while view:
+                view = view[self._file.write(view) or 0 :]
         if self._with_crc:
-            self._crc = zlib.crc32(piece, self._crc)
-        self.position += len(piece)
+            for piece in pieces:
+                self._crc = zlib.crc32(piece, self._crc)
+        self.position += sum(map(len, pieces))
+
+
+def _runs(pieces: Sequence[bytes]) -> Iterator[bytes]:
+    """Small pieces joined, so that they are written at once; large ones as they are."""
+    small: list[bytes] = []
+    for piece in pieces:
+        if len(piece) < _LARGE_PIECE:
+            small.append(piece)
+            continue
+        yield b"".join(small)
+        small.clear()
+        yield piece
+    yield b"".join(small)
 
 
 def record(code: int, body: bytes) -> bytes:
