@@ -99,8 +99,6 @@ def test_what_a_link_looks_like_is_read():
         ('name="tool"', "name='base'", "name='base'", "a link named 'base' already"),
         ('<parent link="upper"/>', '<parent link="tool"/>', None, "tool → tool"),
         ('<child link="tool"/>', "<child link='upper'/>", "link='upper'", "two parents"),
-        ('<mass value="2.5"/>', "", "<inertial", "<inertial> has no <mass>"),
-        ('<box size="1 2 3"/>', "<cone/>", None, "not <cone>"),
         ('name="arm"', "", "<robot", "the robot has no name"),
     ],
 )
@@ -119,12 +117,75 @@ def test_a_mistake_is_reported_where_it_stands(before, after, marked, told):
 
 
 def test_every_mistake_is_reported_at_once_in_the_order_of_the_file():
-    text = ARM.replace('radius="0.1"', 'radius="thin"').replace('velocity="3"', 'velocity="?"')
+    text = ARM.replace('<child link="tool"/>', '<child link="tol"/>').replace(
+        'velocity="3"', 'velocity="?"'
+    )
 
     lines = [one.line for one in refused(text).mistakes]
 
     assert lines == sorted(lines)
     assert len(lines) == 2
+
+
+@pytest.mark.parametrize(
+    ("before", "after", "place", "told"),
+    [
+        ('<mass value="2.5"/>', "", "6:5", "<inertial> has no <mass>"),
+        ('ixy="0" ', "", "8:7", "<inertia> has no ixy"),
+        ('<box size="1 2 3"/>', "<cone/>", "16:16", "not <cone>"),
+        ('radius="0.1"', 'radius="thin"', "12:27", "'thin' is not a finite number"),
+        ('xyz="0 0 0.5"', 'xyz="0 0"', "11:15", "xyz is 3 numbers, not 2"),
+        ('rgba="0.5 0.5 0.5 1"', 'rgba="grey"', "3:33", "'grey' is not a finite number"),
+    ],
+)
+def test_what_moves_no_frame_is_noted_and_left_out_as_robots_do(before, after, place, told):
+    text = ARM.replace(before, after, 1)
+    assert text != ARM
+
+    arm = parse(text, "arm.urdf")
+
+    assert list(arm.joints) == ["shoulder", "flange"]
+    (note,) = arm.notes
+    assert note.startswith(f"arm.urdf:{place}: ")
+    assert told in note
+    assert note.endswith("; left out")
+
+
+def test_a_shape_keeps_what_is_sound_of_it():
+    text = ARM.replace('<material name="steel"/>', '<material><color rgba="x"/></material>')
+
+    tube, mesh = parse(text).links["upper"].visuals
+
+    assert tube.geometry == CylinderShape(0.1, 1.0)
+    assert tube.material is None
+    assert mesh.material is None
+
+
+def test_two_materials_of_one_name_are_refused():
+    steel = '<material name="steel"><color rgba="0.5 0.5 0.5 1"/></material>'
+
+    (mistake,) = refused(ARM.replace(steel, steel * 2)).mistakes
+
+    assert "a material named 'steel' already" in mistake.text
+
+
+@pytest.mark.parametrize("first", ["\n\n", "<?xml verison='1.0'?>\n", "\n<?xml version='1.0' ?>\n"])
+def test_a_declaration_that_others_read_is_read(tmp_path, first):
+    file = tmp_path / "arm.urdf"
+    file.write_text(ARM.replace('<?xml version="1.0"?>\n', first))
+    assert load_description(file).root == "base"
+
+    file.write_text(file.read_text().replace('child link="tool"', 'child link="tol"'))
+    with pytest.raises(DescriptionError) as error:
+        load_description(file)
+
+    lines = file.read_text().split("\n")
+    (mistake,) = (one for one in error.value.mistakes if "'tol'" in one.text)
+    assert lines[mistake.line - 1][mistake.column - 1 :].startswith('link="tol"')
+
+
+def test_an_empty_name_is_taken():
+    assert parse(ARM.replace('name="arm"', 'name=""')).name == ""
 
 
 def test_several_roots_are_named_with_the_remedy():

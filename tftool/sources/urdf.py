@@ -28,6 +28,7 @@ LARGEST = 64 * 1024 * 1024
 JOINT_TYPES = ("fixed", "revolute", "continuous", "prismatic", "floating", "planar")
 
 _NUMBER = re.compile(r"[+-]?(\d+\.?\d*|\.\d+)([eE][+-]?\d+)?")
+_DECLARATION = re.compile(r"\s*<\?xml\b[^<>]*>")
 _LIMITED = ("revolute", "prismatic")
 
 
@@ -279,10 +280,21 @@ def is_xacro(text: str) -> bool:
     parser.StartElementHandler = start
     try:
         parser.StartDoctypeDeclHandler = _refuse_doctype
-        parser.Parse(text.encode("utf-8", "surrogatepass"), True)
+        parser.Parse(_without_declaration(text).encode("utf-8", "surrogatepass"), True)
     except (expat.ExpatError, _Doctype):
         return False  # the reader reports it with its place
     return found
+
+
+def _without_declaration(text: str) -> str:
+    """A text with blanks for its XML declaration, which says nothing once it is text.
+
+    One behind an empty line or with a misspelt word in it is read by everybody else.
+    """
+    found = _DECLARATION.match(text)
+    if found is None:
+        return text
+    return re.sub(r"[^\s]", " ", found.group()) + text[found.end() :]
 
 
 def parse_description(text: str, name: str = "robot_description") -> RobotDescription:
@@ -306,7 +318,7 @@ def _text_of(path: Path) -> str:
         raw = path.read_bytes()
     except OSError as error:
         raise InputError(f"cannot read '{path}': {error.strerror or error}") from error
-    declared = re.match(rb"""<\?xml[^>]*encoding=["']([\w.-]+)["']""", raw)
+    declared = re.match(rb"""\s*<\?xml[^>]*encoding=["']([\w.-]+)["']""", raw)
     encoding = declared.group(1).decode("ascii") if declared else "utf-8-sig"
     try:
         # An encoding such as "hex" is one of Python's and none of XML's.
@@ -371,7 +383,7 @@ class _Reader:
         if robot.tag != "robot":
             self._give_up(robot, f"the document is <{robot.tag}>; a description is <robot>")
         name = robot.attributes.get("name", "")
-        if not name:
+        if "name" not in robot.attributes:
             self._note(robot, "the robot has no name")
         materials = self._materials(robot)
         links: dict[str, RobotLink] = {}
@@ -414,7 +426,8 @@ class _Reader:
         parser.StartDoctypeDeclHandler = _refuse_doctype
         try:
             # utf-8 is named above, so a declaration of another encoding has no say any more.
-            parser.Parse(self.text.encode("utf-8", "surrogatepass"), True)
+            plain = _without_declaration(self.text)
+            parser.Parse(plain.encode("utf-8", "surrogatepass"), True)
         except _Doctype:
             line, column = parser.CurrentLineNumber - 1, parser.CurrentColumnNumber
             self._refuse(line, column, "a <!DOCTYPE is not allowed: take it out")
@@ -428,6 +441,23 @@ class _Reader:
         if attribute:
             line, column, width = self._attribute(element, attribute)
         self.mistakes.append(Mistake.at(self.name, self.lines, line, column, text, width=width))
+
+    @contextlib.contextmanager
+    def _left_out(self) -> Iterator[None]:
+        """Turn mistakes into notes: those that leave every frame where it is.
+
+        urdfdom reads on behind what is wrong with a link's looks or weight, so that robots run
+        with such files.
+        """
+        before, self.mistakes = self.mistakes, []
+        try:
+            with contextlib.suppress(_Unreadable):
+                yield
+        finally:
+            self.notes += [
+                f"{one.file}:{one.line}:{one.column}: {one.text}; left out" for one in self.mistakes
+            ]
+            self.mistakes = before
 
     def _attribute(self, element: _Element, attribute: str) -> tuple[int, int, int]:
         """Where an attribute's assignment stands; the element itself if it is not found."""
@@ -503,13 +533,15 @@ class _Reader:
     # Links
 
     def _materials(self, robot: _Element) -> dict[str, Surface]:
-        found = {}
+        found: dict[str, Surface] = {}
         for element in robot.all("material"):
-            try:
-                material = self._material(element)
-            except _Unreadable:
+            if element.attributes.get("name", "") in found:
+                name = element.attributes.get("name", "")
+                self._note(element, f"there is a material named '{name}' already", "name")
                 continue
-            found[material.name] = material
+            with self._left_out():
+                material = self._material(element)
+                found[material.name] = material
         return found
 
     def _material(self, element: _Element) -> Surface:
@@ -532,7 +564,7 @@ class _Reader:
         mass = None
         inertial = element.first("inertial")
         if inertial is not None:
-            with contextlib.suppress(_Unreadable):
+            with self._left_out():
                 mass = self._mass(inertial)
         return RobotLink(name, visuals, collisions, mass)
 
@@ -554,10 +586,8 @@ class _Reader:
     ) -> tuple[LinkShape, ...]:
         shapes = []
         for element in link.all(tag):
-            try:
+            with self._left_out():
                 shapes.append(self._shape(element, materials))
-            except _Unreadable:
-                continue
         return tuple(shapes)
 
     def _shape(self, element: _Element, materials: Mapping[str, Surface]) -> LinkShape:
@@ -569,8 +599,9 @@ class _Reader:
         named = element.first("material")
         material = None
         if named is not None:
-            material = self._material(named)
-            if material.color is None and not material.texture:
+            with self._left_out():
+                material = self._material(named)
+            if material is not None and material.color is None and not material.texture:
                 material = materials.get(material.name, material)
         name = element.attributes.get("name", "")
         return LinkShape(name, origin, self._geometry(geometry), material)
