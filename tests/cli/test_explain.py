@@ -47,3 +47,44 @@ def test_what_cannot_be_asked_is_refused(tftool, words, status, told):
     result = tftool("explain", *words)
     assert result.status == status
     assert told in result.err
+
+
+ARM = """<robot name="arm"><link name="base"/><link name="tool"/><link name="ball"/>
+  <joint name="turn" type="continuous"><parent link="base"/><child link="tool"/></joint>
+  <joint name="free" type="floating"><parent link="tool"/><child link="ball"/></joint>
+</robot>"""
+
+
+@pytest.fixture
+def arm(tmp_path):
+    path = tmp_path / "arm.urdf"
+    path.write_text(ARM)
+    return str(path)
+
+
+def test_a_description_is_explained_joint_by_joint(tftool, arm):
+    result = tftool("explain", "base", "tool", arm, "--joint", "turn=90deg")
+    assert result.status == 0
+    assert result.out.startswith("tool in base: answers\n")
+    assert "1.571 rad" in result.out
+
+    refused = tftool("explain", "base", "ball", arm)
+    assert refused.status == 4
+    assert "REFUSES: its pose is not known" in refused.out
+
+
+def test_programs_get_the_joints_of_a_description(tftool, arm):
+    found = json.loads(tftool("explain", "base", "ball", arm, "--json").out)
+    assert found["schema"] == "tftool.explain/1"
+    assert found["available"] is False
+    assert found["refusing"] == ["tool", "ball"]
+    assert [link["joint"] for link in found["links"]] == ["free", "turn"]
+
+
+def test_what_a_description_has_not_is_refused(tftool, arm):
+    result = tftool("explain", "base", "tool", arm, "--message", "/scan")
+    assert result.status == 2
+    assert "leave out --message" in result.err
+    result = tftool("explain", "turtle1", "turtle2", "turtles", "--joint", "turn=1")
+    assert result.status == 2
+    assert "leave out --joint turn=1" in result.err

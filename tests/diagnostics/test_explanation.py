@@ -250,3 +250,27 @@ def test_a_question_for_the_latest_is_one_for_the_last_moment_in_common():
     assert found.links[0].verdict is LinkVerdict.BACKWARD
     assert found.links[0].short_by == seconds(3.02)
     assert found.cause is Cause.BEFORE_START
+
+
+@pytest.mark.parametrize(
+    ("joint", "joints", "told"),
+    [
+        ('type="continuous"', frozenset(), "no joint state names 'lift'"),
+        ('type="continuous"', frozenset({"lift"}), "robot_state_publisher was not heard"),
+        ('type="fixed"', None, "which is fixed: robot_state_publisher was not heard"),
+        ('type="floating"', None, "which is floating: robot_state_publisher skips it"),
+    ],
+)
+def test_a_link_that_only_the_description_has_is_told_with_its_joint(joint, joints, told):
+    made = robot(odometry=False, scans=False)
+    made.moving("odom", "base_link", hz=20)
+    made.urdf = (
+        '<robot name="r"><link name="base_link"/><link name="fork"/>'
+        f'<joint name="lift" {joint}><parent link="base_link"/><child link="fork"/></joint></robot>'
+    )
+    made.joints = joints
+
+    found = asked(made, "odom", "fork", 4)
+
+    assert found.cause is Cause.UNKNOWN_FRAME
+    assert any("in base_link by joint 'lift'" in why and told in why for why in found.why)

@@ -65,7 +65,7 @@ ALONE = ("check", "convert", "edit", "help", "new")
 """Commands that share no session."""
 
 
-DESCRIBING = ("echo", "tree", "view", "info", "robot", "export", "diff")
+DESCRIBING = ("echo", "tree", "view", "info", "robot", "export", "diff", "explain")
 """Commands whose FROM may be a robot description."""
 
 

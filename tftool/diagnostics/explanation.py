@@ -601,11 +601,31 @@ def _misnamed(trace: _Trace) -> _Told | None:
     return None
 
 
+def _described(model: Model, name: str) -> str | None:
+    """Why tf lacks a link that the robot's description has; None if it has none of that name."""
+    robot, states = model.material.robot, model.material.joints
+    if robot is None or name not in robot.links or name == robot.root:
+        return None
+    joint = robot.joint_above(name)
+    told = f"the robot's description has it, in {joint.parent} by joint '{joint.name}'"
+    if joint.type == "floating":
+        return f"{told}, which is floating: robot_state_publisher skips it"
+    if not joint.moves:
+        return f"{told}, which is fixed: robot_state_publisher was not heard"
+    leader = robot.leader(joint.name, states or ())
+    if states is None or leader not in states:
+        return f"{told}, whose position is not known: no joint state names '{leader}'"
+    return f"{told}, and joint states say where that is: robot_state_publisher was not heard"
+
+
 def _unknown(trace: _Trace, name: str) -> _Told:
     model = trace.model
     says = {heard.topic: len(heard.stamps) for heard in model.heard if heard.frame == name}
     why = [f"no transform names {name}"]
     why += [f"{topic} says it, {count:,} times" for topic, count in says.items()]
+    described = _described(model, name)
+    if described is not None:
+        return _Told(Cause.UNKNOWN_FRAME, (*why, described))
     alike = alike_frames(model, name)
     remedies = []
     if alike:

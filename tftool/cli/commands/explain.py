@@ -2,7 +2,7 @@
 
 import json
 import sys
-from typing import Annotated
+from typing import TYPE_CHECKING, Annotated
 
 import typer
 
@@ -21,6 +21,9 @@ from tftool.cli.options import (
 )
 from tftool.errors import UsageError
 from tftool.stamps import LATEST, Duration, seconds
+
+if TYPE_CHECKING:
+    from tftool.sources.find import Found
 
 
 def explain(
@@ -63,13 +66,26 @@ def explain(
 
     tftool explain odom base_scan run.mcap --message /scan@4.25
     tftool explain map base_link run.mcap --at 12.5 --cache-time 5
+    tftool explain base_link tool0 robot.urdf --joint elbow=0.5
     """
     # Heavy imports wait until this command is the chosen one.
     from tftool.cli.examining import LIVE, material_of
+    from tftool.cli.hosting import named
     from tftool.cli.printing import write
     from tftool.diagnostics.explanation import Question, message_of, over_time, traced
     from tftool.diagnostics.model import Model, Settings
+    from tftool.sources.find import Kind
     from tftool.views import explanation as view
+
+    origin = None if place is None else named(place)
+    if origin is not None and origin.kind is Kind.DESCRIPTION:
+        if message or asked_at is not None:
+            raise UsageError(
+                "A robot description holds at all times and has no messages: leave out --message "
+                "and --asked-at."
+            )
+        return _described(connection, origin, target, source, for_programs=for_programs)
+    connection.robot.refuse("Only a robot description has joints to set and arguments")
 
     topic, _, behind = message.partition("@")
     if behind and at is not None:
@@ -99,3 +115,22 @@ def explain(
     else:
         write(view.render(found))
     return ExitStatus.DONE if found.available else ExitStatus.NO_TRANSFORM
+
+
+def _described(
+    connection: Connection, found: "Found", target: str, source: str, *, for_programs: bool
+) -> ExitStatus:
+    """The same in a robot description, joint by joint."""
+    from tftool.cli.described import load_described, tell_beyond
+    from tftool.cli.printing import write
+    from tftool.diagnostics.chain import chained
+    from tftool.views import chain as view
+
+    robot = load_described(found, connection.robot)
+    told = chained(robot, connection.robot.joints, target, source, found.name)
+    tell_beyond(robot, connection.robot.joints)
+    if for_programs:
+        sys.stdout.write(json.dumps(view.as_object(told), indent=2, allow_nan=False) + "\n")
+    else:
+        write(view.render(told))
+    return ExitStatus.DONE if told.available else ExitStatus.NO_TRANSFORM
