@@ -1,11 +1,13 @@
 """`tftool export`, read back by others: numpy, pyarrow, evo, our own readers and tf2's rules."""
 
 import csv
+import errno
 import os
 import signal
 import subprocess
 import sys
 from importlib.util import find_spec
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -13,6 +15,7 @@ from scipy.spatial.transform import Rotation
 
 import tftool as library
 from tftool import Buffer, Transform, TransformStamped, seconds
+from tftool.errors import InputError
 from tftool.geometry.conversions import quaternion_from_rpy
 from tftool.sinks.digits import BLOCK
 
@@ -75,6 +78,39 @@ def test_kitti_is_a_matrix_a_row_and_its_stamps_are_beside_it(tftool, run, wante
     times = (tmp_path / "run_times.txt").read_text().split()
     assert np.allclose(rows, wanted.matrices()[:, :3], rtol=0, atol=1e-9)
     assert times[1] == "1700000000.007000001"
+
+
+@pytest.mark.parametrize("broken", ["run.kitti", "run_times.txt"])
+@pytest.mark.parametrize("before", [False, True])
+def test_the_two_files_of_kitti_come_together_or_not_at_all(
+    buffer, tmp_path, monkeypatch, broken, before
+):
+    names = {"run.kitti": "old poses", "run_times.txt": "old times"} if before else {}
+    for name, text in names.items():
+        (tmp_path / name).write_text(text)
+    rename = os.rename
+
+    def full(old, new, *more, **others):
+        if Path(new) == tmp_path / broken and Path(old).name.endswith(".part"):
+            raise OSError(errno.EIO, "input/output error")
+        rename(old, new, *more, **others)
+
+    monkeypatch.setattr(os, "rename", full)
+    with pytest.raises(InputError, match="cannot be written"):
+        library.export(buffer, tmp_path / "run.kitti", "odom", "camera", force=before)
+
+    assert {one.name: one.read_text() for one in tmp_path.iterdir()} == names
+
+
+def test_the_two_files_of_kitti_replace_those_of_before(buffer, wanted, tmp_path):
+    for name in ("run.kitti", "run_times.txt"):
+        (tmp_path / name).write_text("old")
+
+    library.export(buffer, tmp_path / "run.kitti", "odom", "camera", force=True)
+
+    assert sorted(one.name for one in tmp_path.iterdir()) == ["run.kitti", "run_times.txt"]
+    assert len((tmp_path / "run.kitti").read_text().splitlines()) == len(wanted)
+    assert len((tmp_path / "run_times.txt").read_text().splitlines()) == len(wanted)
 
 
 def test_euroc_has_w_first(tftool, run, wanted, tmp_path):

@@ -7,7 +7,7 @@ Stamps are whole nanoseconds all the way, and written as such: a float of second
 import csv
 import io
 from collections.abc import Callable, Iterator, Sequence
-from contextlib import contextmanager
+from contextlib import ExitStack, contextmanager
 from pathlib import Path
 from typing import BinaryIO, Final
 
@@ -18,7 +18,7 @@ from tftool.frames.batch.arrays import TransformArray
 from tftool.geometry import batch
 from tftool.sinks import digits
 from tftool.sources.contract import SIMULATED_BELOW, Progress
-from tftool.sources.writing.target import Target, failed
+from tftool.sources.writing.target import Target, commit_together, failed
 from tftool.trajectories.sampling import Trajectory
 
 CSV_COLUMNS: Final = ("stamp_ns", "x_m", "y_m", "z_m", "qx", "qy", "qz", "qw")
@@ -49,6 +49,35 @@ def whole_file(path: Path, *, force: bool = False) -> Iterator[BinaryIO]:
             raise failed(path, error) from error
 
 
+@contextmanager
+def whole_files(*paths: Path, force: bool = False) -> Iterator[list[BinaryIO]]:
+    """The same of several that belong together: all of them come to their names, or none.
+
+    Args:
+        paths: What they are called; the last is that by which the others are found.
+        force: Whether they may replace what has those names.
+
+    Raises:
+        UsageError: If something has one of the names and `force` is not given.
+        InputError: If one cannot be written.
+    """
+    targets: list[Target] = []
+    try:
+        for path in paths:
+            # Those made before one fails are discarded.
+            targets.append(Target(path, force=force))  # noqa: PERF401
+        try:
+            with ExitStack() as stack:
+                yield [stack.enter_context(target.part.open("wb")) for target in targets]
+        except OSError as error:
+            raise failed(paths[-1], error) from error
+        commit_together(targets)
+    except BaseException:
+        for target in targets:
+            target.discard()
+        raise
+
+
 def write_tum(
     found: Trajectory, path: Path, *, decimals: int, force: bool, progress: Progress | None
 ) -> None:
@@ -65,12 +94,14 @@ def write_kitti(
 ) -> Path:
     """The upper three rows of the matrix, a line a pose; the stamps in a file beside it.
 
+    Both come to their names together, the poses last.
+
     Returns:
         The file of the stamps.
     """
     times = path.with_name(f"{path.stem}_times.txt")
     rows = found.answered()
-    with whole_file(times, force=force) as beside, whole_file(path, force=force) as file:
+    with whole_files(times, path, force=force) as (beside, file):
         write = _writer(file, rows, decimals, progress)
         for block in _blocks(rows):
             matrices = batch.matrices(block.translations, block.rotations)

@@ -8,6 +8,7 @@ import errno
 import os
 import shutil
 import tempfile
+from collections.abc import Sequence
 from contextlib import suppress
 from pathlib import Path
 from types import TracebackType
@@ -117,6 +118,46 @@ class Target:
 
     def _clear(self) -> None:
         remove(self.part)
+
+
+def commit_together(targets: Sequence[Target]) -> None:
+    """Bring files that belong together to their names: all of them, or none.
+
+    The last is the one by which the others are found. It comes to its name last, and what it
+    replaces goes first: whenever a process ends, it never stands beside what is not its own.
+    What is replaced waits under a hidden name until all is done.
+
+    Raises:
+        InputError: If that fails; the names are what they were before.
+    """
+    held: list[tuple[Path, Path]] = []
+    done: list[Path] = []
+    path = targets[-1].path
+    try:
+        for target in targets:
+            synced(target.part)
+        for target in reversed(targets):
+            if os.path.lexists(target.path):
+                folder = Path(tempfile.mkdtemp(prefix=f".{target.path.name}.", dir=path.parent))
+                held.append((folder / target.path.name, target.path))
+                target.path.rename(held[-1][0])
+        for target in targets:
+            path = target.path
+            target.part.rename(path)
+            done.append(path)
+        synced(path.parent)
+    except BaseException as error:
+        for one in reversed(done):
+            remove(one)
+        for old, name in reversed(held):
+            if os.path.lexists(old):
+                old.rename(name)
+            remove(old.parent)
+        if isinstance(error, OSError):
+            raise failed(path, error) from error
+        raise
+    for old, _ in held:
+        remove(old.parent)
 
 
 def remove(path: Path) -> None:
