@@ -13,7 +13,7 @@ from tftool.screens.panels import Hint
 from tftool.screens.scene import Pair, SceneMoment
 from tftool.stamps import seconds
 from tftool.views import theme
-from tftool.views.canvas import FieldPicture
+from tftool.views.plane import PlanePicture
 
 NASTY = ["[bold]x[/]", "\x1b[31mred", "a\nb", "x" * 500, "שלום", "🐢🐢", "\u202eevil"]
 PLAIN = Look()
@@ -46,7 +46,7 @@ def moment(*frames, ages=None, pair=None, behind=0):
         elapsed=seconds(10),
         snapshot=snapshot,
         ages=ages or {},
-        picture=FieldPicture(),
+        picture=PlanePicture(),
         pair=pair or Pair("turtle2", "turtle1"),
     )
 

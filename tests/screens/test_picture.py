@@ -48,7 +48,18 @@ def test_the_picture_in_the_readme_is_this_screen(scene):
 
     assert PICTURE.read_text(encoding="utf-8").startswith("<svg")
     text = re.sub(r"<[^>]+>", "", svg).replace("&#160;", " ")
-    for there in ("Field", "Tree", "Echo", "Log", "turtle1", "turtle2", "62.6", "live", "drive"):
+    for there in (
+        "Frames",
+        "world",
+        "Tree",
+        "Echo",
+        "Log",
+        "turtle1",
+        "turtle2",
+        "62.6",
+        "live",
+        "drive",
+    ):
         assert there in text
     assert "⣀" in text or "⠤" in text
     assert len(svg.encode()) < 300_000

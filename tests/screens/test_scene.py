@@ -8,8 +8,10 @@ from tftool.geometry.rigid import Transform
 from tftool.messages import Clear, Color
 from tftool.runtime.clock import run
 from tftool.runtime.node import Node
+from tftool.screens import frames_seen
 from tftool.screens.scene import Scene
 from tftool.stamps import seconds
+from tftool.views import theme
 
 
 class At(Node):
@@ -32,14 +34,18 @@ def test_the_present_is_what_the_simulator_and_the_buffer_say(danced):
     moment = danced.moment(None, "turtle2", "turtle1")
 
     poses = {name: turtle.pose for name, turtle in danced.simulator.turtles.items()}
+    frames = {one.name: one for one in moment.picture.frames}
     assert moment.stamp == now
     assert moment.behind == 0
     assert moment.elapsed == seconds(14)
-    assert {t.name: (t.x, t.y, t.theta) for t in moment.picture.turtles} == {
-        name: (pose.x, pose.y, pose.theta) for name, pose in poses.items()
-    }
+    assert moment.picture.fixed == "world"
+    for name, pose in poses.items():
+        shown = frames[name]
+        assert shown.is_turtle
+        assert (shown.x, shown.y) == pytest.approx((pose.x, pose.y), abs=1e-12)
+        assert math.remainder(shown.theta - pose.theta, math.tau) == pytest.approx(0, abs=1e-9)
     assert moment.pair.found == danced.world.buffer.lookup_transform("turtle2", "turtle1")
-    assert moment.picture.strokes[-1] == danced.simulator.trail.segments[-1]
+    assert moment.picture.pen.strokes[-1] == danced.simulator.trail.segments[-1]
 
 
 def test_an_earlier_moment_is_what_the_buffer_remembers(danced):
@@ -49,7 +55,7 @@ def test_an_earlier_moment_is_what_the_buffer_remembers(danced):
 
     lookup = danced.world.buffer.lookup_transform
     there = lookup("world", "turtle1", at).transform
-    shown = moment.picture.turtles[0]
+    shown = next(one for one in moment.picture.frames if one.name == "turtle1")
     assert (shown.x, shown.y) == pytest.approx(there.translation[:2], abs=1e-12)
     assert shown.theta == pytest.approx(heading(there), abs=1e-12)
     assert moment.pair.found == lookup("turtle2", "turtle1", at)
@@ -62,12 +68,15 @@ def test_an_earlier_trail_ends_where_its_turtle_was(danced):
     moment = danced.moment(at, "turtle2", "turtle1")
 
     ends = [
-        min(math.hypot(x1 - t.x, y1 - t.y) for _, _, x1, y1, _, _ in moment.picture.strokes[-6:])
-        for t in moment.picture.turtles
+        min(
+            math.hypot(x1 - t.x, y1 - t.y) for _, _, x1, y1, _, _ in moment.picture.pen.strokes[-6:]
+        )
+        for t in moment.picture.frames
+        if t.is_turtle
     ]
     # As far as a turtle comes between two looks.
     assert max(ends) < 0.15
-    assert len(moment.picture.strokes) < len(danced.simulator.trail.segments)
+    assert len(moment.picture.pen.strokes) < len(danced.simulator.trail.segments)
 
 
 def test_one_can_go_back_as_far_as_the_buffer_reaches(danced):
@@ -112,12 +121,12 @@ def test_a_wiped_trail_can_be_gone_back_to(turtles):
     scene = turtles(8.0, ((1.0, "up"),), followed=False, extra=lambda world: At(world, 5, _clear))
     now = scene.world.clock.now()
 
-    after = scene.moment(None, "world", "turtle1").picture
-    before = scene.moment(now - seconds(4), "world", "turtle1").picture
+    after = scene.moment(None, "world", "turtle1").picture.pen
+    before = scene.moment(now - seconds(4), "world", "turtle1").picture.pen
 
-    assert (len(after.strokes), after.wipes) == (0, 1)
+    assert (len(after.strokes), after.edition) == (0, 1)
     assert len(before.strokes) == 63
-    assert before.wipes == 0
+    assert before.edition == 0
 
 
 def _clear(world):
@@ -127,7 +136,7 @@ def _clear(world):
 def test_a_wiped_trail_is_forgotten_with_the_buffer(turtles):
     scene = turtles(16.0, ((1.0, "up"),), followed=False, extra=lambda world: At(world, 5, _clear))
 
-    assert scene.moment(scene.oldest(), "world", "turtle1").picture.wipes == 1
+    assert scene.moment(scene.oldest(), "world", "turtle1").picture.pen.edition == 1
 
 
 @pytest.mark.parametrize(
@@ -139,11 +148,11 @@ def test_a_wall_lights_up_while_a_turtle_runs_into_it(turtles, key, side):
     pushing = turtles(9.4, ((0.5, key), *ups), followed=False)
     done = turtles(12.0, ((0.5, key), *ups), followed=False)
 
-    assert pushing.moment(None, "", "").picture.walls == {side}
-    assert done.moment(None, "", "").picture.walls == frozenset()
+    assert pushing.moment(None, "", "").picture.field.walls == {side}
+    assert done.moment(None, "", "").picture.field.walls == frozenset()
 
 
-def test_other_frames_are_marks_until_they_are_dead(turtles):
+def test_other_frames_stand_in_the_same_picture(turtles):
     def carrot(world):
         pose = Transform((0.0, 2.0, 0.0))
         world.broadcast(
@@ -152,42 +161,137 @@ def test_other_frames_are_marks_until_they_are_dead(turtles):
 
     scene = turtles(2.0, (), followed=False, extra=lambda world: At(world, 1, carrot))
 
-    (mark,) = scene.moment(None, "", "").picture.marks
-    assert mark.name == "carrot1"
-    assert (mark.x, mark.y) == pytest.approx((5.544445, 7.544445), abs=1e-6)
+    frames = {one.name: one for one in scene.moment(None, "", "").picture.frames}
+    assert set(frames) == {"world", "turtle1", "carrot1"}
+    assert (frames["carrot1"].x, frames["carrot1"].y) == pytest.approx((5.544445, 7.544445))
+    assert frames["carrot1"].parent == pytest.approx((5.544445, 5.544445))
+    assert not frames["carrot1"].is_turtle
 
 
-def test_without_a_simulator_the_view_fits_the_frames_and_only_grows(frames):
-    scene = frames({"base": ("map", -3.0, 1.0), "laser": ("base", 0.5, 0.0)})
+def test_every_frame_stands_where_a_lookup_in_the_fixed_frame_says(danced):
+    """Whichever frame is fixed, and then and now."""
+    buffer = danced.world.buffer
+    past = danced.world.clock.now() - seconds(2.7)
 
-    first = scene.moment(None, "map", "laser").picture
+    for fixed in ("world", "turtle1", "turtle2"):
+        for at in (None, past):
+            picture = danced.moment(at, "turtle2", "turtle1", fixed).picture
+            assert picture.fixed == fixed
+            assert {one.name for one in picture.frames} == {"world", "turtle1", "turtle2"}
+            for one in picture.frames:
+                there = buffer.lookup_transform(fixed, one.name, at or 0).transform
+                assert (one.x, one.y) == pytest.approx(there.translation[:2], abs=1e-9)
+                ahead = there.rotate((1.0, 0.0, 0.0))
+                assert one.axes[0] == pytest.approx(ahead[:2], abs=1e-9)
+
+
+def test_the_field_lies_where_its_frame_lies(danced):
+    picture = danced.moment(None, "turtle2", "turtle1", "turtle1").picture
+
+    there = danced.world.buffer.lookup_transform("turtle1", "world").transform
+    corner = there.apply((11.088889122009277, 0.0, 0.0))
+    assert (picture.field.x, picture.field.y) == pytest.approx(there.translation[:2], abs=1e-9)
+    assert picture.field.corners()[1] == pytest.approx(corner[:2], abs=1e-9)
+
+
+def test_without_a_choice_the_picture_is_in_the_root_of_the_pairs_tree(frames):
+    scene = frames({"a": ("one", 1, 0), "b": ("two", 0, 2), "c": ("two", 1, 1)})
+
+    def fixed(target, source, chosen=""):
+        return scene.moment(None, target, source, chosen).picture.fixed
+
+    assert fixed("one", "a") == "one"
+    assert fixed("b", "c") == "two"
+    assert fixed("a", "b") == "two"
+    assert fixed("a", "b", "a") == "a"
+    assert fixed("a", "b", "gone") == "two"
+    assert frames({}).moment(None, "", "").picture.fixed == ""
+
+
+def test_trees_that_nothing_joins_are_apart(frames):
+    scene = frames({"a": ("one", 1, 0), "b": ("two", 0, 2), "c": ("two", 1, 1)})
+
+    picture = scene.moment(None, "two", "b").picture
+
+    assert {one.name for one in picture.frames} == {"two", "b", "c"}
+    (other,) = picture.apart
+    assert other.fixed == "one"
+    assert {(one.name, one.x, one.y) for one in other.frames} == {("one", 0, 0), ("a", 1, 0)}
+
+
+def test_two_trees_that_are_joined_are_one_picture_that_agrees_with_the_lookup():
+    from tftool.cli.hosting import left_to_a_person, scenario_named
+    from tftool.cli.onscreen import simulator_of
+    from tftool.runtime.clock import SimClock
+    from tftool.scenario.play import build
+
+    play = build(left_to_a_person(scenario_named("two_trees")), SimClock())
+    scene = Scene(play.world, simulator_of(play.world))
+    run(play.world.clock, play.live(play.world.clock.now() + seconds(10)))
     scene.look()
 
-    assert {mark.name: (mark.x, mark.y) for mark in first.marks} == {
-        "map": (0.0, 0.0),
-        "base": (-3.0, 1.0),
-        "laser": (-2.5, 1.0),
-    }
-    assert (first.left, first.bottom, first.size) == (-4.0, -1.0, 5.0)
+    picture = scene.moment(None, "turtle2", "turtle1").picture
 
-    far = TransformStamped(seconds(1000), "map", "far", Transform((9.0, 0.0, 0.0)))
-    scene.world.broadcast([far], "me", static=True)
-    grown = scene.moment(None, "map", "laser").picture
-
-    assert (grown.left, grown.size) == (-4.0, 14.0)
-    assert scene.moment(None, "map", "laser").picture == grown
+    # What the scenario expects of the frames: 10 m from map to world, the turtle in the centre.
+    places = {one.name: (one.x, one.y) for one in picture.frames}
+    assert picture.fixed == "map"
+    assert places["turtle1"] == pytest.approx((15.544445, 5.544445))
+    assert places["world"] == pytest.approx((10.0, 0.0))
+    assert places["station"] == pytest.approx((1.0, 2.0))
+    assert (picture.field.x, picture.field.y) == pytest.approx((10.0, 0.0))
+    assert picture.apart == ()
 
 
-@pytest.mark.parametrize("x", [math.inf, 1e9])
-def test_a_frame_far_beyond_the_map_is_not_drawn(frames, x):
+class Circling(Node):
+    """Broadcasts a frame on a circle of two metres, a turn in four seconds."""
+
+    async def run(self):
+        async for now in self.every(seconds(0.05)):
+            angle = math.tau * (now - self.clock.epoch) / seconds(4)
+            place = (2.0 * math.cos(angle), 2.0 * math.sin(angle), 0.0)
+            self.broadcast(TransformStamped(now, "map", "drone", Transform(place)))
+
+
+def test_a_frame_that_moves_leaves_a_trail_by_lookup(turtles):
+    scene = turtles(6.0, (), followed=False, extra=lambda world: Circling(world, "circling"))
+
+    live = scene.moment(None, "map", "drone").picture.trails
+    earlier = scene.moment(scene.world.clock.now() - seconds(3), "map", "drone").picture.trails
+    own = scene.moment(None, "map", "drone", "drone").picture
+
+    ends = [stroke[2:4] for stroke in live.strokes]
+    assert len(ends) > 50
+    assert [math.hypot(x, y) for x, y in ends] == pytest.approx([2.0] * len(ends), abs=0.01)
+    assert live.box == pytest.approx((-2, -2, 2, 2), abs=0.02)
+    assert len(earlier.strokes) < len(ends) - 25
+    # Seen from itself it stands still, and map goes round.
+    assert {stroke[4] for stroke in own.trails.strokes} == {theme.of_name("map")}
+
+
+def test_what_is_bolted_to_a_frame_has_no_trail_of_its_own(frames):
+    scene = frames({"arm": ("base", 1.0, 0.0)})
+    for second in range(1000, 1003):
+        place = Transform((float(second), 0.0, 0.0))
+        scene.world.broadcast([TransformStamped(seconds(second), "map", "base", place)], "me")
+
+    snapshot = scene.world.buffer.snapshot(seconds(1003))
+
+    assert frames_seen.moving(snapshot, "map") == ["base"]
+    assert frames_seen.moving(snapshot, "arm") == ["base", "map"]
+
+
+@pytest.mark.parametrize("x", [math.inf, 1e12])
+def test_a_frame_far_beyond_the_map_is_said_and_not_drawn(frames, x):
     scene = frames({"a": ("map", 1.0, 1.0), "b": ("map", 0.0, 0.0)})
     far = TransformStamped(seconds(1000), "map", "b", Transform((x, 0.0, 0.0)))
     scene.world.broadcast([far], "me", static=True)
 
-    names = {mark.name for mark in scene.moment(None, "map", "a").picture.marks}
+    picture = scene.moment(None, "map", "a").picture
 
+    names = [one.name for one in picture.frames]
     assert "a" in names
-    assert "b" not in names or math.isinf(x)
+    assert "b" not in names
+    assert picture.nowhere == ("b",)
 
 
 def test_age_counts_from_when_a_stamp_last_changed(turtles):
@@ -232,7 +336,7 @@ def test_the_background_is_the_simulators(turtles):
 
     scene = turtles(2.0, (), followed=False, extra=lambda world: At(world, 1, paint))
 
-    assert scene.moment(None, "", "").picture.background == Color(1, 86, 255)
+    assert scene.moment(None, "", "").picture.field.color == Color(1, 86, 255)
 
 
 def test_looking_costs_a_bounded_memory(turtles):
@@ -245,4 +349,4 @@ def test_a_scene_can_begin_before_its_world(turtles):
     scene = turtles(1.0, (), followed=False)
     fresh = Scene(scene.world, scene.simulator)
 
-    assert fresh.moment(None, "", "").picture.turtles == ()
+    assert fresh.moment(None, "", "").picture.field is None

@@ -58,7 +58,7 @@ def test_the_demo_shows_turtle2_reaching_turtle1_and_obeys_the_keys(terminal, wi
     demo = terminal(width, height, *DEMO, "--rate", "8")
 
     screen = demo.until(lambda text: apart(text) is not None, "a distance")
-    assert "Field" in screen
+    assert "Frames in" in screen
     assert "├─ turtle1" in screen
     assert all(len(line) <= width for line in screen.splitlines())
 
@@ -157,7 +157,7 @@ def test_teleop_says_its_banner_and_drives(terminal):
     teleop = terminal(100, 30, "-m", "tftool", "teleop")
     screen = teleop.shows("'q' to quit.")
     assert "Use arrow keys to move the turtle." in screen
-    teleop.until(lambda text: "turtle1" in text and "Field" in text, "the field")
+    teleop.until(lambda text: "turtle1" in text and "Frames" in text, "the field")
 
     teleop.press("Up")
     teleop.until(lambda text: re.search("[⠁-⣿]{6}", text), "a trail")

@@ -1,4 +1,3 @@
-import io
 import math
 from itertools import pairwise
 
@@ -6,19 +5,19 @@ import pytest
 from hypothesis import example, given
 from hypothesis import strategies as st
 from rich.cells import cell_len
-from rich.console import Console
 
 from tftool.messages import Color
 from tftool.views import canvas, sprites, theme
-from tftool.views.canvas import (
+from tftool.views.canvas import Canvas
+from tftool.views.plane import (
     EDGE,
-    Canvas,
-    DrawnTurtle,
-    FieldPicture,
-    FieldView,
-    Mark,
-    fit,
-    framed,
+    Drawn,
+    PlaneFrame,
+    PlanePicture,
+    TurtleField,
+    Viewport,
+    fitted_view,
+    grid_step,
 )
 
 PEN = theme.PEN
@@ -29,22 +28,44 @@ def words(lines):
     return ["".join(segment.text for segment in line) for line in lines]
 
 
-def draw(picture, rows=16, **how):
-    return Canvas(2 * rows, rows, **how).lines(picture)
+def view(rows, size=EDGE, left=0.0, bottom=0.0):
+    return Viewport(left, bottom, size / rows)
+
+
+def draw(picture, rows=16, size=EDGE, **how):
+    return Canvas(2 * rows, rows, scaled=False, **how).lines(picture, view(rows, size))
+
+
+def turtle(name, x, y, theta=0.0, **how):
+    """A turtle without a frame, so that nothing but its sprite and name is drawn."""
+    ahead = ((math.cos(theta), math.sin(theta)),)
+    return PlaneFrame(name, x, y, ahead, is_turtle=True, is_frame=False, **how)
+
+
+def sheet(*turtles, strokes=(), **how):
+    """The turtles' field with a drawing on it."""
+    pen = Drawn(strokes, how.pop("forgotten", 0), how.pop("edition", 0))
+    field = TurtleField(**how)
+    return PlanePicture("world", turtles, field=field, pen=pen)
 
 
 def stroke(x0, y0, x1, y1, color=PEN, width=3):
     return (x0, y0, x1, y1, color, width)
 
 
-def dotted(lines):
-    """The (column, row) of every cell with a piece of trail in it."""
-    return {
-        (column, row)
-        for row, text in enumerate(words(lines))
-        for column, sign in enumerate(text)
-        if "\u2801" <= sign <= "\u28ff"
-    }
+def dotted(lines, color=PEN):
+    """The (column, row) of every cell with a piece of trail of that colour in it."""
+    named = theme.hexadecimal(color)
+    found = set()
+    for row, line in enumerate(lines):
+        column = 0
+        for segment in line:
+            ink = segment.style.color if segment.style else None
+            for sign in segment.text:
+                if "\u2801" <= sign <= "\u28ff" and ink is not None and ink.name == named:
+                    found.add((column, row))
+                column += cell_len(sign)
+    return found
 
 
 def style_at(lines, column, row):
@@ -55,52 +76,50 @@ def style_at(lines, column, row):
     raise AssertionError("beyond the line")
 
 
-@pytest.mark.parametrize(
-    ("width", "height"), [(80, 20), (40, 60), (41, 60), (3, 9), (1, 1), (0, 0)]
-)
-def test_the_field_is_square_on_cells_twice_as_high_as_wide(width, height):
-    columns, rows = fit(width, height)
-
-    assert columns == 2 * rows
-    assert columns <= width
-    assert rows <= height
-    assert columns + 2 > width or rows + 1 > height
-
-
-@example(7, 2, [("\U000101fd0", 5.0, 0.0, 0.0), ("\u0301", 0.0, 0.0, 0.0)], [], False)
+@example(7, 2, [("\U000101fd0", 5.0, 0.0, 0.0), ("\u0301", 0.0, 0.0, 0.0)], [], False, True)
 @given(
-    st.integers(0, 40),
+    st.integers(0, 50),
     st.integers(0, 20),
     st.lists(
         st.tuples(st.text(max_size=12), *[st.floats(-3.0, 15.0)] * 2, st.floats()), max_size=4
     ),
     st.lists(st.tuples(*[st.floats()] * 4), max_size=4),
     st.booleans(),
+    st.booleans(),
 )
 def test_whatever_there_is_every_line_is_exactly_as_wide_as_asked(
-    columns, rows, turtles, trail, ascii_only
+    columns, rows, frames, trail, ascii_only, are_turtles
 ):
-    picture = FieldPicture(
-        turtles=tuple(
-            DrawnTurtle(name, x, y, theta if math.isfinite(theta) else 0.0)
-            for name, x, y, theta in turtles
-        ),
-        strokes=tuple(stroke(*ends) for ends in trail),
-        walls=frozenset({"left", "top"}),
+    frames = tuple(
+        PlaneFrame(
+            name,
+            x,
+            y,
+            ((math.cos(theta), math.sin(theta)), (-math.sin(theta), math.cos(theta)))
+            if math.isfinite(theta)
+            else ((1.0, 0.0), (0.0, 1.0)),
+            parent=(1.0, 2.0),
+            is_turtle=are_turtles,
+        )
+        for name, x, y, theta in frames
     )
+    drawn = Drawn(tuple(stroke(*ends) for ends in trail))
+    field = TurtleField(walls=frozenset({"left", "top"}))
+    picture = PlanePicture("f", frames, field=field, pen=drawn, trails=drawn)
 
-    lines = Canvas(columns, rows, ascii_only=ascii_only).lines(picture)
+    drawing = Canvas(columns, rows, ascii_only=ascii_only)
+    lines = drawing.lines(picture, fitted_view(picture.bounds(), drawing.columns, drawing.rows))
 
-    assert [sum(cell_len(segment.text) for segment in line) for line in lines] == [columns] * rows
+    wide = columns if rows else 0
+    assert [sum(cell_len(segment.text) for segment in line) for line in lines] == [wide] * rows
     if ascii_only:
         assert all(text.isascii() for text in words(lines))
 
 
 def test_an_empty_field_is_turtlesims_blue():
-    lines = draw(FieldPicture())
+    lines = draw(sheet())
 
-    assert set("".join(words(lines))) == {" "}
-    assert style_at(lines, 5, 5).bgcolor.name == "#4556ff"
+    assert {segment.style.bgcolor.name for line in lines for segment in line} == {"#4556ff"}
 
 
 @pytest.mark.parametrize(
@@ -108,18 +127,16 @@ def test_an_empty_field_is_turtlesims_blue():
     [(0, "→"), (45, "↗"), (90, "↑"), (135, "↖"), (180, "←"), (-135, "↙"), (-90, "↓"), (-45, "↘")],
 )
 def test_a_small_turtle_is_an_arrow_that_points_where_it_heads(theta, arrow):
-    text = words(
-        draw(FieldPicture(turtles=(DrawnTurtle("turtle1", CENTRE, CENTRE, math.radians(theta)),)))
-    )
+    text = words(draw(sheet(turtle("turtle1", CENTRE, CENTRE, math.radians(theta)))))
 
     assert text[8][16] == arrow
 
 
 @pytest.mark.parametrize(("theta", "letter"), [*zip(range(0, 360, 45), ">7^F<LvJ", strict=True)])
 def test_without_unicode_the_arrow_is_a_letter(theta, letter):
-    turtle = DrawnTurtle("turtle1", CENTRE, CENTRE, math.radians(theta))
-
-    text = words(draw(FieldPicture(turtles=(turtle,)), ascii_only=True))
+    text = words(
+        draw(sheet(turtle("turtle1", CENTRE, CENTRE, math.radians(theta))), ascii_only=True)
+    )
 
     assert text[8][16] == letter
 
@@ -127,9 +144,7 @@ def test_without_unicode_the_arrow_is_a_letter(theta, letter):
 @pytest.mark.parametrize("theta", [0.0, 0.7, 1.6, 2.4, 3.1, -2.2, -1.5, -0.8])
 def test_a_big_turtle_is_drawn_with_its_head_where_it_heads(theta):
     rows = 60
-    lines = Canvas(2 * rows, rows).lines(
-        FieldPicture(turtles=(DrawnTurtle("t1", CENTRE, CENTRE, theta),))
-    )
+    lines = draw(sheet(turtle("t1", CENTRE, CENTRE, theta)), rows)
     head = theme.hexadecimal(theme.of_name("t1"))
 
     cells = [
@@ -147,9 +162,7 @@ def test_a_big_turtle_is_drawn_with_its_head_where_it_heads(theta):
 
 
 def test_up_is_up_and_right_is_right():
-    picture = FieldPicture(
-        turtles=(DrawnTurtle("a", 1.0, 10.0, 0.0), DrawnTurtle("b", 10.0, 1.0, 0.0))
-    )
+    picture = sheet(turtle("a", 1.0, 10.0), turtle("b", 10.0, 1.0))
 
     text = words(draw(picture, ascii_only=True))
 
@@ -159,9 +172,7 @@ def test_up_is_up_and_right_is_right():
 
 def test_the_edges_of_the_field_are_inside():
     corners = [(0.0, 0.0), (EDGE, 0.0), (0.0, EDGE), (EDGE, EDGE)]
-    picture = FieldPicture(
-        turtles=tuple(DrawnTurtle(f"t{n}", x, y, 0.0) for n, (x, y) in enumerate(corners))
-    )
+    picture = sheet(*(turtle(f"t{n}", x, y) for n, (x, y) in enumerate(corners)))
 
     text = words(draw(picture, rows=10, ascii_only=True))
 
@@ -169,16 +180,16 @@ def test_the_edges_of_the_field_are_inside():
 
 
 def test_a_turtle_that_is_nowhere_is_left_out():
-    nowhere = (DrawnTurtle("a", math.nan, 1.0, 0.0), DrawnTurtle("b", 1e30, 1.0, 0.0))
+    nowhere = turtle("a", math.nan, 1.0), turtle("b", 1e30, 1.0)
 
-    assert words(draw(FieldPicture(turtles=nowhere))) == words(draw(FieldPicture()))
+    assert words(draw(sheet(*nowhere))) == words(draw(sheet()))
 
 
 def test_a_trail_is_continuous_however_the_pen_moved():
     corners = [(1.0, 1.0), (10.0, 9.0), (10.0, 2.0), (2.0, 8.0)]
     strokes = tuple(stroke(*a, *b) for a, b in pairwise(corners))
 
-    cells = dotted(draw(FieldPicture(strokes=strokes)))
+    cells = dotted(draw(sheet(strokes=strokes)))
 
     start = min(cells)
     reached, waiting = {start}, [start]
@@ -196,15 +207,15 @@ def test_a_trail_has_the_colour_of_its_pen():
     red = stroke(1.0, 1.0, 10.0, 1.0, Color(255, 0, 0))
     green = stroke(1.0, 9.0, 10.0, 9.0, Color(0, 255, 0))
 
-    lines = draw(FieldPicture(strokes=(red, green)))
+    lines = draw(sheet(strokes=(red, green)))
 
-    rows = {row: style_at(lines, column, row).color.name for column, row in dotted(lines)}
-    assert rows == {14: "#ff0000", 3: "#00ff00"}
+    assert {row for _, row in dotted(lines, Color(255, 0, 0))} == {14}
+    assert {row for _, row in dotted(lines, Color(0, 255, 0))} == {3}
 
 
 def test_a_wide_pen_draws_a_wide_trail():
-    thin = dotted(draw(FieldPicture(strokes=(stroke(1, 5, 10, 5, width=3),)), rows=50))
-    wide = dotted(draw(FieldPicture(strokes=(stroke(1, 5, 10, 5, width=40),)), rows=50))
+    thin = dotted(draw(sheet(strokes=(stroke(1, 5, 10, 5, width=3),)), rows=50))
+    wide = dotted(draw(sheet(strokes=(stroke(1, 5, 10, 5, width=40),)), rows=50))
 
     assert len({row for _, row in wide}) >= 4
     assert len({row for _, row in thin}) <= 2
@@ -214,77 +225,126 @@ def test_what_lies_outside_of_the_field_is_cut_off():
     through = stroke(-1e12, CENTRE, 1e12, CENTRE)
     beside = stroke(-5.0, 20.0, -1.0, 30.0)
 
-    cells = dotted(draw(FieldPicture(strokes=(through, beside, stroke(0.0, -2.0, 11.0, -2.0)))))
+    cells = dotted(draw(sheet(strokes=(through, beside, stroke(0.0, -2.0, 11.0, -2.0)))))
 
     assert cells == {(column, 8) for column in range(32)}
 
 
 def test_a_trail_that_grew_looks_as_if_drawn_at_once():
     strokes = tuple(stroke(n / 10, 2 + n / 20, (n + 1) / 10, 2 + (n + 1) / 20) for n in range(100))
-    grown = Canvas(32, 16)
+    grown = Canvas(32, 16, scaled=False)
 
     for length in (0, 10, 11, 60, 100):
-        grown.lines(FieldPicture(strokes=strokes[:length]))
+        grown.lines(sheet(strokes=strokes[:length]), view(16))
 
-    assert grown.lines(FieldPicture(strokes=strokes)) == draw(FieldPicture(strokes=strokes))
+    assert grown.lines(sheet(strokes=strokes), view(16)) == draw(sheet(strokes=strokes))
 
 
 def test_a_trail_whose_beginning_was_forgotten_stays_drawn():
     strokes = tuple(stroke(n, 5.0, n + 1, 5.0) for n in range(10))
-    kept = Canvas(32, 16)
-    kept.lines(FieldPicture(strokes=strokes[:6]))
+    kept = Canvas(32, 16, scaled=False)
+    kept.lines(sheet(strokes=strokes[:6]), view(16))
 
-    lines = kept.lines(FieldPicture(strokes=strokes[4:], forgotten=4))
+    lines = kept.lines(sheet(strokes=strokes[4:], forgotten=4), view(16))
 
-    assert dotted(lines) == dotted(draw(FieldPicture(strokes=strokes)))
+    assert dotted(lines) == dotted(draw(sheet(strokes=strokes)))
 
 
 def test_a_wiped_trail_is_gone_and_an_earlier_one_comes_back():
     first, second = stroke(1, 1, 9, 1), stroke(1, 9, 9, 9)
-    board = Canvas(32, 16)
-    board.lines(FieldPicture(strokes=(first,)))
+    board = Canvas(32, 16, scaled=False)
+    board.lines(sheet(strokes=(first,)), view(16))
 
-    after = dotted(board.lines(FieldPicture(strokes=(second,), wipes=1)))
-    back = dotted(board.lines(FieldPicture(strokes=(first,), wipes=0)))
+    after = dotted(board.lines(sheet(strokes=(second,), edition=1), view(16)))
+    back = dotted(board.lines(sheet(strokes=(first,), edition=0), view(16)))
 
-    assert after == dotted(draw(FieldPicture(strokes=(second,))))
-    assert back == dotted(draw(FieldPicture(strokes=(first,))))
+    assert after == dotted(draw(sheet(strokes=(second,))))
+    assert back == dotted(draw(sheet(strokes=(first,))))
 
 
 def test_going_back_in_time_shortens_the_trail():
     strokes = (stroke(1, 1, 9, 1), stroke(9, 1, 9, 9))
-    board = Canvas(32, 16)
-    board.lines(FieldPicture(strokes=strokes))
+    board = Canvas(32, 16, scaled=False)
+    board.lines(sheet(strokes=strokes), view(16))
 
-    assert dotted(board.lines(FieldPicture(strokes=strokes[:1]))) == dotted(
-        draw(FieldPicture(strokes=strokes[:1]))
+    assert dotted(board.lines(sheet(strokes=strokes[:1]), view(16))) == dotted(
+        draw(sheet(strokes=strokes[:1]))
     )
 
 
 def test_another_background_is_painted_everywhere():
-    board = Canvas(8, 4)
-    board.lines(FieldPicture())
+    board = Canvas(8, 4, scaled=False)
+    board.lines(sheet(), view(4))
 
-    lines = board.lines(FieldPicture(background=Color(1, 2, 3)))
+    lines = board.lines(sheet(color=Color(1, 2, 3)), view(4))
 
     assert {segment.style.bgcolor.name for line in lines for segment in line} == {"#010203"}
 
 
-def test_names_stand_beside_turtles_and_do_not_hide_each_other():
-    pair = (DrawnTurtle("turtle1", 5.0, 5.0, 0.0), DrawnTurtle("turtle2", 5.3, 5.0, 0.0))
+def test_the_field_lies_in_the_picture_as_its_frame_does():
+    """Ten metres to the right, and turned by a quarter: its colour is there, and nowhere else."""
+    lines = Canvas(80, 20, scaled=False).lines(
+        sheet(x=10.0 + EDGE, theta=math.pi / 2, strokes=(stroke(1.0, 2.0, 9.0, 2.0),)),
+        Viewport(0.0, 0.0, EDGE / 20 * 2),
+    )
 
-    text = "\n".join(words(draw(FieldPicture(turtles=pair))))
+    blue = {
+        (column, row)
+        for row in range(20)
+        for column in range(80)
+        if (ground := style_at(lines, column, row).bgcolor) and ground.name == "#4556ff"
+    }
+    # Two thirds of a metre to a column: 18 of 80 cells of 0.554 m are 10 m, 20 more the field.
+    assert blue == {(column, row) for row in range(10, 20) for column in range(18, 38)}
+    # What was drawn along its x axis, two metres from it, goes up, two metres from the right.
+    assert {column for column, _ in dotted(lines)} == {math.floor((8.0 + EDGE) / EDGE * 20)}
+
+
+def test_names_stand_beside_turtles_and_do_not_hide_each_other():
+    pair = turtle("turtle1", 5.0, 5.0), turtle("turtle2", 5.3, 5.0)
+
+    text = "\n".join(words(draw(sheet(*pair))))
 
     assert text.count("turtle1") == text.count("turtle2") == 1
 
 
-def test_a_name_at_the_right_edge_stands_to_the_left():
-    text = words(
-        draw(FieldPicture(turtles=(DrawnTurtle("turtle1", 10.8, 5.0, 0.0),)), ascii_only=True)
-    )
+def test_a_crowd_of_names_is_nudged_apart_and_none_is_dropped():
+    crowd = [frame(f"frame{n:02}", 5.0 + 0.01 * n, 5.0) for n in range(20)]
 
-    assert text[8].rstrip().endswith(">")
-    assert "turtle1" in text[8]
+    text = "\n".join(words(Canvas(80, 30).lines(PlanePicture("m", tuple(crowd)), view(29))))
+
+    assert [text.count(one.name) for one in crowd] == [1] * 20
+
+
+@pytest.mark.parametrize("how", [{}, {"mono": True}, {"ascii_only": True}])
+def test_of_two_turtles_at_one_place_the_first_is_whole_and_the_other_beside_it(how):
+    pair = turtle("turtle1", CENTRE, CENTRE, 0.0), turtle("turtle2", CENTRE, CENTRE, math.pi / 2)
+
+    lines = draw(sheet(*pair), **how)
+    text = words(lines)[8]
+
+    east, north = (">", "^") if "ascii_only" in how else ("→", "↑")
+    assert text[16] == east
+    beside = text.index(north)
+    assert abs(beside - 16) <= 2
+    assert style_at(lines, beside, 8).color.name == theme.hexadecimal(theme.of_name("turtle2"))
+
+
+def test_of_two_bodies_at_one_place_the_first_is_on_top():
+    def shells(*turtles):
+        lines = draw(sheet(*turtles), 60)
+        return [style_at(lines, column, 30) for column in range(56, 64)]
+
+    first, second = turtle("turtle1", CENTRE, CENTRE), turtle("turtle2", CENTRE, CENTRE, 1.5)
+
+    assert shells(first, second) == shells(first)
+
+
+def test_a_name_at_the_right_edge_stands_to_the_left():
+    text = words(draw(sheet(turtle("turtle1", 10.8, 5.0)), ascii_only=True))
+
+    line = next(one for one in text if "turtle1" in one)
+    assert line.index("turtle1") + 7 < 30
 
 
 @pytest.mark.parametrize(
@@ -301,7 +361,7 @@ def test_a_name_at_the_right_edge_stands_to_the_left():
     ],
 )
 def test_no_name_acts_or_breaks_a_line(name):
-    lines = draw(FieldPicture(turtles=(DrawnTurtle(name, CENTRE, CENTRE, 0.0),)))
+    lines = draw(sheet(turtle(name, CENTRE, CENTRE), frame(name, 1.0, 1.0)))
 
     text = "".join(words(lines))
     assert all(sign.isprintable() for sign in text)
@@ -309,9 +369,7 @@ def test_no_name_acts_or_breaks_a_line(name):
 
 
 def test_a_long_name_is_cut_with_an_ellipsis():
-    text = "".join(
-        words(draw(FieldPicture(turtles=(DrawnTurtle("long" * 99, CENTRE, CENTRE, 0.0),))))
-    )
+    text = "".join(words(draw(PlanePicture("m", (frame("long" * 99, CENTRE, CENTRE),)))))
 
     assert "longlongl…" in text
 
@@ -326,75 +384,125 @@ def test_a_long_name_is_cut_with_an_ellipsis():
     ],
 )
 def test_a_wall_that_was_hit_lights_up(side, cells):
-    lines = Canvas(8, 4).lines(FieldPicture(walls=frozenset({side})))
+    lines = draw(sheet(walls=frozenset({side})), 4)
 
-    lit = {
-        (column, row)
-        for row in range(4)
-        for column in range(8)
-        if (color := style_at(lines, column, row).color) and color.name == "#ff5c57"
-    }
-    assert lit == cells
+    assert dotted(lines, theme.WALL) == cells
 
 
-def test_another_frame_is_a_bare_arrow_with_its_name():
-    text = "\n".join(words(draw(FieldPicture(marks=(Mark("carrot1", 3.0, 3.0, math.pi / 2),)))))
-
-    assert " ↑ carrot1" in text
-
-
-def test_a_frame_nobody_hears_of_fades_and_is_gone():
-    def ink(age):
-        lines = draw(FieldPicture(marks=(Mark("carrot1", 3.0, 3.0, 0.0, age),)))
-        row = words(lines)[11]
-        return style_at(lines, row.index("→"), 11).color.name if "→" in row else None
-
-    assert ink(0.0) == theme.hexadecimal(theme.of_name("carrot1"))
-    assert ink(10.0) == "#b2b2b2"
-    assert ink(15.1) is None
+def frame(name, x, y, theta=0.0, **how):
+    cosine, sine = math.cos(theta), math.sin(theta)
+    return PlaneFrame(name, x, y, ((cosine, sine), (-sine, cosine)), **how)
 
 
-def test_the_view_may_be_another_square_of_the_world():
-    picture = FieldPicture(marks=(Mark("m", -3.5, 11.5),), left=-5.0, bottom=3.0, size=10.0)
+def test_a_frame_is_a_point_with_its_name_a_red_axis_ahead_and_a_green_one_to_its_left():
+    colors = canvas.paper(theme.DARK)
 
-    text = words(draw(picture, rows=10, ascii_only=True))
+    lines = draw(PlanePicture("m", (frame("carrot1", CENTRE, CENTRE, math.pi / 2),)))
 
-    assert text[1][3] == ">"
+    assert words(lines)[8][16] == "●"
+    assert "carrot1" in "".join(words(lines))
+    # Turned to the left by a quarter, ahead is up, and its left is left.
+    red, green = dotted(lines, colors.x_axis), dotted(lines, colors.y_axis)
+    assert red
+    assert all(column == 16 and row < 8 for column, row in red)
+    assert green
+    assert all(column < 16 and row in (7, 8) for column, row in green)
 
 
-def test_a_frame_goes_round_a_field_without_colour():
-    lines = framed(Canvas(4, 2).lines(FieldPicture()))
+def test_an_axis_that_points_at_the_eye_is_not_drawn_and_the_third_is_blue():
+    colors = canvas.paper(theme.DARK)
+    down = PlaneFrame("lens", CENTRE, CENTRE, ((0.0, 0.0), (0.0, 1.0), (1.0, 0.0)))
 
-    assert words(lines) == ["┌────┐", "│    │", "│    │", "└────┘"]
-    assert words(framed([], ascii_only=True)) == ["++", "++"]
+    lines = draw(PlanePicture("m", (down,)))
+
+    assert not dotted(lines, colors.x_axis)
+    assert dotted(lines, colors.y_axis)
+    assert all(column > 16 for column, _ in dotted(lines, colors.z_axis))
+    assert dotted(lines, colors.z_axis)
 
 
-def test_the_field_is_a_renderable_of_whatever_size_there_is():
-    console = Console(
-        width=30, height=40, file=io.StringIO(), color_system=None, legacy_windows=False
+def test_a_line_leads_from_every_frame_to_its_parent():
+    child = frame("b", 9.0, 2.0, parent=(2.0, 2.0))
+
+    cells = dotted(
+        draw(PlanePicture("m", (frame("a", 2.0, 2.0), child))), canvas.paper(theme.DARK).link
     )
 
-    console.print(FieldView(FieldPicture(turtles=(DrawnTurtle("turtle1", CENTRE, CENTRE, 0.0),))))
+    assert {row for _, row in cells} == {13}
+    assert min(column for column, _ in cells) < 12
+    assert max(column for column, _ in cells) > 22
 
-    lines = console.file.getvalue().splitlines()
-    assert len(lines) == 15
-    assert "▐→▌ turtle1" in lines[7]
+
+def test_a_trail_has_the_colour_of_its_frame_and_lies_where_it_was():
+    color = theme.of_name("drone")
+    picture = PlanePicture("m", trails=Drawn((stroke(1.0, 5.2, 10.0, 5.2, color, 0),)))
+
+    lines = draw(picture)
+
+    assert dotted(lines, theme.blend(color, theme.DARK.panel, 0.3)) == {
+        (column, 8) for column in range(2, 29)
+    }
+
+
+def test_a_frame_without_news_turns_amber_then_red_and_says_since_when():
+    def shown(age):
+        lines = draw(PlanePicture("m", (frame("carrot1", 3.0, 3.0, age=age),)), 30)
+        row = next(row for row, text in enumerate(words(lines)) if "carrot1" in text)
+        text = words(lines)[row]
+        return style_at(lines, text.index("carrot1"), row).color.name, text
+
+    assert shown(0.0)[0] == theme.hexadecimal(theme.of_name("carrot1"))
+    assert "ago" not in shown(4.9)[1]
+    assert shown(10.0)[0] == theme.hexadecimal(theme.DARK.warning)
+    assert "carrot1 10.0 s ago" in shown(10.0)[1]
+    assert shown(19.9)[0] == theme.hexadecimal(theme.DARK.error)
+    assert "carrot1 19.9 s ago" in shown(19.9)[1]
+
+
+def test_the_grid_says_its_metres():
+    drawing = Canvas(45, 21, ascii_only=True)
+
+    text = words(drawing.lines(PlanePicture("m"), Viewport(-2.0, -2.0, 0.5)))
+
+    assert text[-1].split() == ["m", "-2", "0", "2", "4", "6", "8"]
+    assert [line[:4].strip() for line in text[:-1] if line[:4].strip()] == [
+        "8", "6", "4", "2", "0", "-2"
+    ]  # fmt: skip
+    # Where 0 stands at both sides, two lines cross.
+    assert text[16][:5].split() == ["0"] or text[15][:5].split() == ["0"]
+
+
+@pytest.mark.parametrize(
+    ("per_row", "step"), [(0.29, 1.0), (0.3, 2.0), (1.0, 5.0), (2.0, 10.0), (0.01, 0.05)]
+)
+def test_grid_lines_lie_a_few_rows_apart_at_round_numbers(per_row, step):
+    assert grid_step(per_row) == pytest.approx(step)
+
+
+def test_all_of_a_picture_is_seen_in_a_view_of_any_shape():
+    picture = PlanePicture("m", (frame("a", -3.0, 1.0), frame("b", 40.0, 1.5)))
+
+    for columns, rows in ((80, 24), (20, 60), (7, 2)):
+        left, bottom, per_row = fitted_view(picture.bounds(), columns, rows)
+        for one in picture.frames:
+            assert left < one.x < left + 0.5 * per_row * columns
+            assert bottom < one.y < bottom + per_row * rows
 
 
 @pytest.mark.parametrize("rows", [1, 2, 3, 5])
 def test_a_tiny_field_still_shows_its_turtle(rows):
-    turtle = DrawnTurtle("turtle1", CENTRE, CENTRE, math.pi / 2)
+    shown = draw(sheet(turtle("turtle1", CENTRE, CENTRE, math.pi / 2)), rows)
 
-    assert "↑" in "".join(words(draw(FieldPicture(turtles=(turtle,)), rows=rows)))
+    assert "↑" in "".join(words(shown))
 
 
-def test_with_arrows_asked_for_a_big_turtle_is_one():
-    turtle = DrawnTurtle("turtle1", CENTRE, CENTRE, math.pi)
+def test_without_colour_a_big_turtle_is_an_arrow():
+    lines = draw(sheet(turtle("turtle1", CENTRE, CENTRE, math.pi)), 60, mono=True)
 
-    assert "▐←▌" in "".join(words(draw(FieldPicture(turtles=(turtle,)), rows=60, arrows=True)))
+    assert "▐←▌" in "".join(words(lines))
 
 
 def test_the_edge_is_the_simulators_own():
     from tftool.motion.unicycle import FIELD
 
-    assert canvas.EDGE == FIELD
+    assert EDGE == FIELD

@@ -14,6 +14,10 @@ KEYS = """\
  Up, Down     in the tree: pick a frame (also j, k)
  Enter        measure from the frame picked
  x            swap the two frames
+ F            draw the picture in the frame picked (again: in the root)
+
+ + - 0        nearer, farther, all there is (also the wheel)
+ Shift+Arrow  move the picture (or drag it)
 
  [ ]          back and on in time by 0.1 s
  { }          by a second

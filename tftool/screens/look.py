@@ -28,8 +28,7 @@ class Look(NamedTuple):
 
     def of_name(self, name: str) -> Color:
         """A name's colour, dark enough to be read on a light panel."""
-        color = theme.of_name(name)
-        return theme.blend(color, theme.INK, 0.55) if self.palette is theme.LIGHT else color
+        return theme.readable(theme.of_name(name), self.palette)
 
 
 def wrapped(

@@ -14,7 +14,7 @@ from tftool.screens.look import Look, wrapped
 from tftool.screens.scene import SceneMoment
 from tftool.stamps import as_seconds
 from tftool.views import echo, theme
-from tftool.views.fixed_width import fitted, padded
+from tftool.views.fixed_width import fitted, padded, plain
 
 
 class Row(NamedTuple):
@@ -48,6 +48,14 @@ def rows(snapshot: Snapshot, *, ascii_only: bool = False) -> list[Row]:
     return found
 
 
+def in_view(listed: Sequence[Row], cursor: str, height: int) -> Sequence[Row]:
+    """The rows that `tree` shows below its heading, the cursor's among them."""
+    at = next((index for index, row in enumerate(listed) if row.info.frame == cursor), 0)
+    space = max(1, height - 1)
+    first = max(0, min(at - space // 2, len(listed) - space))
+    return listed[first : first + space]
+
+
 def tree(
     moment: SceneMoment, listed: Sequence[Row], cursor: str, width: int, height: int, look: Look
 ) -> list[Text]:
@@ -67,10 +75,7 @@ def tree(
     columns = _Columns.of(width)
     head = padded("  frame", columns.name) + f"{'Hz':>{columns.rate}}{'age':>{columns.age}}"
     lines = [Text(fitted(head + ("  from" if columns.sender else ""), width, more=""), dim)]
-    at = next((index for index, row in enumerate(listed) if row.info.frame == cursor), 0)
-    space = max(1, height - 1)
-    first = max(0, min(at - space // 2, len(listed) - space))
-    visible = listed[first : first + space]
+    visible = in_view(listed, cursor, height)
     room = columns.name - 2
     # One cell a level instead of three, where names would be cut otherwise.
     tight = any(len(row.guide) + len(row.info.frame) > room for row in visible)
@@ -97,6 +102,14 @@ def tree(
             line.append("  " + sender, dim)
         lines.append(line)
     return lines
+
+
+def field_title(moment: SceneMoment, *, is_chosen: bool) -> str:
+    """What the picture is, and in which frame: "Frames in world"."""
+    fixed = moment.picture.fixed
+    if not fixed:
+        return "Field"
+    return f"Frames in {plain(fixed)}" + (" (fixed)" if is_chosen else "")
 
 
 class _Columns(NamedTuple):

@@ -21,6 +21,7 @@ class SceneQuestion:
         target: The frame that is measured in.
         source: The frame that is measured; the one under the cursor.
         at: The moment asked for, or None for the present.
+        fixed: The frame the picture is drawn in; empty for the root of the pair's tree.
         moment: The last answer, if there was one.
     """
 
@@ -28,6 +29,7 @@ class SceneQuestion:
         self.scene = scene
         self.target, self.source = pair
         self.at: Stamp | None = None
+        self.fixed = ""
         self.moment: SceneMoment | None = None
         self._picked = False
 
@@ -58,6 +60,16 @@ class SceneQuestion:
         """Make the frame under the cursor the one that is measured in."""
         self.target, self._picked = self.source, True
 
+    def choose(self, frame: str) -> bool:
+        """Move the cursor to a frame; whether it was elsewhere."""
+        changed = frame != self.source
+        self.source, self._picked = frame, True
+        return changed
+
+    def fix(self) -> None:
+        """Draw the picture in the frame under the cursor; where it is already, in the root."""
+        self.fixed = "" if self.fixed == self.source else self.source
+
     def swap(self) -> None:
         """Ask the other way round."""
         self.target, self.source, self._picked = self.source, self.target, True
@@ -71,12 +83,12 @@ class SceneQuestion:
     def _answer(self) -> SceneMoment:
         kept = self.moment
         if self.at is not None and kept is not None and kept.stamp == self.at:
-            return self.scene.again(kept, self.target, self.source)
-        found = self.scene.moment(self.at, self.target, self.source)
+            return self.scene.again(kept, self.target, self.source, self.fixed)
+        found = self.scene.moment(self.at, self.target, self.source, self.fixed)
         pair = self._other_pair(found)
         if pair != (self.target, self.source):
             self.target, self.source = pair
-            return self.scene.moment(self.at, *pair)
+            return self.scene.moment(self.at, *pair, self.fixed)
         return found
 
     def _other_pair(self, moment: SceneMoment) -> tuple[str, str]:

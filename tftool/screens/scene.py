@@ -1,20 +1,22 @@
 """What a screen shows of a world at one moment, now or as far back as the buffer reaches."""
 
-import math
 from collections import deque
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
-from typing import Protocol
+from typing import NamedTuple, Protocol
 
 from tftool.errors import TransformException
 from tftool.frames.sample import Snapshot, TransformStamped
-from tftool.geometry.planar import heading
+from tftool.geometry.planar import heading, transform_from_pose
+from tftool.geometry.rigid import Transform
 from tftool.messages import Color, Pose2D
 from tftool.nodes.trail import Trail
 from tftool.runtime.world import World
+from tftool.screens.frame_trails import FrameTrails
+from tftool.screens.frames_seen import Lookup, in_snapshot, moving, natural_fixed, pictured
 from tftool.stamps import LATEST, Duration, Stamp, as_seconds, seconds
-from tftool.views import canvas
 from tftool.views.braille_trail import Stroke
+from tftool.views.plane import EDGE, Drawn, PlaneFrame, PlanePicture, TurtleField
 
 FLASH = seconds(0.4)
 """How long a wall stays lit after it was run into."""
@@ -40,7 +42,7 @@ class SceneMoment:
         elapsed: How long after the scene's start that is.
         snapshot: All frames at that moment.
         ages: For each frame, seconds since its latest stamp changed; 0 for static ones.
-        picture: The field.
+        picture: The frames, seen from above in one of them.
         pair: The transform asked for.
     """
 
@@ -49,11 +51,11 @@ class SceneMoment:
     elapsed: Duration
     snapshot: Snapshot
     ages: dict[str, float]
-    picture: canvas.FieldPicture
+    picture: PlanePicture
     pair: Pair
 
 
-class Drawn(Protocol):
+class SimulatedTurtle(Protocol):
     """A turtle as far as it is drawn."""
 
     @property
@@ -76,7 +78,7 @@ class Simulator(Protocol):
     revision: int
 
     @property
-    def turtles(self) -> Mapping[str, Drawn]:
+    def turtles(self) -> Mapping[str, SimulatedTurtle]:
         """Every turtle by its name."""
 
     @property
@@ -84,12 +86,21 @@ class Simulator(Protocol):
         """The field's colour."""
 
 
+class _SeenTurtle(NamedTuple):
+    """Where a turtle stood on the field: metres, radians."""
+
+    name: str
+    x: float
+    y: float
+    theta: float
+
+
 @dataclass(frozen=True, slots=True)
 class _Seen:
     """What only the simulator knows of the field at `stamp`: the trail by its length."""
 
     stamp: Stamp
-    turtles: tuple[canvas.DrawnTurtle, ...]
+    turtles: tuple[_SeenTurtle, ...]
     walls: frozenset[str]
     background: Color
     wipes: int
@@ -118,7 +129,8 @@ class Scene:
         self._strokes: tuple[Stroke, ...] = ()
         self._hits: dict[str, int] = {}
         self._lit: dict[str, Stamp] = {}
-        self._view: tuple[float, float, float] | None = None
+        self._trails = FrameTrails(world.buffer)
+        self._field_frame = ""
 
     def look(self) -> None:
         """Remember how things stand; called a few dozen times a second."""
@@ -133,7 +145,7 @@ class Scene:
                 self._wiped[before.wipes] = before.drawn, self._strokes
             self._strokes = tuple(trail.segments)
         turtles = tuple(
-            canvas.DrawnTurtle(turtle.name, turtle.pose.x, turtle.pose.y, turtle.pose.theta)
+            _SeenTurtle(turtle.name, turtle.pose.x, turtle.pose.y, turtle.pose.theta)
             for turtle in simulator.turtles.values()
         )
         for turtle in simulator.turtles.values():
@@ -158,8 +170,15 @@ class Scene:
         held = [info.oldest for info in snapshot.frames if info.oldest and not info.is_static]
         return min(max(min(held, default=now), now - self.world.buffer.cache_time), now)
 
-    def moment(self, at: Stamp | None, target: str, source: str) -> SceneMoment:
-        """Everything at the moment `at`, or at present when None."""
+    def moment(self, at: Stamp | None, target: str, source: str, fixed: str = "") -> SceneMoment:
+        """Everything at one moment.
+
+        Args:
+            at: Which; the present if None.
+            target: The frame the source is measured in.
+            source: The frame that is measured.
+            fixed: The frame the picture is drawn in; the root of the pair's tree if empty.
+        """
         now = self.world.clock.now()
         stamp = now if at is None else at
         snapshot = self.world.buffer.snapshot(stamp, LATEST if at is None else at)
@@ -170,13 +189,19 @@ class Scene:
             elapsed=stamp - self.start,
             snapshot=snapshot,
             ages=ages,
-            picture=self._picture(snapshot, ages, at),
+            picture=self._picture(snapshot, ages, at, (target, source), fixed),
             pair=self._pair(target, source, LATEST if at is None else at),
         )
 
-    def again(self, moment: SceneMoment, target: str, source: str) -> SceneMoment:
+    def again(self, moment: SceneMoment, target: str, source: str, fixed: str = "") -> SceneMoment:
         """The same moment with another pair; it need not be in the buffer any more."""
-        snapshot = moment.snapshot
+        snapshot, pair = moment.snapshot, (target, source)
+        wanted = self._fixed(snapshot, pair, fixed)
+        if moment.picture.fixed != wanted:
+            picture = self._picture(snapshot, moment.ages, moment.stamp, pair, wanted)
+            moment = replace(moment, picture=picture)
+        elif moment.picture.pair != pair:
+            moment = replace(moment, picture=replace(moment.picture, pair=pair))
         for frame in (target, source):
             if frame not in snapshot:
                 refusal = f"there was no frame '{frame}' then"
@@ -218,27 +243,86 @@ class Scene:
                 ages[info.frame] = as_seconds(now - news[1])
         return ages
 
+    def _fixed(self, snapshot: Snapshot, pair: tuple[str, str], fixed: str) -> str:
+        return fixed if fixed in snapshot else natural_fixed(snapshot, pair)
+
     def _picture(
-        self, snapshot: Snapshot, ages: dict[str, float], at: Stamp | None
-    ) -> canvas.FieldPicture:
+        self,
+        snapshot: Snapshot,
+        ages: dict[str, float],
+        at: Stamp | None,
+        pair: tuple[str, str],
+        wanted: str,
+    ) -> PlanePicture:
+        fixed = self._fixed(snapshot, pair, wanted)
+        lookup = in_snapshot(snapshot) if at is not None else self._latest(snapshot, fixed)
         seen = self._at(at)
-        if seen is None:
-            marks = _marks(snapshot, ages, frozenset())
-            left, bottom, size = self._fit(marks)
-            return canvas.FieldPicture(marks=marks, left=left, bottom=bottom, size=size)
-        turtles = seen.turtles
-        if at is not None:
-            turtles = tuple(_placed(turtle, snapshot) for turtle in turtles)
+        there = () if seen is None else seen.turtles
+        turtles = frozenset(turtle.name for turtle in there)
+        picture = pictured(snapshot, fixed, lookup, ages, turtles)
+        ways = [
+            name
+            for name in moving(snapshot, fixed)
+            if name not in turtles and (not turtles or name != self._field_frame)
+        ]
+        if at is None:
+            trails = self._trails.follow(fixed, ways, snapshot.now)
+        else:
+            if self._trails.fixed:
+                self._trails.follow(self._trails.fixed, ways, snapshot.now)
+            trails = self._trails.until(fixed, ways, at)
+        picture = replace(picture, trails=trails, pair=pair)
+        return picture if seen is None else self._with_field(picture, snapshot, lookup, seen, at)
+
+    def _latest(self, snapshot: Snapshot, fixed: str) -> Lookup:
+        """A lookup of the latest there is: the snapshot has it, but for frames between two."""
+        inside = in_snapshot(snapshot)
+        if fixed in snapshot and snapshot.frame(fixed).parent is None:
+            return inside
+
+        def lookup(target: str, source: str) -> Transform | None:
+            try:
+                return self.world.buffer.lookup_transform(target, source, LATEST).transform
+            except TransformException:
+                return None
+
+        return lookup
+
+    def _with_field(
+        self,
+        picture: PlanePicture,
+        snapshot: Snapshot,
+        lookup: Lookup,
+        seen: _Seen,
+        at: Stamp | None,
+    ) -> PlanePicture:
+        """Lay the turtles' field into the picture where the parent of their frames lies."""
+        parents = [
+            parent
+            for turtle in seen.turtles
+            if turtle.name in snapshot and (parent := snapshot.frame(turtle.name).parent)
+        ]
+        self._field_frame = next(iter(parents), self._field_frame)
+        pose = lookup(picture.fixed, self._field_frame) if self._field_frame else None
+        if pose is None and self._field_frame in snapshot:
+            # Its frame is in a tree of its own, or where nothing is known of it.
+            return picture
+        pose = pose or Transform.identity()
+        field = TurtleField(
+            pose.translation.x, pose.translation.y, heading(pose), seen.background, seen.walls
+        )
+        strangers = tuple(
+            _frameless(turtle, pose) for turtle in seen.turtles if turtle.name not in snapshot
+        )
         drawn, strokes = self._wiped.get(seen.wipes, (self._seen[-1].drawn, self._strokes))
         forgotten = drawn - len(strokes)
-        return canvas.FieldPicture(
-            turtles=turtles,
-            marks=_marks(snapshot, ages, frozenset(turtle.name for turtle in turtles)),
-            strokes=strokes[: max(0, seen.drawn - forgotten)] if at is not None else strokes,
-            forgotten=forgotten,
-            wipes=seen.wipes,
-            background=seen.background,
-            walls=seen.walls,
+        if at is not None:
+            strokes = strokes[: max(0, seen.drawn - forgotten)]
+        return replace(
+            picture,
+            frames=picture.frames + strangers,
+            field=field,
+            pen=Drawn(strokes, forgotten, seen.wipes),
         )
 
     def _at(self, at: Stamp | None) -> _Seen | None:
@@ -248,46 +332,22 @@ class Scene:
             return self._seen[-1]
         return next((seen for seen in reversed(self._seen) if seen.stamp <= at), self._seen[0])
 
-    def _fit(self, marks: tuple[canvas.Mark, ...]) -> tuple[float, float, float]:
-        """A square of whole metres around everything seen so far; it only ever grows."""
-        points = [(mark.x, mark.y) for mark in marks] or [(0.0, 0.0)]
-        if self._view is not None:
-            left, bottom, size = self._view
-            points += [(left + 1, bottom + 1), (left + size - 1, bottom + size - 1)]
-        left = math.floor(min(x for x, _ in points)) - 1.0
-        bottom = math.floor(min(y for _, y in points)) - 1.0
-        right = math.ceil(max(x for x, _ in points)) + 1.0
-        top = math.ceil(max(y for _, y in points)) + 1.0
-        self._view = left, bottom, max(right - left, top - bottom)
-        return self._view
-
 
 def _sides(x: float, y: float) -> list[str]:
-    far = canvas.EDGE - 1e-5
+    far = EDGE - 1e-5
     sides = {"left": x <= 0.0, "bottom": y <= 0.0, "right": x >= far, "top": y >= far}
     return [side for side, met in sides.items() if met]
 
 
-def _placed(turtle: canvas.DrawnTurtle, snapshot: Snapshot) -> canvas.DrawnTurtle:
-    """Put a turtle where its frame was: between two looks the buffer knows better."""
-    pose = snapshot.frame(turtle.name).root_from_frame if turtle.name in snapshot else None
-    if pose is None:
-        return turtle
-    return replace(turtle, x=pose.translation.x, y=pose.translation.y, theta=heading(pose))
-
-
-def _marks(
-    snapshot: Snapshot, ages: dict[str, float], turtles: frozenset[str]
-) -> tuple[canvas.Mark, ...]:
-    """Every other frame seen from above."""
-    marks = []
-    for info in snapshot.frames:
-        pose = info.root_from_frame
-        if info.frame in turtles or pose is None:
-            continue
-        x, y = pose.translation.x, pose.translation.y
-        # A root lies at its own origin, the field's corner: no news to those who see a field.
-        if (turtles and info.parent is None) or not math.isfinite(x + y) or abs(x) + abs(y) > 1e6:
-            continue
-        marks.append(canvas.Mark(info.frame, x, y, heading(pose), ages[info.frame]))
-    return tuple(marks)
+def _frameless(turtle: _SeenTurtle, pose: Transform) -> PlaneFrame:
+    """A turtle whose frame was not broadcast: it stands where its simulator says."""
+    there = pose @ transform_from_pose(turtle.x, turtle.y, turtle.theta)
+    ahead = there.rotate((1.0, 0.0, 0.0))[:2]
+    return PlaneFrame(
+        turtle.name,
+        there.translation.x,
+        there.translation.y,
+        (ahead,),
+        is_turtle=True,
+        is_frame=False,
+    )

@@ -9,12 +9,12 @@ import asyncio
 from collections.abc import Callable
 from typing import ClassVar
 
-from rich.segment import Segment
 from rich.text import Text
 from textual import events
 from textual.app import App, ComposeResult
 from textual.binding import Binding, BindingType
 from textual.containers import Container
+from textual.content import Content
 from textual.driver import Driver
 
 from tftool.errors import TftoolError
@@ -25,11 +25,12 @@ from tftool.screens.keyboard import tolerant
 from tftool.screens.layout import SMALLEST, arranged
 from tftool.screens.look import Look, wrapped
 from tftool.screens.panel import Panel, themes
+from tftool.screens.plane_view import PlaneView
 from tftool.screens.question import SceneQuestion
 from tftool.screens.scene import Scene, SceneMoment
 from tftool.screens.setting import Setting
 from tftool.stamps import Duration, Stamp, seconds
-from tftool.views import canvas, theme
+from tftool.views import theme
 
 LOOKS_PER_SECOND = 20
 PANELS_EVERY = 3
@@ -64,7 +65,7 @@ class TurtleApp(App[None]):
     #banner { border: none; display: none; background: $background; }
     #body { height: 1fr; layout: horizontal; overflow: hidden; }
     #side { width: 1fr; height: 1fr; layout: vertical; overflow: hidden; }
-    #keys { layer: above; dock: top; width: 56; display: none; border: round $accent; }
+    #keys { layer: above; dock: top; width: 76; display: none; border: round $accent; }
     .ascii #keys { border: ascii $accent; }
     Screen { layers: default above; }
     .portrait #body { layout: vertical; }
@@ -79,7 +80,16 @@ class TurtleApp(App[None]):
         ),
         *(
             Binding(f"{key},{key.upper()}", f"drive('{key}')", show=False, priority=True)
-            for key in "gtredcvbf"
+            for key in "gtredcvb"
+        ),
+        Binding("f", "drive('f')", show=False, priority=True),
+        Binding("F", "fix", show=False, priority=True),
+        Binding("plus,equals_sign", "zoom(1)", show=False, priority=True),
+        Binding("minus,underscore", "zoom(-1)", show=False, priority=True),
+        Binding("0", "fit", show=False, priority=True),
+        *(
+            Binding(f"shift+{key}", f"pan({x}, {y})", show=False, priority=True)
+            for key, x, y in (("left", 6, 0), ("right", -6, 0), ("up", 0, 3), ("down", 0, -3))
         ),
         Binding("q,Q", "leave", show=False, priority=True),
         Binding("ctrl+c", "interrupt", show=False, priority=True),
@@ -119,7 +129,9 @@ class TurtleApp(App[None]):
         self._count = 0
         self._back = 0
         self._rest_until = 0.0
-        self._canvas = canvas.Canvas(0, 0)
+        self._plane = PlaneView()
+        self._dragged: tuple[int, int] | None = None
+        self._rows_shown: tuple[str, ...] = ()
         self._journal = Journal(scene.world.log.records)
         self._unlisten = scene.world.log.listen(self._journal.add, "screen")
 
@@ -269,23 +281,12 @@ class TurtleApp(App[None]):
     def _draw_field(self, moment: SceneMoment) -> None:
         field = self.panel("field")
         width, height = field.size
-        box = 0 if self.setting.colors else 1
-        columns, rows = canvas.fit(width - 2 * box, height - 2 * box)
-        drawn = self._canvas
-        if (drawn.columns, drawn.rows) != (columns, rows):
-            drawn = self._canvas = canvas.Canvas(
-                columns,
-                rows,
-                ascii_only=self.setting.ascii_only,
-                arrows=not self.setting.colors,
-            )
-        lines = drawn.lines(moment.picture)
-        if box and rows:
-            lines = canvas.framed(lines, ascii_only=self.setting.ascii_only)
-        left = (width - columns) // 2 - box
-        above = (height - rows) // 2 - box
-        margin = [Segment(" " * left)] if left > 0 else []
-        field.show([[] for _ in range(above)] + [[*margin, *line] for line in lines])
+        field.border_title = Content(
+            panels.field_title(moment, is_chosen=bool(self._question.fixed))
+        )
+        field.show(
+            self._plane.lines(moment.picture, width, height, self.look, colors=self.setting.colors)
+        )
 
     def _draw_panels(self, moment: SceneMoment) -> None:
         look, clock = self.look, self.scene.world.clock
@@ -303,11 +304,74 @@ class TurtleApp(App[None]):
             return
         tree, pair, log = (self.panel(name) for name in ("tree", "pair", "log"))
         listed = panels.rows(moment.snapshot, ascii_only=look.ascii_only)
+        shown = panels.in_view(listed, self._question.source, tree.size.height)
+        self._rows_shown = tuple(row.info.frame for row in shown)
         tree.show(panels.tree(moment, listed, self._question.source, *tree.size, look))
         pair.show(panels.pair(moment, *pair.size, look))
         log.show(
             self._journal.lines(moment.stamp, self.scene.start, *log.size, look, back=self._back)
         )
+
+    # The mouse
+
+    def on_mouse_scroll_up(self, event: events.MouseScrollUp) -> None:
+        """Come nearer to what is under the pointer."""
+        self._wheel(event, 1)
+
+    def on_mouse_scroll_down(self, event: events.MouseScrollDown) -> None:
+        """Go back from what is under the pointer."""
+        self._wheel(event, -1)
+
+    def _wheel(self, event: events.MouseEvent, step: int) -> None:
+        name, x, y = self._under(event)
+        if name == "field":
+            self._plane.camera.zoom(step, self._plane.cell(x, y))
+        elif name == "tree":
+            self._question.pick(-step)
+        elif name == "log":
+            self._scroll(step)
+        self.redraw()
+
+    def on_mouse_down(self, event: events.MouseDown) -> None:
+        """Pick the frame under the pointer, or begin to drag the picture."""
+        name, x, y = self._under(event)
+        moment = self._question.moment
+        if moment is None:
+            return
+        if name == "field":
+            self._dragged = event.screen_x, event.screen_y
+            frame = self._plane.frame_at(moment.picture, x, y)
+        elif name == "tree":
+            frame = self._rows_shown[y - 1] if 0 < y <= len(self._rows_shown) else None
+        else:
+            return
+        if frame is not None and self._question.choose(frame):
+            self.redraw()
+
+    def on_mouse_move(self, event: events.MouseMove) -> None:
+        """Drag the picture."""
+        if self._dragged is None:
+            return
+        if not event.button:
+            self._dragged = None
+            return
+        x, y = event.screen_x, event.screen_y
+        self._plane.camera.pan(x - self._dragged[0], y - self._dragged[1])
+        self._dragged = x, y
+        self.redraw()
+
+    def on_mouse_up(self) -> None:
+        """Let the picture go."""
+        self._dragged = None
+
+    def _under(self, event: events.MouseEvent) -> tuple[str, int, int]:
+        """The panel under the pointer, and the cell in it."""
+        for name in ("field", "tree", "pair", "log"):
+            panel = self.panel(name)
+            inside = panel.content_region
+            if panel.display and inside.contains(event.screen_x, event.screen_y):
+                return name, event.screen_x - inside.x, event.screen_y - inside.y
+        return "", 0, 0
 
     # Keys
 
@@ -327,10 +391,14 @@ class TurtleApp(App[None]):
             if step:
                 self.action_pick(step)
         elif focused == "log":
-            self._back = max(0, min(self._back - step, len(self.scene.world.log.records)))
+            self._scroll(-step)
             self.redraw()
         else:
             self.action_drive(key)
+
+    def _scroll(self, lines: int) -> None:
+        """Show earlier lines of the log, or later ones."""
+        self._back = max(0, min(self._back + lines, len(self.scene.world.log.records)))
 
     def action_panel(self, step: int) -> None:
         """Give the keys to the next panel."""
@@ -348,6 +416,30 @@ class TurtleApp(App[None]):
     def action_measure(self) -> None:
         """Make the frame under the cursor the one that is measured in."""
         self._question.measure()
+        self.redraw()
+
+    def action_fix(self) -> None:
+        """Draw the picture in the frame under the cursor, or again in the root of its tree."""
+        if self.setting.drive_only:
+            # Teleop has no cursor: there the letter is what it is in either case.
+            self.action_drive("f")
+            return
+        self._question.fix()
+        self.redraw()
+
+    def action_zoom(self, steps: int) -> None:
+        """Come nearer, or go back."""
+        self._plane.camera.zoom(steps)
+        self.redraw()
+
+    def action_pan(self, columns: int, rows: int) -> None:
+        """Move the picture."""
+        self._plane.camera.pan(columns, rows)
+        self.redraw()
+
+    def action_fit(self) -> None:
+        """Show all there is again."""
+        self._plane.camera.fit()
         self.redraw()
 
     def action_swap(self) -> None:
@@ -383,7 +475,7 @@ class TurtleApp(App[None]):
         lines = keys.KEYS.splitlines()
         width, height = self.size
         panel.styles.height = len(lines) + 2
-        panel.styles.offset = max(0, (width - 56) // 2), max(0, (height - len(lines) - 2) // 2)
+        panel.styles.offset = max(0, (width - 76) // 2), max(0, (height - len(lines) - 2) // 2)
         self.call_after_refresh(lambda: panel.show([Text(line) for line in lines]))
 
     def action_leave(self) -> None:

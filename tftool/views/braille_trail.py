@@ -13,22 +13,32 @@ Stroke: TypeAlias = tuple[float, float, float, float, Color, int]
 
 
 class Ink:
-    """Dots that stay, on a square of the world shown by so many cells.
+    """Dots that stay, on a rectangle of the world shown by so many cells.
 
     Args:
         columns: Cells across.
         rows: Cells down.
-        left: Where the square begins, metres.
-        bottom: Where the square begins, metres.
-        size: How long its sides are, metres.
+        left: Where the rectangle begins, metres.
+        bottom: Where the rectangle begins, metres.
+        size: How wide it is, metres.
+        height: How high it is, metres; a square if None.
 
     Attributes:
         revisions: For each row a number that changes when something is drawn there.
     """
 
-    def __init__(self, columns: int, rows: int, left: float, bottom: float, size: float) -> None:
+    def __init__(
+        self,
+        columns: int,
+        rows: int,
+        left: float,
+        bottom: float,
+        size: float,
+        height: float | None = None,
+    ) -> None:
         self.columns, self.rows = columns, rows
         self.left, self.bottom, self.size = left, bottom, size
+        self.height = size if height is None else height
         self.revisions = [0] * rows
         self._dots = [bytearray(columns) for _ in range(rows)]
         self._colors: list[list[Color | None]] = [[None] * columns for _ in range(rows)]
@@ -38,9 +48,9 @@ class Ink:
         x0, y0, x1, y1, color, width = stroke
         clipped = _clip(
             (x0 - self.left) / self.size,
-            (y0 - self.bottom) / self.size,
+            (y0 - self.bottom) / self.height,
             (x1 - self.left) / self.size,
-            (y1 - self.bottom) / self.size,
+            (y1 - self.bottom) / self.height,
         )
         if clipped is None:
             return
@@ -76,13 +86,41 @@ class Ink:
         x, y = min(x, 2 * self.columns - 1), min(y, 4 * self.rows - 1)
         if x < 0 or y < 0:
             return
-        column, row = x >> 1, y >> 2
-        bit = _BITS[x & 1][y & 3]
+        self._mark(x >> 1, y >> 2, _BITS[x & 1][y & 3], color)
+
+    def _mark(self, column: int, row: int, bit: int, color: Color) -> None:
         dots, colors = self._dots[row], self._colors[row]
         if not dots[column] & bit or colors[column] != color:
             dots[column] |= bit
             colors[column] = color
             self.revisions[row] += 1
+
+
+class LooseInk(Ink):
+    """Dots drawn anew at every look: only the cells with dots in them are kept.
+
+    Attributes:
+        marks: By row and column, the dots of a cell and the colour drawn there last.
+    """
+
+    def __init__(
+        self, columns: int, rows: int, left: float, bottom: float, size: float, height: float
+    ) -> None:
+        self.columns, self.rows = columns, rows
+        self.left, self.bottom, self.size, self.height = left, bottom, size, height
+        self.marks: dict[int, dict[int, tuple[int, Color]]] = {}
+
+    def _mark(self, column: int, row: int, bit: int, color: Color) -> None:
+        cells = self.marks.setdefault(row, {})
+        before = cells.get(column)
+        # The dots of another colour make way: a cell has but one.
+        kept = before[0] if before is not None and before[1] == color else 0
+        cells[column] = kept | bit, color
+
+
+def sign_of(dots: int, *, ascii_only: bool = False) -> str:
+    """The sign with these dots, as `LooseInk.marks` has them."""
+    return (_ASCII if ascii_only else _BRAILLE)[dots]
 
 
 def _clip(x0: float, y0: float, x1: float, y1: float) -> tuple[float, float, float, float] | None:

@@ -1,263 +1,562 @@
-"""The turtles' field as coloured lines of text, at any size.
+"""A picture of frames as coloured lines of text, at any size.
 
-Trails are drawn in braille (eight dots to a cell), turtles in blocks or as
-arrows, so that a metre is as long across as it is up on cells twice as high as
-wide. What is drawn is a frozen `FieldPicture`; nothing here knows a simulator.
+Trails, axes and the lines to the parents are drawn in braille (eight dots to a
+cell), turtles in blocks or as arrows, so that a metre is as long across as it is
+up on cells twice as high as wide. What is drawn is a frozen `PlanePicture`;
+nothing here knows a buffer or a simulator.
 """
 
 import math
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from functools import lru_cache
-from typing import TypeAlias
+from typing import Final, NamedTuple, TypeAlias
 
 from rich.cells import cell_len
-from rich.console import Console, ConsoleOptions, RenderResult
 from rich.segment import Segment
 from rich.style import Style
 
 from tftool.messages import Color
 from tftool.views import sprites, theme
-from tftool.views.braille_trail import Ink, Stroke
+from tftool.views.braille_trail import Ink, LooseInk, Stroke, sign_of
 from tftool.views.fixed_width import fitted
+from tftool.views.labels import Label, PlacedLabel, Placer
+from tftool.views.plane import (
+    EDGE,
+    FARTHEST,
+    Drawn,
+    PlaneFrame,
+    PlanePicture,
+    Point,
+    TurtleField,
+    Viewport,
+    grid_step,
+)
 from tftool.views.sprites import Cell
-
-EDGE = 11.088889122009277
-"""Metres along one side of turtlesim's field."""
 
 Line: TypeAlias = list[Segment]
 _Overlay: TypeAlias = dict[int, dict[int, Cell]]
 
+MOST_NAMED: Final = 80
+"""Of more frames, only the first have their names beside them."""
+
+MOST_TURNING: Final = 1500
+"""Of a drawing that moves, so many strokes are drawn: all of them are new at every look."""
+
+WITH_SCALE: Final = (26, 9)
+"""Columns and rows from which the grid's metres stand at its sides."""
+
+
+THICK_FROM: Final = 26
+"""Rows from which axes are two dots wide."""
+
+
+class PaperColors(NamedTuple):
+    """What is drawn on a ground: its colours for all that is no frame's own."""
+
+    ground: Color
+    grid: Color
+    link: Color
+    x_axis: Color
+    y_axis: Color
+    z_axis: Color
+    accent: Color
+
+
+_BRIGHT: Final = (Color(255, 85, 85), Color(80, 230, 120), Color(110, 170, 255))
+_DEEP: Final = (Color(205, 20, 30), Color(0, 135, 50), Color(20, 90, 230))
+
+# Stand for colours that depend on the ground below; no real colour is negative.
+_LINK, _X, _Y, _Z, _PAIR = (Color(-1, -1, -1 - number) for number in range(5))
+_ROLES: Final = {_LINK: 2, _X: 3, _Y: 4, _Z: 5, _PAIR: 6}
+
+
+def paper(palette: theme.Palette) -> PaperColors:
+    """The colours on a screen's own ground."""
+    red, green, blue = _DEEP if palette is theme.LIGHT else _BRIGHT
+    return PaperColors(
+        palette.panel,
+        theme.blend(palette.panel, palette.dim, 0.25),
+        theme.blend(palette.panel, palette.dim, 0.85),
+        red,
+        green,
+        blue,
+        palette.accent,
+    )
+
+
+def on_field(ground: Color) -> PaperColors:
+    """The colours on the turtles' field, which is turtlesim's blue unless somebody repaints it."""
+    return PaperColors(
+        ground,
+        theme.blend(ground, theme.WHITE, 0.13),
+        theme.blend(ground, theme.WHITE, 0.45),
+        Color(255, 110, 110),
+        Color(95, 255, 135),
+        Color(170, 205, 255),
+        theme.DARK.accent,
+    )
+
 
 @dataclass(frozen=True, slots=True)
-class DrawnTurtle:
-    """A turtle to draw: metres, radians; its colour comes from its name."""
+class _Pens:
+    """How a drawing was drawn, how much of it is there, and whether only its end is."""
 
-    name: str
-    x: float
-    y: float
-    theta: float
-
-
-@dataclass(frozen=True, slots=True)
-class Mark:
-    """A frame that is no turtle, seen from above: a carrot, a laser.
-
-    Metres, radians, and seconds since its last sample: it fades as `theme` says.
-    """
-
-    name: str
-    x: float
-    y: float
-    theta: float = 0.0
-    age: float = 0.0
-
-
-@dataclass(frozen=True, slots=True)
-class FieldPicture:
-    """What there is to see at one moment.
-
-    Attributes:
-        turtles: In the order they are drawn, later ones on top.
-        marks: Other frames, drawn under the turtles.
-        strokes: The trail, oldest first.
-        forgotten: How many strokes of this trail were there before the first of `strokes`.
-        wipes: How often the trail was wiped so far: strokes of another wipe are another trail.
-        background: Colour of the field.
-        walls: The sides a turtle just ran into: "left", "right", "bottom", "top".
-        left: Where the field begins, metres.
-        bottom: Where the field begins, metres.
-        size: How long its sides are, metres.
-    """
-
-    turtles: tuple[DrawnTurtle, ...] = ()
-    marks: tuple[Mark, ...] = ()
-    strokes: Sequence[Stroke] = ()
-    forgotten: int = 0
-    wipes: int = 0
-    background: Color = theme.BACKGROUND
-    walls: frozenset[str] = frozenset()
-    left: float = 0.0
-    bottom: float = 0.0
-    size: float = EDGE
-
-
-def fit(width: int, height: int) -> tuple[int, int]:
-    """Give (columns, rows) of the largest square field in `width` by `height` cells."""
-    rows = max(0, min(height, width // 2))
-    return 2 * rows, rows
+    key: object = None
+    done: int = 0
+    is_new: bool = False
+    is_cut: bool = False
 
 
 class Canvas:
-    """A field of a given size that remembers what it has drawn of a trail.
+    """A picture of a given size that remembers what it has drawn of the trails.
 
     Args:
-        columns: Cells across.
-        rows: Cells down; half of `columns` makes a square field.
+        columns: Cells across, with those of the scale.
+        rows: Cells down, with that of the scale.
         ascii_only: Draw with ASCII characters alone.
-        arrows: Show turtles as arrows however much room there is; without colour a
-            drawn body is a blot.
+        mono: Whether there are no colours: then axes bear their letters, turtles are arrows.
+        palette: The screen's own colours.
+        scaled: Whether metres stand at the left and below, where there is room.
+
+    Attributes:
+        asked: The cells that were asked for, across and down.
+        columns: Cells across of the picture itself.
+        rows: Cells down of the picture itself.
+        gutter: Cells at its left, for the scale.
     """
 
     def __init__(
-        self, columns: int, rows: int, *, ascii_only: bool = False, arrows: bool = False
+        self,
+        columns: int,
+        rows: int,
+        *,
+        ascii_only: bool = False,
+        mono: bool = False,
+        palette: theme.Palette = theme.DARK,
+        scaled: bool = True,
     ) -> None:
-        self.columns = max(0, columns)
-        self.rows = max(0, rows)
+        self.asked = columns, rows
+        with_scale = scaled and columns >= WITH_SCALE[0] and rows >= WITH_SCALE[1]
+        self.gutter, self._footer = (5, 1) if with_scale else (0, 0)
+        self.columns = max(0, columns - self.gutter)
+        self.rows = max(0, rows - self._footer)
         self._ascii = ascii_only
-        self._arrows = ascii_only or arrows
-        self._wipes = 0
-        self._drawn = 0
-        self._ink = Ink(self.columns, self.rows, 0.0, 0.0, EDGE)
-        self._kept: list[tuple[tuple[int, Color], Line] | None] = [None] * self.rows
+        self._plain = ascii_only or mono
+        self._palette = palette
+        self._paper = paper(palette)
+        self._field_colors: PaperColors | None = None
+        # No view is like it: the first one begins anew.
+        self._view = Viewport(0.0, 0.0, 0.0)
+        self._placer = Placer(self.columns, self.rows)
 
-    def lines(self, picture: FieldPicture) -> list[Line]:
-        """Draw `picture`: `rows` lines, each exactly `columns` cells wide."""
+    def lines(self, picture: PlanePicture, view: Viewport) -> list[Line]:
+        """Draw a picture: exactly as many lines, and cells in each, as were asked for."""
         if not self.columns or not self.rows:
             return [[] for _ in range(self.rows)]
-        self._follow_trail(picture)
-        overlay = self._overlay(picture)
-        return [
-            self._over(row, overlay[row], picture.background)
-            if row in overlay
-            else self._under(row, picture.background)
-            for row in range(self.rows)
-        ]
+        if view != self._view:
+            self._fresh(view)
+        field = picture.field
+        self._field_colors = None if field is None else on_field(field.color)
+        self._stand(field)
+        self._follow(picture)
+        loose = self._loose(picture)
+        signs = self._signs(picture, loose)
+        step = grid_step(view.per_row)
+        drawn = []
+        for row in range(self.rows):
+            dots, over = loose.marks.get(row), signs.get(row)
+            if dots is None and over is None:
+                line = self._still(row)
+            else:
+                line = self._joined(row, dots or {}, over or {})
+            drawn.append([*self._left_of(row, step), *line] if self.gutter else line)
+        return [*drawn, self._below(step)] if self._footer else drawn
 
-    def _follow_trail(self, picture: FieldPicture) -> None:
-        """Draw what the trail has grown by; begin anew when it is another one, or shorter."""
-        ink, total = self._ink, picture.forgotten + len(picture.strokes)
-        view = picture.left, picture.bottom, picture.size
-        if (
-            view != (ink.left, ink.bottom, ink.size)
-            or picture.wipes != self._wipes
-            or total < self._drawn
-        ):
-            ink = self._ink = Ink(self.columns, self.rows, *view)
-            self._wipes, self._drawn = picture.wipes, 0
+    # What stays from look to look
+
+    def _fresh(self, view: Viewport) -> None:
+        """Begin anew with another part of the plane."""
+        self._view = view
+        self._wide, self._high = 0.5 * view.per_row * self.columns, view.per_row * self.rows
+        self._pen, self._pen_ink = _Pens(), self._new_ink()
+        self._trails, self._trail_ink = _Pens(), self._new_ink()
+        self._grid = self._gridded()
+        self._standing: object = None
+        self._inside: list[tuple[int, int]] = [(0, 0)] * self.rows
+        self._kept: list[tuple[object, Line] | None] = [None] * self.rows
+        self._field_colors = None
+
+    def _new_ink(self) -> Ink:
+        view = self._view
+        return Ink(self.columns, self.rows, view.left, view.bottom, self._wide, self._high)
+
+    def _gridded(self) -> Ink:
+        """Faint lines at every step; without colours, dots where they would cross."""
+        ink, view = self._new_ink(), self._view
+        step = grid_step(view.per_row)
+        xs = list(_multiples(view.left, view.left + self._wide, step))
+        ys = list(_multiples(view.bottom, view.bottom + self._high, step))
+        color = self._paper.grid
+        if self._plain:
+            for x in xs:
+                for y in ys:
+                    ink.draw((x, y, x, y, color, 0))
+            return ink
+        for x in xs:
+            ink.draw((x, view.bottom, x, view.bottom + self._high, color, 0))
+        for y in ys:
+            ink.draw((view.left, y, view.left + self._wide, y, color, 0))
+        return ink
+
+    def _stand(self, field: TurtleField | None) -> None:
+        """Work out which cells lie on the field."""
+        where = None if field is None else (field.x, field.y, field.theta)
+        if where == self._standing:
+            return
+        self._standing = where
+        self._inside = [(0, 0)] * self.rows
+        if field is None:
+            return
+        corners = [self.place(*corner) for corner in field.corners()]
+        for row in range(self.rows):
+            ends = _crossings(corners, row + 0.5)
+            if ends is not None:
+                first = max(0, math.ceil(ends[0] - 0.5))
+                self._inside[row] = first, min(self.columns, math.floor(ends[1] + 0.5))
+
+    def _follow(self, picture: PlanePicture) -> None:
+        """Draw what the trails have grown by; begin anew where they are others, or shorter."""
+        field = picture.field
+        if field is not None:
+            moved = (field.x, field.y, field.theta)
+            self._pen, self._pen_ink = self._grown(
+                picture.pen, (moved, picture.pen.edition), self._pen, self._pen_ink, field
+            )
+        self._trails, self._trail_ink = self._grown(
+            picture.trails, (picture.fixed, picture.trails.edition), self._trails, self._trail_ink
+        )
+
+    def _grown(
+        self, drawn: Drawn, key: object, pens: _Pens, ink: Ink, field: TurtleField | None = None
+    ) -> tuple[_Pens, Ink]:
+        total = drawn.forgotten + len(drawn.strokes)
+        first = max(0, pens.done - drawn.forgotten)
+        moves, is_cut = key != pens.key, pens.is_cut
+        if moves or total < pens.done or is_cut:
+            ink, first = self._new_ink(), 0
             self._kept = [None] * self.rows
-        for stroke in picture.strokes[max(0, self._drawn - picture.forgotten) :]:
-            ink.draw(stroke)
-        self._drawn = total
+            # On a sheet that moves from look to look all of it is drawn anew every time.
+            is_cut = moves and pens.is_new and len(drawn.strokes) > MOST_TURNING
+            first = len(drawn.strokes) - MOST_TURNING if is_cut else 0
+        turned = field is not None and (field.x, field.y, field.theta) != (0.0, 0.0, 0.0)
+        for index in range(first, len(drawn.strokes)):
+            stroke = drawn.strokes[index]
+            ink.draw(_carried(stroke, field) if turned and field is not None else stroke)
+        return _Pens(key, total, moves, is_cut), ink
 
-    def _under(self, row: int, ground: Color) -> Line:
-        """Give a line with nothing but trail on it, kept until the trail changes there."""
-        kept, state = self._kept[row], (self._ink.revisions[row], ground)
+    # What is drawn at every look
+
+    def _loose(self, picture: PlanePicture) -> LooseInk:
+        """Draw the lines to the parents, the pair's, the walls and the axes."""
+        view = self._view
+        ink = LooseInk(self.columns, self.rows, view.left, view.bottom, self._wide, self._high)
+        for one in picture.frames:
+            if one.parent is not None:
+                for ends in _dashes((one.x, one.y), one.parent, 0.25 * view.per_row):
+                    ink.draw((*ends, _LINK, 0))
+        if picture.field is not None:
+            # Without a colour of its own the field has an edge.
+            for ends in _edges(picture.field, _SIDES) if self._plain else ():
+                ink.draw((*ends, _LINK, 0))
+            for ends in _edges(picture.field, picture.field.walls):
+                ink.draw((*ends, theme.WALL, 0))
+        length = axis_length(view, self.rows)
+        for one in picture.frames:
+            if not one.is_frame:
+                continue
+            for (along, up), color in zip(one.axes, (_X, _Y, _Z), strict=False):
+                if math.hypot(along, up) > 0.05:
+                    end = one.x + length * along, one.y + length * up
+                    ink.draw((one.x, one.y, *end, color, 0))
+                    if self.rows >= THICK_FROM:
+                        # A dot beside it, so that the axis is two dots wide.
+                        aside = 0.25 * view.per_row / math.hypot(along, up)
+                        x, y = one.x - aside * up, one.y + aside * along
+                        ink.draw((x, y, end[0] - aside * up, end[1] + aside * along, color, 0))
+        return ink
+
+    def _signs(self, picture: PlanePicture, loose: LooseInk) -> _Overlay:
+        """Put turtles, origins and names over the dots."""
+        signs: _Overlay = {}
+        hard: set[tuple[int, int]] = set()
+        labels: list[Label] = []
+        per_metre = 1.0 / self._view.per_row
+        bodies = per_metre >= sprites.BODY_FROM and not self._plain
+        # Turtles below frames that stand on them; and of turtles, the first one on top.
+        below = [one for one in picture.frames if one.is_turtle][::-1]
+        if not bodies:
+            below.reverse()
+        above = [one for one in picture.frames if not one.is_turtle]
+        reaches: dict[str, int] = {}
+        for one in (*below, *above):
+            place = self.place(one.x, one.y)
+            if not self._is_near(place):
+                continue
+            color = self._ink_of(one, place)
+            cells = self._sprite(one, place, color, per_metre, bodies, hard)
+            for column, row, cell in cells:
+                if 0 <= column < self.columns and 0 <= row < self.rows:
+                    signs.setdefault(row, {})[column] = cell
+                    hard.add((row, column))
+            reaches[one.name] = (
+                math.ceil(1.6 * per_metre) if one.is_turtle and bodies else 1 if self._plain else 2
+            )
+        for one in _by_weight(picture):
+            place = self.place(one.x, one.y)
+            if self._is_near(place) and len(labels) < MOST_NAMED:
+                labels.append(self._label(one, place, reaches[one.name]))
+        # Lines and axes had better stay in sight.
+        soft = {(row, column) for row, cells in loose.marks.items() for column in cells}
+        for placed in self._placer.placed(labels, hard, soft):
+            self._write(signs, placed)
+        return signs
+
+    def _sprite(
+        self,
+        one: PlaneFrame,
+        place: Point,
+        color: Color,
+        per_metre: float,
+        bodies: bool,
+        taken: set[tuple[int, int]],
+    ) -> Iterable[tuple[int, int, Cell]]:
+        column, row = math.floor(place[0]), math.floor(place[1])
+        if not one.is_turtle:
+            return [(column, row, Cell("o" if self._ascii else "●", color, None, True))]
+        if bodies:
+            return sprites.body(*place, one.theta, color, per_metre)
+        if (row, column) in taken:
+            # Another turtle stands there: this one is seen beside it, and small.
+            free = next(
+                (
+                    column + aside
+                    for aside in (2, -2, 1, -1, 3, -3)
+                    if (row, column + aside) not in taken and 0 <= column + aside < self.columns
+                ),
+                column,
+            )
+            arrows = sprites.ASCII_ARROWS if self._ascii else sprites.ARROWS
+            return [(free, row, Cell(arrows[sprites.octant(one.theta)], color, None, True))]
+        return sprites.badge(*place, one.theta, color, per_metre, blocks=not self._ascii)
+
+    def _label(self, one: PlaneFrame, place: Point, reach: int) -> Label:
+        more = "~" if self._ascii else "…"
+        text = fitted(one.name, max(10, self.columns // 3), more=more)
+        if not one.is_frame:
+            text = f"{text} (no frame)"
+        if theme.is_stale(one.age):
+            text = f"{text} {one.age:.1f} s ago"
+        text = fitted(text, self.columns, more=more)
+        if self._ascii:
+            text = text.encode("ascii", "replace").decode("ascii")
+        color = self._ink_of(one, place)
+        if not theme.is_stale(one.age):
+            color = theme.blend(color, theme.WHITE, 0.4) if self._on_field(place) else color
+        row = min(self.rows - 1, max(0, math.floor(place[1])))
+        return Label(one.name, text, math.floor(place[0]), row, reach, color)
+
+    def _ink_of(self, one: PlaneFrame, place: Point) -> Color:
+        """A frame's colour on the ground it stands on; amber and red where it is stale."""
+        palette = theme.DARK if self._on_field(place) else self._palette
+        return theme.of_age(theme.readable(theme.of_name(one.name), palette), one.age, palette)
+
+    def _write(self, signs: _Overlay, placed: PlacedLabel) -> None:
+        label = placed.label
+        cells = signs.setdefault(placed.row, {})
+        for offset, sign in _cells(label.text):
+            cells[placed.column + offset] = Cell(sign, label.color)
+
+    # Cells to lines
+
+    def _still(self, row: int) -> Line:
+        """Give a line with nothing on it that moves, kept until a trail changes there."""
+        ground = None if self._field_colors is None else self._field_colors.ground
+        state = (
+            self._pen_ink.revisions[row],
+            self._trail_ink.revisions[row],
+            self._inside[row],
+            ground,
+        )
+        kept = self._kept[row]
         if kept is None or kept[0] != state:
-            kept = state, _line(self._ink.cells(row, ascii_only=self._ascii), ground)
+            kept = state, _line(self._cells(row))
             self._kept[row] = kept
         return kept[1]
 
-    def _over(self, row: int, cells: dict[int, Cell], ground: Color) -> Line:
-        line = self._ink.cells(row, ascii_only=self._ascii)
-        for column, cell in cells.items():
-            line[column] = cell
-        return _line(line, ground)
+    def _joined(self, row: int, dots: dict[int, tuple[int, Color]], signs: dict[int, Cell]) -> Line:
+        cells = self._cells(row)
+        for column, (mask, color) in dots.items():
+            colors = self._colors(row, column)
+            role = _ROLES.get(color)
+            ink = color if role is None else colors[role]
+            cells[column] = Cell(sign_of(mask, ascii_only=self._ascii), ink, cells[column].ground)
+        for column, cell in signs.items():
+            ground = cell.ground or cells[column].ground
+            cells[column] = Cell(cell.text, cell.ink, ground, cell.bold)
+        return _line(cells)
 
-    def _overlay(self, picture: FieldPicture) -> _Overlay:
-        overlay: _Overlay = {}
-        for column, row, cell in self._walls(picture.walls):
-            overlay.setdefault(row, {})[column] = cell
-        names: list[tuple[str, int, int, int, Color]] = []
-        per_metre = self.rows / picture.size
-        everything: tuple[Mark | DrawnTurtle, ...] = (*picture.marks, *picture.turtles)
-        for shown in everything:
-            place = self._place(shown.x, shown.y)
-            if place is None:
-                continue
-            color = theme.of_name(shown.name)
-            if isinstance(shown, Mark):
-                faded = theme.faded(color, shown.age, picture.background)
-                if faded is None:
-                    continue
-                color = faded
-                arrows = sprites.ASCII_ARROWS if self._ascii else sprites.ARROWS
-                sign = arrows[sprites.octant(shown.theta)]
-                cells: Iterable[tuple[int, int, Cell]] = (
-                    (int(place[0]), int(place[1]), Cell(sign, color, None, True)),
+    def _cells(self, row: int) -> list[Cell]:
+        """A row of grid, pens and trails, every cell with its ground."""
+        ascii_only = self._ascii
+        grid = self._grid.cells(row, ascii_only=ascii_only)
+        cells = list(grid)
+        first, end = self._inside[row]
+        field = self._field_colors
+        if field is not None and first < end:
+            for column in range(first, end):
+                below = cells[column]
+                cells[column] = Cell(
+                    below.text, field.grid if below.ink is not None else None, field.ground
                 )
-                reach = 1
-            elif per_metre >= sprites.BODY_FROM and not self._arrows:
-                cells = sprites.body(*place, shown.theta, color, per_metre)
-                reach = math.ceil(1.9 * per_metre)
-            else:
-                cells = sprites.badge(*place, shown.theta, color, per_metre, blocks=not self._ascii)
-                reach = 1 if self._ascii else 2
-            for column, row, cell in cells:
-                if 0 <= column < self.columns and 0 <= row < self.rows:
-                    overlay.setdefault(row, {})[column] = cell
-            names.append((shown.name, int(place[0]), int(place[1]), reach, color))
-        for name, column, row, reach, color in reversed(names):
-            self._name(overlay, name, column, row, reach, color)
-        return overlay
+            for column, cell in enumerate(self._pen_ink.cells(row, ascii_only=ascii_only)):
+                if cell.ink is not None:
+                    cells[column] = Cell(cell.text, cell.ink, cells[column].ground)
+        for column, cell in enumerate(self._trail_ink.cells(row, ascii_only=ascii_only)):
+            if cell.ink is not None:
+                ink = self._faint(cell.ink, cells[column].ground)
+                cells[column] = Cell(cell.text, ink, cells[column].ground)
+        return cells
 
-    def _place(self, x: float, y: float) -> tuple[float, float] | None:
-        """Give the (column, row) of a point, or None for what lies far off or nowhere."""
-        ink = self._ink
-        across, up = (x - ink.left) / ink.size, (y - ink.bottom) / ink.size
-        # Asked this way round, NaN is nowhere.
-        if not (-0.1 <= across <= 1.1 and -0.1 <= up <= 1.1):
-            return None
-        # The far edges belong to the field.
-        column = across * self.columns if across != 1.0 else self.columns - 0.01
-        row = (1.0 - up) * self.rows if up != 0.0 else self.rows - 0.01
+    def _faint(self, color: Color, ground: Color | None) -> Color:
+        """A frame's colour for the way it went: less than the frame itself."""
+        if ground is not None:
+            return theme.blend(color, ground, 0.3)
+        return theme.blend(theme.readable(color, self._palette), self._palette.panel, 0.3)
+
+    def _colors(self, row: int, column: int) -> PaperColors:
+        first, end = self._inside[row]
+        if self._field_colors is not None and first <= column < end:
+            return self._field_colors
+        return self._paper
+
+    def _on_field(self, place: Point) -> bool:
+        row = math.floor(place[1])
+        if self._field_colors is None or not 0 <= row < self.rows:
+            return False
+        first, end = self._inside[row]
+        return first <= math.floor(place[0]) < end
+
+    def place(self, x: float, y: float) -> Point:
+        """The column and row of a point of the plane."""
+        view = self._view
+        if not abs(x) + abs(y) <= FARTHEST:
+            return math.inf, math.inf
+        column = (x - view.left) / view.per_row * 2.0
+        row = self.rows - (y - view.bottom) / view.per_row
+        # The far edges belong to the picture.
+        if column == self.columns:
+            column -= 0.01
+        if row == self.rows:
+            row -= 0.01
         return column, row
 
-    def _walls(self, sides: frozenset[str]) -> Iterator[tuple[int, int, Cell]]:
-        last_column, last_row = self.columns - 1, self.rows - 1
-        top, bottom, left, right = "####" if self._ascii else "▀▄▌▐"
-        if "top" in sides:
-            yield from ((column, 0, Cell(top, theme.WALL)) for column in range(self.columns))
-        if "bottom" in sides:
-            yield from (
-                (column, last_row, Cell(bottom, theme.WALL)) for column in range(self.columns)
-            )
-        if "left" in sides:
-            yield from ((0, row, Cell(left, theme.WALL)) for row in range(self.rows))
-        if "right" in sides:
-            yield from ((last_column, row, Cell(right, theme.WALL)) for row in range(self.rows))
+    def _is_near(self, place: Point) -> bool:
+        return -2.0 <= place[0] < self.columns + 2.0 and -2.0 <= place[1] < self.rows + 2.0
 
-    def _name(
-        self, overlay: _Overlay, name: str, column: int, row: int, reach: int, color: Color
-    ) -> None:
-        """Write a name beside its turtle: right, left, below or above, where it hides nothing."""
-        more = "~" if self._ascii else "…"
-        text = fitted(name, min(self.columns - 2 * reach - 2, max(8, self.columns // 3)), more=more)
-        if self._ascii:
-            text = text.encode("ascii", "replace").decode("ascii")
-        width = cell_len(text)
-        if not width:
-            return
-        below = max(1, (reach + 1) // 2)
-        middle = min(max(0, column - width // 2), self.columns - width)
-        places = (
-            (column + reach + 1, row),
-            (column - reach - width, row),
-            (middle, row + below),
-            (middle, row - below),
-            (column + reach + 1, row + 1),
-            (column + reach + 1, row - 1),
-        )
-        for start, line in places:
-            inside = 0 <= line < self.rows and start >= 0 and start + width <= self.columns
-            taken = overlay.get(line, {})
-            if inside and not any(start + offset in taken for offset in range(width)):
-                cells = overlay.setdefault(line, {})
-                for offset, sign in _cells(text):
-                    cells[start + offset] = Cell(sign, theme.blend(color, theme.WHITE, 0.4))
-                return
+    # The scale
+
+    def _left_of(self, row: int, step: float) -> Line:
+        view = self._view
+        text = ""
+        for y in _multiples(view.bottom, view.bottom + self._high, step):
+            if math.floor(self.place(0.0, y)[1]) == row:
+                text = metres(y, step)
+        style = _style(theme.blend(self._palette.panel, self._palette.dim, 0.9), None, False)
+        return [Segment(f"{text[: self.gutter - 1]:>{self.gutter - 1}} ", style)]
+
+    def _below(self, step: float) -> Line:
+        view = self._view
+        signs = [" "] * (self.columns + self.gutter)
+        signs[self.gutter - 4] = "m"
+        free = self.gutter - 1
+        for x in _multiples(view.left, view.left + self._wide, step):
+            text = metres(x, step)
+            column = self.gutter + math.floor(self.place(x, 0.0)[0])
+            start = column - (len(text) - 1) // 2 - (text[0] == "-")
+            if free <= start and start + len(text) <= len(signs):
+                signs[start : start + len(text)] = text
+                free = start + len(text) + 1
+        style = _style(theme.blend(self._palette.panel, self._palette.dim, 0.9), None, False)
+        return [Segment("".join(signs), style)]
 
 
-def framed(lines: list[Line], *, ascii_only: bool = False) -> list[Line]:
-    """Put a box around a field, for where its ground has no colour to end with."""
-    width = sum(segment.cell_length for segment in lines[0]) if lines else 0
-    across, down, corners = ("-", "|", "++++") if ascii_only else ("─", "│", "┌┐└┘")
-    side = Segment(down)
-    return [
-        [Segment(corners[0] + across * width + corners[1])],
-        *([side, *line, side] for line in lines),
-        [Segment(corners[2] + across * width + corners[3])],
-    ]
+def axis_length(view: Viewport, rows: int) -> float:
+    """How long axes are drawn, in metres: about a tenth of the picture, and never a mere dot."""
+    return view.per_row * min(4.0, max(1.6, rows / 10.0))
+
+
+def metres(value: float, step: float) -> str:
+    """A number of a scale, with as many digits as its steps have."""
+    digits = max(0, -math.floor(math.log10(step) + 1e-9))
+    text = f"{value:.{digits}f}"
+    return "0" if not text.strip("-0.") else text
+
+
+def _by_weight(picture: PlanePicture) -> list[PlaneFrame]:
+    """The frames whose names matter most first: the pair, then the turtles."""
+    return sorted(
+        picture.frames,
+        key=lambda one: (one.name not in picture.pair, not one.is_turtle, one.parent is None),
+    )
+
+
+def _multiples(first: float, last: float, step: float) -> Iterator[float]:
+    for number in range(math.ceil(first / step - 1e-9), math.floor(last / step + 1e-9) + 1):
+        yield number * step
+
+
+def _crossings(corners: Sequence[Point], row: float) -> tuple[float, float] | None:
+    """Where a row enters a convex shape and leaves it; None where it misses it."""
+    found = []
+    for (x0, y0), (x1, y1) in zip(corners, (*corners[1:], corners[0]), strict=True):
+        if min(y0, y1) <= row < max(y0, y1):
+            found.append(x0 + (row - y0) / (y1 - y0) * (x1 - x0))
+    return (min(found), max(found)) if len(found) > 1 else None
+
+
+def _edges(field: TurtleField, sides: Iterable[str]) -> Iterator[tuple[float, float, float, float]]:
+    for side in sorted(sides):
+        (x0, y0), (x1, y1) = _SIDES[side]
+        yield (*field.place(x0, y0), *field.place(x1, y1))
+
+
+_SIDES: Final = {
+    "bottom": ((0.0, 0.0), (EDGE, 0.0)),
+    "right": ((EDGE, 0.0), (EDGE, EDGE)),
+    "top": ((EDGE, EDGE), (0.0, EDGE)),
+    "left": ((0.0, EDGE), (0.0, 0.0)),
+}
+
+
+def _dashes(start: Point, end: Point, dot: float) -> Iterator[tuple[float, float, float, float]]:
+    """Every other pair of dots of a line, so that it is no trail; of a long one fewer."""
+    length = math.hypot(end[0] - start[0], end[1] - start[1])
+    if not dot < length <= FARTHEST:
+        return
+    count = max(1, round(length / (5.0 * dot)))
+    if count > 400:
+        yield (*start, *end)
+        return
+    along, up = (end[0] - start[0]) / count, (end[1] - start[1]) / count
+    for number in range(count):
+        x, y = start[0] + number * along, start[1] + number * up
+        yield x + 0.4 * along, y + 0.4 * up, x + 0.8 * along, y + 0.8 * up
+
+
+def _carried(stroke: Stroke, field: TurtleField) -> Stroke:
+    x0, y0, x1, y1, color, width = stroke
+    return (*field.place(x0, y0), *field.place(x1, y1), color, width)
 
 
 def _cells(text: str) -> Iterator[tuple[int, str]]:
@@ -278,13 +577,13 @@ def _cells(text: str) -> Iterator[tuple[int, str]]:
     yield from shown
 
 
-def _line(cells: list[Cell], ground: Color) -> Line:
+def _line(cells: list[Cell]) -> Line:
     """Join cells that look the same into segments."""
     line: Line = []
     text: list[str] = []
-    look: tuple[Color | None, Color, bool] = (None, ground, False)
+    look: tuple[Color | None, Color | None, bool] = (None, None, False)
     for cell in cells:
-        mine = cell.ink, cell.ground or ground, cell.bold
+        mine = cell.ink, cell.ground, cell.bold
         if mine != look and cell.text:
             if text:
                 line.append(Segment("".join(text), _style(*look)))
@@ -296,25 +595,9 @@ def _line(cells: list[Cell], ground: Color) -> Line:
 
 
 @lru_cache(maxsize=4096)
-def _style(ink: Color | None, ground: Color, bold: bool) -> Style:
+def _style(ink: Color | None, ground: Color | None, bold: bool) -> Style:
     return Style(
         color=None if ink is None else theme.hexadecimal(ink),
-        bgcolor=theme.hexadecimal(ground),
+        bgcolor=None if ground is None else theme.hexadecimal(ground),
         bold=bold or None,
     )
-
-
-@dataclass(frozen=True, slots=True)
-class FieldView:
-    """A `FieldPicture` as a rich renderable: the largest square field there is room for."""
-
-    picture: FieldPicture
-    ascii_only: bool = False
-
-    def __rich_console__(self, console: Console, options: ConsoleOptions) -> RenderResult:
-        """Draw the field, one line of text after another."""
-        columns, rows = fit(options.max_width, options.height or options.max_height)
-        ascii_only = self.ascii_only or options.ascii_only
-        for line in Canvas(columns, rows, ascii_only=ascii_only).lines(self.picture):
-            yield from line
-            yield Segment.line()

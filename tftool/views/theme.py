@@ -152,6 +152,31 @@ LIGHT = Palette(
 )
 
 
+def is_stale(age: float, timeout: float = FRAME_TIMEOUT) -> bool:
+    """Whether a frame was silent for so long that its age is worth saying: a third of `timeout`."""
+    # Asked this way round, an age that is not a number is stale.
+    return not age <= timeout / 3.0
+
+
+def of_age(color: Color, age: float, palette: Palette, timeout: float = FRAME_TIMEOUT) -> Color:
+    """The colour of a frame without news: its own, then amber, and red when it counts as dead.
+
+    Args:
+        color: Its own.
+        age: Seconds since its latest stamp last changed; 0 for static frames.
+        palette: Of the screen.
+        timeout: Seconds after which the frame is dead.
+    """
+    if not is_stale(age, timeout):
+        return color
+    return palette.warning if age <= timeout else palette.error
+
+
+def readable(color: Color, palette: Palette) -> Color:
+    """A frame's colour, dark enough to be read on a light screen."""
+    return blend(color, INK, 0.55) if palette is LIGHT else color
+
+
 def prefers_light(environment: Mapping[str, str] = MappingProxyType({})) -> bool:
     """Tell from COLORFGBG, which some terminals set, whether their ground is light."""
     ground = environment.get("COLORFGBG", "").rpartition(";")[2]

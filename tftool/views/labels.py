@@ -1,0 +1,107 @@
+"""Names beside what they name, nudged apart until none covers another."""
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+
+from rich.cells import cell_len
+
+from tftool.messages import Color
+
+FARTHEST_ROWS = 7
+"""So many rows away from its frame a name may stand; then a line leads to it."""
+
+
+@dataclass(frozen=True, slots=True)
+class Label:
+    """A text to place.
+
+    Attributes:
+        name: What it belongs to.
+        text: What is written.
+        column: The cell of what it belongs to.
+        row: The cell of what it belongs to.
+        reach: How many cells that takes to either side.
+        color: The text's colour.
+    """
+
+    name: str
+    text: str
+    column: int
+    row: int
+    reach: int
+    color: Color
+
+
+@dataclass(frozen=True, slots=True)
+class PlacedLabel:
+    """Where a label stands: its first cell; and whether it is far off what it belongs to."""
+
+    label: Label
+    column: int
+    row: int
+    is_far: bool
+
+
+class Placer:
+    """Places labels, and keeps them where they were while that is good.
+
+    Args:
+        columns: Cells across.
+        rows: Cells down.
+    """
+
+    def __init__(self, columns: int, rows: int) -> None:
+        self.columns, self.rows = columns, rows
+        self._before: dict[str, tuple[int, int]] = {}
+
+    def placed(
+        self, labels: list[Label], hard: set[tuple[int, int]], soft: set[tuple[int, int]]
+    ) -> list[PlacedLabel]:
+        """Give every label a place; one for which there is none anywhere near is left out.
+
+        Args:
+            labels: The most important ones first.
+            hard: Cells (row, column) that no text may cover; those of the labels are added.
+            soft: Cells it had better not cover.
+        """
+        found = []
+        for label in labels:
+            width = cell_len(label.text)
+            best: tuple[float, int, int] | None = None
+            for cost, column, row in self._places(label, width):
+                if best is not None and cost >= best[0]:
+                    continue
+                cells = [(row, column + offset) for offset in range(width)]
+                if any(cell in hard for cell in cells):
+                    continue
+                cost += 0.4 * sum(cell in soft for cell in cells)
+                # Beside a neighbour of the same line it would read as one word with it.
+                cost += 3.0 * ((row, column - 1) in hard and column - 1 != label.column)
+                if best is None or cost < best[0]:
+                    best = cost, column, row
+            if best is None:
+                continue
+            _, column, row = best
+            self._before[label.name] = column - label.column, row - label.row
+            hard.update((row, column + offset) for offset in range(-1, width + 1))
+            found.append(PlacedLabel(label, column, row, abs(row - label.row) > 2))
+        return found
+
+    def _places(self, label: Label, width: int) -> Iterator[tuple[float, int, int]]:
+        column, row, reach = label.column, label.row, label.reach
+        right, left = column + reach + 1, column - reach - width
+        middle = column - width // 2
+        before = self._before.get(label.name)
+        least = max(1, (reach + 1) // 2)
+        for down in range(FARTHEST_ROWS + 1):
+            for line in (row,) if down == 0 else (row + down, row - down):
+                if not 0 <= line < self.rows:
+                    continue
+                starts = (right, left) if down < least else (right, left, middle)
+                for place, start in enumerate(starts):
+                    if start < 0 or start + width > self.columns:
+                        continue
+                    cost = 1.5 * down + (0.0, 0.6, 0.3)[place]
+                    if before == (start - column, line - row):
+                        cost -= 1.2
+                    yield cost, start, line
