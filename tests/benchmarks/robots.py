@@ -67,22 +67,15 @@ def pictures_a_second() -> float | None:
     chromium, chromedriver = shutil.which("chromium"), shutil.which("chromedriver")
     if not (chromium and chromedriver):
         return None
-    from selenium import webdriver
-    from selenium.webdriver.chrome.service import Service
-
+    from tests.screens.browser.driving import start_chromium
     from tests.screens.browser.stage import Stage
-    from tests.screens.browser.test_page import FLAGS
     from tftool.screens.browser.robots import ShownRobot
 
-    options = webdriver.ChromeOptions()
-    options.binary_location = chromium
-    for flag in FLAGS:
-        options.add_argument(flag)
     robot = Robot(parse_description(arms(LINKS, ARMS)))
     with Stage() as stage:
         stage.do(lambda world: asyncio.ensure_future(_moving(world, robot).run()))
         stage.show(ShownRobot(robot))
-        driver = webdriver.Chrome(options=options, service=Service(chromedriver))
+        driver = start_chromium()
         try:
             driver.get(f"{stage.url}#view=orbit&names=0")
             while len(driver.execute_script("return tftool.robot().links")) < LINKS:

@@ -12,7 +12,7 @@ from tftool.runtime.world import World
 from tftool.screens.browser.server import PageServer
 from tftool.stamps import seconds
 
-PATIENCE = 30
+PATIENCE = 60
 
 
 class Stage:

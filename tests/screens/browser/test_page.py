@@ -2,73 +2,29 @@
 
 import math
 import os
-import shutil
 from pathlib import Path
 
 import pytest
 import yaml
 
 pytest.importorskip("websockets", reason="the extra `view` is not installed")
-webdriver = pytest.importorskip("selenium.webdriver", reason="selenium is not installed")
+pytest.importorskip("selenium.webdriver", reason="selenium is not installed")
 
-from selenium.webdriver.chrome.service import Service  # noqa: E402
-from selenium.webdriver.common.by import By  # noqa: E402
-from selenium.webdriver.support.ui import Select, WebDriverWait  # noqa: E402
+from selenium.webdriver.common.by import By
+from selenium.webdriver.support.ui import Select
 
-from tests.screens.browser.mesh_files import write_package  # noqa: E402
-from tests.screens.browser.stage import PATIENCE, Stage  # noqa: E402
-from tftool.stamps import display, seconds  # noqa: E402
+from tests.screens.browser.driving import CHROMEDRIVER, CHROMIUM, Page
+from tests.screens.browser.mesh_files import write_package
+from tests.screens.browser.stage import Stage
+from tftool.stamps import display, seconds
 
-CHROMIUM = shutil.which("chromium")
-CHROMEDRIVER = shutil.which("chromedriver")
 pytestmark = pytest.mark.skipif(
     not (CHROMIUM and CHROMEDRIVER),
     reason="no chromium and chromedriver: apt-get install chromium chromium-driver",
 )
 
-FLAGS = [
-    "--headless=new",
-    "--no-sandbox",  # a container's root has no other choice
-    "--disable-dev-shm-usage",
-    "--use-angle=swiftshader",  # three.js draws without a graphics card
-    "--enable-unsafe-swiftshader",
-    "--disable-gpu",
-    "--window-size=1280,800",
-    "--hide-scrollbars",
-    # Every window draws, whether or not another one lies over it.
-    "--disable-backgrounding-occluded-windows",
-    "--disable-renderer-backgrounding",
-    # Nothing is asked of anybody but the page's own server.
-    "--disable-background-networking",
-    "--disable-component-update",
-    # Between two pages Chromium may not know that 127.0.0.1 asks 127.0.0.1.
-    "--disable-features=LocalNetworkAccessChecks",
-    "--disable-quic",
-    "--disable-sync",
-    "--no-first-run",
-]
-
 VECTORS = Path(__file__).parents[2] / "reference" / "turtlesim_vectors.yaml"
 PICTURE = Path(__file__).parents[2] / "pictures" / "view.png"
-
-
-@pytest.fixture(scope="module")
-def chromium():
-    options = webdriver.ChromeOptions()
-    options.binary_location = CHROMIUM
-    for flag in FLAGS:
-        options.add_argument(flag)
-    options.set_capability("goog:loggingPrefs", {"browser": "ALL"})
-    driver = webdriver.Chrome(options=options, service=Service(CHROMEDRIVER))
-    driver.set_script_timeout(PATIENCE)
-    yield driver
-    driver.quit()
-
-
-@pytest.fixture
-def stage():
-    with Stage() as stage:
-        yield stage
 
 
 # What a page learns of the graphics card, where this machine has none: 0x9246 asks its name.
@@ -86,62 +42,6 @@ def card(chromium):
     script = chromium.execute_cdp_cmd("Page.addScriptToEvaluateOnNewDocument", {"source": CARD})
     yield
     chromium.execute_cdp_cmd("Page.removeScriptToEvaluateOnNewDocument", script)
-
-
-class Page:
-    """The page as a person uses it."""
-
-    def __init__(self, driver, stage, state=""):
-        self.driver = driver
-        driver.get("about:blank")
-        # What an earlier page complained of is not this one's.
-        driver.get_log("browser")
-        driver.get(f"{stage.url}#{state}")
-
-    def said(self, expression):
-        """The value of an expression in the page."""
-        return self.driver.execute_script(f"return {expression}")
-
-    def until(self, condition):
-        """Wait until `condition()` holds; return what it gave."""
-        return WebDriverWait(self.driver, PATIENCE, poll_frequency=0.02).until(
-            lambda _: condition()
-        )
-
-    def find(self, selector):
-        return self.driver.find_element(By.CSS_SELECTOR, selector)
-
-    def texts(self, selector):
-        script = "return [...document.querySelectorAll(arguments[0])].map(e => e.textContent)"
-        return self.driver.execute_script(script, selector)
-
-    def text(self, selector):
-        return self.texts(selector)[0]
-
-    def drawn(self):
-        """What is drawn in 3-D, by name: pose in the fixed frame, pixel, arrow, fading."""
-        return {
-            frame["name"]: frame for frame in self.driver.execute_script("return tftool.drawn()")
-        }
-
-    def x_of(self, name):
-        return self.drawn().get(name, {}).get("pose", [None])[0]
-
-    def row(self, name):
-        rows = self.driver.find_elements(By.CSS_SELECTOR, "#tree .row")
-        names = self.texts("#tree .name")
-        return rows[names.index(name)]
-
-    def scrub(self, moment):
-        """Move the timeline's handle, as a pointer or the arrow keys do."""
-        script = (
-            "const line = document.getElementById('scrub'); line.value = arguments[0];"
-            "line.dispatchEvent(new Event('input'))"
-        )
-        self.driver.execute_script(script, moment)
-
-    def complaints(self):
-        return [entry for entry in self.driver.get_log("browser") if entry["level"] == "SEVERE"]
 
 
 def test_frames_appear_and_move(chromium, stage):
@@ -265,13 +165,14 @@ def test_the_sliders_bounds_are_there_before_anything_is_drawn(chromium, stage):
 def test_playing_runs_through_the_past_into_the_present(chromium, stage):
     for second in (1.0, 2.0):
         stage.put(second, at=second)
-    page = Page(chromium, stage)
+    page = Page(chromium, stage, "speed=0.1")
     page.until(lambda: page.x_of("turtle") == 2.0)
 
     page.scrub(1.0)
     page.until(lambda: page.x_of("turtle") == 1.0)
     page.find("#play").click()
     page.until(lambda: 1.0 < page.x_of("turtle") < 2.0)
+    Select(page.find("#speed")).select_by_value("4")
     page.until(lambda: page.text("#status") == "live" and page.x_of("turtle") == 2.0)
 
 
@@ -295,8 +196,8 @@ def test_a_pairs_numbers_are_those_of_lookup_transform(chromium, stage, moment):
     page = Page(chromium, stage)
     page.until(lambda: "other" in page.drawn())
 
-    Select(page.find("#source")).select_by_visible_text("turtle")
-    Select(page.find("#target")).select_by_visible_text("other")
+    page.pick("source", "turtle")
+    page.pick("target", "other")
     page.until(lambda: page.text("#sentence") == "turtle in other")
     if moment is not None:
         page.scrub(moment)
@@ -328,7 +229,7 @@ def test_a_frame_of_another_tree_is_listed_and_said_to_have_no_transform(chromiu
 
     page.until(lambda: page.text("#trouble") == "No transform from [lost] to [world]")
     assert "lost" not in page.drawn()
-    Select(page.find("#fixed")).select_by_visible_text("elsewhere")
+    page.pick("fixed", "elsewhere")
     page.until(lambda: set(page.drawn()) == {"lost", "elsewhere"})
 
 
@@ -409,8 +310,8 @@ def test_markup_in_a_name_is_text(chromium, stage):
     page.until(lambda: HOSTILE in page.drawn())
 
     page.row(HOSTILE).find_element(By.CLASS_NAME, "name").click()
-    Select(page.find("#source")).select_by_visible_text(HOSTILE)
-    Select(page.find("#target")).select_by_visible_text("world")
+    page.pick("source", HOSTILE)
+    page.pick("target", "world")
     page.until(lambda: page.text("#sentence") == f"{HOSTILE} in world")
 
     assert set(names) <= set(page.texts("#tree .name"))
@@ -439,8 +340,8 @@ def test_a_frame_infinitely_far_away_leaves_the_others_where_they_are(chromium, 
     page = Page(chromium, stage)
     page.until(lambda: "here" in page.drawn())
 
-    Select(page.find("#fixed")).select_by_visible_text("beyond")
-    Select(page.find("#fixed")).select_by_visible_text("world")
+    page.pick("fixed", "beyond")
+    page.pick("fixed", "world")
 
     page.until(lambda: page.x_of("here") == pytest.approx(2.0))
 
@@ -555,8 +456,8 @@ def test_the_address_carries_the_view(chromium, stage):
     page.row("turtle").find_element(By.CLASS_NAME, "name").click()
     page.find("#orbit").click()
     page.find("#grid").click()
-    Select(page.find("#source")).select_by_visible_text("turtle")
-    Select(page.find("#target")).select_by_visible_text("world")
+    page.pick("source", "turtle")
+    page.pick("target", "world")
     page.scrub(1.5)
     page.until(lambda: "at=1.5" in chromium.current_url and "target=world" in chromium.current_url)
 
@@ -629,7 +530,7 @@ def test_the_chain_of_the_pair_is_drawn(chromium, stage):
     page.until(lambda: {"turtle", "other"} <= page.drawn().keys())
     assert chromium.execute_script(PAINTED) == 0
 
-    Select(page.find("#source")).select_by_visible_text("turtle")
+    page.pick("source", "turtle")
     page.until(lambda: page.text("#sentence") == "turtle in other")
     page.until(lambda: chromium.execute_script(PAINTED) > 100)
 

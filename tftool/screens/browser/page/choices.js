@@ -2,7 +2,7 @@
 // What a person has chosen: switches, frames, filters, numbers. The address carries all of it.
 
 /** Least and most of the numbers that can be typed. */
-export const LIMITS = { interval: [0, 60], timeout: [1, 1e6], length: [1, 60] };
+export const LIMITS = { interval: [0, 60], timeout: [1, 1e6], length: [1, 60], side: [180, 640] };
 
 export const SPEEDS = [0.1, 0.25, 0.5, 1, 2, 4];
 
@@ -39,7 +39,8 @@ export class Choices {
     this.interval = 0; // seconds
     this.timeout = 15; // seconds
     this.length = 10; // of trails, seconds
-    for (const id of ["interval", "timeout", "length"]) this.setNumber(id, given[id]);
+    this.side = 264; // width of the list of frames, pixels
+    for (const id of Object.keys(LIMITS)) this.setNumber(id, given[id]);
     this.speed = SPEEDS.includes(given.speed) ? given.speed : 1;
     /** @type {number | undefined} */
     this.scale = given.scale; // of the markers; undefined: by the size of the scene

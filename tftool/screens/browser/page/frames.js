@@ -5,16 +5,42 @@ import { fade } from "./model.js";
 
 const MOST_TRAILS = 60;
 const HUES = [207, 332, 140, 32, 268, 180, 354, 80, 238, 300];
+// A frame is late after so many of its periods, and after so long at least; red a while later.
+const LATE = { periods: 3, seconds: 1 };
+const DEAD = { periods: 10, seconds: 5 };
 
 /**
  * pose, parent: in the fixed frame, null where not known or without a parent. grey, alpha: how far
  * it has faded. shown: whether it is in the picture. trouble: why it cannot be. told: rate or age.
+ * late: "late" or "dead" where data stopped coming. color: its own, in the list and of its trail.
  * @typedef {{
  *   index: number, name: string, pose: number[] | null, parent: number[] | null,
  *   grey: number, alpha: number, filtered: boolean, shown: boolean, lost: boolean,
- *   trouble: string, told: string,
+ *   trouble: string, told: string, late: string, color: string,
  * }} Frame
  */
+
+/**
+ * A frame's own colour: the first frames get those that differ most.
+ * @param {number} place of the frame in the order in which they first appeared
+ * @param {string} theme
+ */
+export function colorOf(place, theme) {
+  // Where all hues are given out, they come again in another tone.
+  const tone = [0, -14, 10][Math.floor(place / HUES.length) % 3];
+  return `hsl(${HUES[place % HUES.length]} 85% ${(theme === "dark" ? 66 : 45) + tone}%)`;
+}
+
+/**
+ * How late a link is: "" while its samples come, then "late", then "dead".
+ * @param {number} age seconds since its newest sample
+ * @param {number} rate its samples a second; 0 where it is not known
+ */
+export function lateness(age, rate) {
+  const beyond = ({ periods, seconds }) => age > Math.max(seconds, rate > 0 ? periods / rate : 0);
+  if (beyond(DEAD)) return "dead";
+  return beyond(LATE) ? "late" : "";
+}
 
 /**
  * @param {import("./model.js").Model} model solved for the fixed frame
@@ -28,6 +54,7 @@ export function describe(model, choices, past) {
     const { grey, alpha } = fade(model.age(index), choices.timeout);
     const filtered = choices.leavesOut(name);
     const parent = model.parents[index];
+    const late = lateOf(model, index, past);
     return {
       index,
       name,
@@ -39,7 +66,9 @@ export function describe(model, choices, past) {
       shown: pose !== null && !filtered && !choices.hidden.has(name) && alpha > 0,
       lost: pose === null,
       trouble: pose === null ? trouble(model, index, choices.fixed, past) : "",
-      told: told(model, index, past),
+      told: told(model, index, late),
+      late,
+      color: colorOf(model.places.get(name) ?? index, choices.theme),
     };
   });
 }
@@ -52,12 +81,30 @@ function trouble(model, index, fixed, past) {
   return past ? `${refusal} at the moment shown` : refusal;
 }
 
+/**
+ * Bring rates and ages up to date, and nothing else.
+ * @param {import("./model.js").Model} model
+ * @param {Frame[]} frames
+ * @param {boolean} past whether a past moment is shown
+ */
+export function retell(model, frames, past) {
+  if (frames.length !== model.names.length) return;
+  for (const frame of frames) {
+    frame.late = lateOf(model, frame.index, past);
+    frame.told = told(model, frame.index, frame.late);
+  }
+}
+
+function lateOf(model, index, past) {
+  if (past || !model.poses || model.parents[index] < 0 || model.statics[index]) return "";
+  return lateness(model.behind(index), model.poses.rateOf(index));
+}
+
 /** How often a frame comes, or how old it is where it stopped coming. */
-function told(model, index, past) {
+function told(model, index, late) {
   const { poses } = model;
   if (!poses || model.parents[index] < 0 || model.statics[index]) return "";
-  const age = poses.now - poses.newestOf(index);
-  return age > model.rate && !past ? `${number(age, 1)} s` : `${number(poses.rateOf(index), 0)} Hz`;
+  return late ? `${number(model.behind(index), 1)} s` : `${number(poses.rateOf(index), 0)} Hz`;
 }
 
 /**
@@ -72,8 +119,8 @@ export function trails(model, drawn, choices, until) {
   return drawn
     .filter(({ index, name }) => choices.trailed.has(name) || (choices.trails && model.moves(index)))
     .slice(0, MOST_TRAILS)
-    .map(({ index }) => ({
-      color: `hsl(${HUES[index % HUES.length]} 85% ${choices.theme === "dark" ? 66 : 45}%)`,
+    .map(({ index, color }) => ({
+      color,
       points: model.trail(index, choices.fixed, choices.length, until),
     }));
 }

@@ -3,9 +3,14 @@
 import { Bounds, spread } from "./bounds.js";
 import { Choices, LIMITS } from "./choices.js";
 import { keepFiles } from "./files.js";
-import { chain, describe, trails } from "./frames.js";
+import { chain, describe, retell, trails } from "./frames.js";
+import { freshness } from "./freshness.js";
+import { KEYS, meant, OTHERS } from "./keys.js";
 import { fade, Model } from "./model.js";
-import { $, showCounts, showEmpty, showFrame, showPair, showReach, showStatus, showTime, toast } from "./panels.js";
+import {
+  $, fill, showBanner, showCounts, showEmpty, showFrame, showPair, showReach, showStatus, showTime, toast,
+} from "./panels.js";
+import { Picker } from "./picker.js";
 import { Redraw } from "./redraw.js";
 import { Robot } from "./robot.js";
 import { Stage } from "./scene.js";
@@ -16,6 +21,7 @@ import { Timeline } from "./timeline.js";
 import { Tree } from "./tree.js";
 import { Wire } from "./wire.js";
 
+const FLIGHT = 350; // milliseconds
 const STEP = 0.1; // seconds one press of [ or ] goes
 const SWITCHES = ["names", "axes", "arrows", "grid", "trails", "visuals", "collisions", "jointaxes"];
 // When the past is requested for the trails: once the tree has come to rest, and once more later,
@@ -43,6 +49,8 @@ const server = { connection: "wait", pair: null, unacknowledged: 0 };
 const shown = { frames: [], drawn: [], lines: [] };
 /** @type {{ past: number[], address: number | undefined }} */
 const timers = { past: [], address: undefined };
+/** @type {string | undefined} the frame under the pointer, in the picture or in the list */
+let hovered;
 
 const timeline = new Timeline(
   {
@@ -60,6 +68,8 @@ timeline.ends = inside !== null;
 
 const tree = new Tree($("tree"), {
   choose: (name) => choose(choices.chosen === name ? undefined : name),
+  fly: (name) => flyTo(name),
+  hover: (name) => hover(name),
   toggle(name, visible) {
     choices.mark("hidden", name, !visible);
     changed();
@@ -92,7 +102,7 @@ const handlers = {
     timeline.rate = model.rate;
     if (another) timeline.goLive();
     tree.build(model, choices);
-    fillSelects();
+    fillPickers();
     timers.past.forEach(clearTimeout);
     timers.past = PAST_AFTER.map((wait) => setTimeout(() => wire.past(), wait));
     redraw.everything();
@@ -135,6 +145,12 @@ if (inside) {
 }
 const wire = inside ? new Standalone(handlers, inside) : new Wire(handlers);
 
+const pickers = {
+  fixed: new Picker($("fixed"), $("offers"), (name) => name && setFixed(name), false),
+  target: new Picker($("target"), $("offers"), (name) => setPair(name, choices.source), true),
+  source: new Picker($("source"), $("offers"), (name) => setPair(choices.target, name), true),
+};
+
 const sliders = new Sliders($("sliders"), (joint, position) => wire.move(joint, position));
 
 /** Tell the server that what it sent is dealt with, so that it sends what is newest then. */
@@ -154,6 +170,7 @@ function changed() {
 function render(now) {
   requestAnimationFrame(render);
   timeline.tick(now);
+  if (stage.flying) stage.advance(now);
   const due = redraw.take(now, choices.interval * 1000);
   if (due.picture) {
     if (model.poses?.revision !== model.revision) redraw.nothingShown();
@@ -163,6 +180,7 @@ function render(now) {
     paint();
   }
   if (due.lists) {
+    if (!due.picture) retell(model, shown.frames, timeline.past); // ages go on without a picture
     tree.refresh(shown.frames, choices, robot);
     words();
   }
@@ -172,7 +190,7 @@ function render(now) {
 function solve() {
   if (!model.index.has(choices.fixed) && model.roots.length && !choices.fixedByHand) {
     choices.fixed = model.biggestRoot();
-    $("fixed").value = choices.fixed;
+    pickers.fixed.value = choices.fixed ?? "";
   }
   model.solve(choices.fixed);
   shown.frames = describe(model, choices, timeline.past);
@@ -186,7 +204,7 @@ function paint() {
   const { pair } = server;
   robot.place(shown.frames, choices);
   stage.draw(drawn, { ...choices, scale: 10 ** Number($("scale").value) });
-  const special = new Set([choices.chosen, ...(pair?.found ? [pair.source, pair.target] : [])]);
+  const special = new Set([choices.chosen, hovered, ...(pair?.found ? [pair.source, pair.target] : [])]);
   const labels = drawn
     .filter(({ name }) => choices.names || special.has(name))
     .map((frame) => ({ ...frame, first: special.has(frame.name) }))
@@ -197,7 +215,9 @@ function paint() {
 }
 
 function words() {
-  showStatus(server.connection, timeline);
+  const state = freshness(server.connection, model, timeline.past);
+  showStatus(timeline, state);
+  showBanner(state, model);
   showCounts(model, choices.hidden);
   showEmpty(server.connection, model, choices.fixed);
   const index = model.index.get(choices.chosen);
@@ -220,22 +240,35 @@ function follow() {
   if (box) fit(box);
 }
 
-function fit(box) {
+/** How many pixels of the picture lie below panels, at each side. */
+function insets() {
   const side = (id) => ($(id).offsetParent ? $(id).getBoundingClientRect() : null);
   const left = side("left");
   const right = side("right");
-  stage.fit(box, {
+  return {
     left: left && innerWidth > 640 ? left.right : 0,
     right: right && innerWidth > 640 ? innerWidth - right.left : 0,
     top: $("bar").getBoundingClientRect().bottom,
-    bottom: 80,
-  });
+    bottom: innerHeight - $("time").getBoundingClientRect().top,
+  };
+}
+
+function fit(box) {
+  stage.fit(box, insets());
   if (choices.scale === undefined) {
     // Axes a twentieth of the scene: rviz's 1 suits a room, not a gripper nor a field.
     // Smaller in a crowd.
     const crowd = Math.max(1, Math.cbrt(shown.drawn.length / 12));
     showScale(Math.min(100, Math.max(0.01, spread(box) / 4 / crowd)));
   }
+}
+
+/** Bring a frame into the middle, near enough to see its axes. */
+function flyTo(name) {
+  const pose = model.absolute[model.index.get(name) ?? -1];
+  if (!pose) return;
+  const calm = matchMedia("(prefers-reduced-motion: reduce)").matches;
+  stage.fly(pose, 10 ** Number($("scale").value), calm ? 0 : FLIGHT, insets());
 }
 
 function refit() {
@@ -246,16 +279,23 @@ function refit() {
 
 // ---- choices
 
-function fillSelects() {
-  for (const id of ["fixed", "target", "source"]) {
-    const value = choices[id];
-    const options = model.names.map((name) => new Option(name, name));
-    // What is asked for stays choosable while it does not exist.
-    if (value !== undefined && !model.index.has(value)) options.unshift(new Option(value, value));
-    if (id !== "fixed") options.unshift(new Option("choose…", ""));
-    $(id).replaceChildren(...options);
-    $(id).value = value ?? "";
-  }
+function fillPickers() {
+  // What is asked for stays choosable while it does not exist.
+  const asked = [choices.fixed, choices.target, choices.source].map((name) => name ?? "");
+  const absent = asked.filter((name) => name && !model.index.has(name));
+  Picker.names = [...new Set([...absent, ...model.names])];
+  for (const [id, picker] of Object.entries(pickers)) picker.value = choices[id] ?? "";
+}
+
+/**
+ * Light a frame, in the picture and in the list.
+ * @param {string | undefined} name
+ */
+function hover(name) {
+  if (hovered === name) return;
+  hovered = name;
+  tree.light(name);
+  redraw.picture();
 }
 
 /** @param {string | undefined} name */
@@ -266,8 +306,8 @@ function choose(name) {
 
 function setPair(target, source) {
   choices.setPair(target, source);
-  $("target").value = choices.target ?? "";
-  $("source").value = choices.source ?? "";
+  pickers.target.value = choices.target ?? "";
+  pickers.source.value = choices.source ?? "";
   server.pair = null;
   const both = choices.target !== undefined && choices.source !== undefined;
   wire.want("pair", both ? { target: choices.target, source: choices.source } : { target: null, source: null });
@@ -277,8 +317,9 @@ function setPair(target, source) {
 
 function setFixed(name) {
   choices.setFixed(name);
-  bounds.reset();
-  $("fixed").value = name;
+  pickers.fixed.value = name;
+  solve();
+  refit();
   changed();
 }
 
@@ -381,8 +422,6 @@ $("fit").onclick = refit;
 $("theme").onclick = () => setTheme(choices.theme === "dark" ? "light" : "dark");
 $("share").onclick = share;
 $("shot").onclick = shot;
-$("fixed").onchange = () => setFixed($("fixed").value);
-$("target").onchange = $("source").onchange = () => setPair($("target").value, $("source").value);
 $("swap").onclick = () => setPair(choices.source, choices.target);
 $("unchoose").onclick = () => choose(undefined);
 $("as-source").onclick = () => setPair(choices.target, choices.chosen);
@@ -406,7 +445,7 @@ $("scale").oninput = () => {
   showScale(choices.scale);
   changed();
 };
-for (const id of Object.keys(LIMITS)) {
+for (const id of ["interval", "timeout", "length"]) {
   $(id).value = String(choices[id]);
   $(id).onchange = () => {
     choices.setNumber(id, Number.parseFloat($(id).value));
@@ -435,19 +474,77 @@ $("speed").onchange = () => {
 // A link to another view, put into this very window.
 addEventListener("hashchange", () => location.reload());
 
-const KEYS = {
-  t: "top", o: "orbit", f: "fit", n: "names", a: "axes", r: "arrows", g: "grid", m: "trails",
-  " ": "play", "[": "back", "]": "forth", l: "live",
-};
+/** What of the keyboard the focused element needs for itself. */
+function focused(target) {
+  if (!(target instanceof HTMLElement)) return "other";
+  if (target.matches("textarea, input:not([type=checkbox], [type=range])")) return "text";
+  return target.matches("button, select, summary, input[type=checkbox]") ? "button" : "other";
+}
 addEventListener("keydown", (event) => {
-  if (event.ctrlKey || event.metaKey || event.altKey) return;
-  if (event.target instanceof Element && event.target.matches("input, select, button, summary")) return;
-  const id = KEYS[event.key.toLowerCase()];
+  if (event.key === "Escape") {
+    if (!$("help").hidden) showHelp(false);
+    else if (document.body.dataset.drawer) openDrawer("");
+    else choose(undefined);
+    return;
+  }
+  if (event.key === "/" && focused(event.target) !== "text") {
+    event.preventDefault();
+    openDrawer("left");
+    $("only").focus();
+    return;
+  }
+  const id = meant(event, focused(event.target));
   if (id) {
     event.preventDefault();
     $(id).click();
   }
 });
+// A button that was clicked lets go of the keyboard, so that keys go on to mean what they say.
+addEventListener("click", (event) => {
+  if (!event.detail || !(event.target instanceof Element)) return; // pressed by a key
+  const button = event.target.closest("button, summary, input[type=checkbox], input[type=range]");
+  if (button instanceof HTMLElement) button.blur();
+});
+$("speed").addEventListener("change", () => $("speed").blur());
+
+function showHelp(on) {
+  $("help").hidden = !on;
+  if (on) $("help-close").focus();
+}
+$("ask").onclick = () => showHelp($("help").hidden);
+$("help-close").onclick = () => showHelp(false);
+$("help").onclick = (event) => event.target === $("help") && showHelp(false);
+fill($("help-keys"), [...KEYS.map(([key, , does]) => [key === " " ? "Space" : key.toUpperCase(), does]), ...OTHERS]);
+
+// On a small screen panels are drawers: one is open at a time.
+function openDrawer(name) {
+  const now = document.body.dataset.drawer === name ? "" : name;
+  document.body.dataset.drawer = now;
+  for (const button of document.querySelectorAll(".drawer")) {
+    button.setAttribute("aria-expanded", String(button instanceof HTMLElement && button.dataset.drawer === now));
+  }
+}
+for (const button of document.querySelectorAll(".drawer")) {
+  if (button instanceof HTMLElement) button.onclick = () => openDrawer(button.dataset.drawer ?? "");
+}
+
+// The list of frames is as wide as a person likes it.
+function setSide(width) {
+  choices.setNumber("side", width);
+  document.documentElement.style.setProperty("--side", `${choices.side}px`);
+  $("grip").setAttribute("aria-valuenow", String(choices.side));
+  remember();
+}
+$("grip").setAttribute("aria-valuemin", String(LIMITS.side[0]));
+$("grip").setAttribute("aria-valuemax", String(LIMITS.side[1]));
+$("grip").onpointerdown = (event) => $("grip").setPointerCapture(event.pointerId);
+$("grip").onpointermove = (event) => {
+  if ($("grip").hasPointerCapture(event.pointerId)) setSide(event.clientX - $("left").getBoundingClientRect().left);
+};
+$("grip").onkeydown = (event) => {
+  const by = { ArrowLeft: -20, ArrowRight: 20 }[event.key];
+  if (by) setSide(choices.side + by);
+};
 
 // A frame is chosen by a click near its origin; a drag moves the camera.
 const NEAR = 18; // pixels
@@ -471,7 +568,17 @@ $("over").addEventListener("pointerup", (event) => {
   choose(nearest(event)?.name);
 });
 $("over").addEventListener("pointermove", (event) => {
-  if (!event.buttons) $("over").classList.toggle("hit", nearest(event) !== null);
+  if (event.buttons) return;
+  const frame = nearest(event);
+  $("over").classList.toggle("hit", frame !== null);
+  hover(frame?.name);
+});
+$("over").addEventListener("pointerleave", () => hover(undefined));
+$("over").addEventListener("dblclick", (event) => {
+  const frame = nearest(event);
+  if (!frame) return;
+  choose(frame.name);
+  flyTo(frame.name);
 });
 addEventListener("resize", changed);
 // A narrow window breaks the bar into lines: the panels begin where it ends.
@@ -479,7 +586,18 @@ new ResizeObserver(() => {
   const { bottom } = $("bar").getBoundingClientRect();
   document.documentElement.style.setProperty("--top", `${bottom + 10}px`);
 }).observe($("bar"));
+new ResizeObserver(() => {
+  const { top } = $("time").getBoundingClientRect();
+  document.documentElement.style.setProperty("--foot", `${innerHeight - top + 10}px`);
+}).observe($("time"));
 
+// What does not come makes no picture: ages go on, and so does what is said of the server.
+setInterval(() => {
+  model.silence = server.connection === "ended" ? (performance.now() - model.heardAt) / 1000 : 0;
+  redraw.words();
+}, 500);
+
+setSide(choices.side);
 setTheme(choices.theme);
 setView(choices.view);
 showScale(choices.scale ?? 1);
@@ -506,6 +624,7 @@ Object.assign(globalThis, {
         pixel: stage.project(pose[0], pose[1], pose[2]),
       })),
     fade,
+    hovered: () => hovered,
     moment: () => model.poses?.at ?? null,
     pair: () => server.pair,
     reach: () => timeline.reach,

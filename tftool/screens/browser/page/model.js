@@ -50,6 +50,11 @@ export class Model {
     /** @type {Map<string, { stamp: number, when: number }>} */
     this.heard = new Map(); // name → { stamp, when }: when the latest common stamp last changed
     this.heardAt = 0; // when poses of the present came last, milliseconds
+    /** When a stamp newer than all before came last, milliseconds, and what the session's time was. */
+    this.fresh = { newest: Number.NaN, when: 0, now: 0 };
+    this.silence = 0; // seconds since then, while nothing can come
+    /** @type {Map<string, number>} */
+    this.places = new Map(); // of the names, in the order in which they first appeared
     /** @type {import("./wire.js").Poses[]} */
     this.history = [];
     this.historyBytes = 0;
@@ -59,6 +64,7 @@ export class Model {
   setNames(message) {
     const another = this.epoch !== null && this.epoch !== message.epoch;
     if (another) {
+      this.places.clear();
       this.heard.clear();
       this.forget();
     }
@@ -72,6 +78,7 @@ export class Model {
       total: message.total,
       rate: message.rate,
     });
+    for (const name of this.names) if (!this.places.has(name)) this.places.set(name, this.places.size);
     this.index = new Map(this.names.map((name, index) => [name, index]));
     this.children = this.names.map(() => []);
     this.roots = [];
@@ -103,6 +110,7 @@ export class Model {
     if (last && poses.now < moment(last)) this.forget();
     this.remember(poses);
     this.heardAt = when;
+    if (this.fresh.newest !== poses.newest) this.fresh = { newest: poses.newest, when, now: poses.now };
   }
 
   /** Keep poses for trails, in the order of their moments. */
@@ -201,6 +209,18 @@ export class Model {
     const heard = this.heard.get(this.names[index]);
     if (!heard || heard.stamp === Infinity) return 0;
     return Math.max(0, (this.heardAt - heard.when) / 1000);
+  }
+
+  /** Seconds since anything new was heard; 0 while the session's time stands still. */
+  unheard() {
+    if (!this.poses || this.poses.now === this.fresh.now) return 0;
+    return (this.heardAt - this.fresh.when) / 1000;
+  }
+
+  /** Seconds since the frame's newest stamp, the silence since the server was heard last included. */
+  behind(index) {
+    if (!this.poses) return 0;
+    return Math.max(0, this.poses.now - this.poses.newestOf(index)) / this.rate + this.silence;
   }
 
   relative(index) {

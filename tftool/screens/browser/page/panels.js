@@ -98,19 +98,47 @@ function setText(element, text) {
 }
 
 /**
- * @param {"wait" | "open" | "ended" | "stored"} connection stored: all there is is in the page
  * @param {import("./timeline.js").Timeline} timeline
+ * @param {ReturnType<typeof import("./freshness.js").freshness>} state
  */
-export function showStatus(connection, timeline) {
-  const { past, playing } = timeline;
-  document.body.classList.toggle("past", past);
-  const [state, text] =
-    connection === "stored" ? ["past", playing && past ? "replay" : "recorded"]
-    : connection === "open" ? (past ? ["past", playing ? "replay" : "past"] : ["live", "live"])
-    : connection === "ended" ? ["ended", "session ended, waiting for it to come back"]
-    : ["wait", "connecting"];
+export function showStatus({ past, playing }, state) {
+  const { classList } = document.body;
+  for (const name of ["gone", "stale"]) classList.toggle(name, state === name);
+  classList.toggle("past", past);
+  const text = {
+    wait: "connecting", gone: "session ended, waiting for it to come back", stale: "no new data",
+    past: playing ? "replay" : "past", stored: playing && past ? "replay" : "recorded", live: "live",
+  }[state];
   $("status").dataset.state = state;
   setText($("status"), text);
+}
+
+/**
+ * Say what moment is still looked at where nothing new comes.
+ * @param {ReturnType<typeof import("./freshness.js").freshness>} state
+ * @param {import("./model.js").Model} model
+ */
+export function showBanner(state, model) {
+  const { poses } = model;
+  const late = state === "gone" || state === "stale";
+  $("banner").hidden = !late || !poses;
+  if (!late || !poses) return;
+  $("banner").dataset.state = state;
+  const seen = `${number(state === "gone" ? (poses.at ?? poses.now) : poses.newest, 2)} s`;
+  const ago = state === "gone" ? model.silence : model.unheard();
+  setText(
+    $("banner"),
+    state === "gone"
+      ? `The session is gone. Last seen: its ${seen}, ${spell(ago)} ago. Waiting for it to come back.`
+      : `No new data for ${spell(ago)}. The newest transform is of ${seen}.`,
+  );
+}
+
+/** A span of time that grows, in words. */
+function spell(seconds) {
+  if (seconds < 60) return `${Math.floor(seconds)} s`;
+  if (seconds < 3600) return `${Math.floor(seconds / 60)} min`;
+  return `${Math.floor(seconds / 3600)} h`;
 }
 
 /** What stands in place of a picture while there is none. */
@@ -153,7 +181,7 @@ export function showTime(timeline) {
   $("moment").textContent =
     at !== null ? `${number(at, 3)} s (${number(at - newest, 2)})${forgotten ? ", left the buffer" : ""}`
     : `${number(now, 2)} s, buffer ${number(newest - oldest, 1)} s`;
-  $("live").setAttribute("aria-pressed", String(at === null));
+  $("live").setAttribute("aria-pressed", String(at === null && !/gone|stale/.test(document.body.className)));
   const label = playing ? "Pause" : "Play";
   if ($("play").getAttribute("aria-label") !== label) {
     $("play").setAttribute("aria-label", label);

@@ -19,6 +19,11 @@ export class Redraw {
     this.pictureDue = true;
   }
 
+  /** Time has passed: the lists follow, and no picture. */
+  words() {
+    this.listsDue = true;
+  }
+
   /** A person moved the camera or the time: the picture follows at once. */
   picture() {
     this.pictureDue = this.atOnce = true;

@@ -23,23 +23,8 @@ import {
 } from "three";
 import { OrbitControls } from "three/addons/controls/OrbitControls.js";
 import { Crowd } from "./crowd.js";
+import { THEMES } from "./themes.js";
 
-export const THEMES = {
-  dark: {
-    background: "#14171d",
-    grid: ["#2f3743", "#222832"],
-    text: "#e8edf4",
-    halo: "rgba(20, 23, 29, 0.85)",
-    accent: "#ffb84d",
-  },
-  light: {
-    background: "#f4f6fa",
-    grid: ["#c3cbd7", "#dfe4ec"],
-    text: "#1b2430",
-    halo: "rgba(244, 246, 250, 0.9)",
-    accent: "#c77700",
-  },
-};
 const AXES = ["#f0454b", "#3fc45c", "#3d84ff"];
 const SHAFT = "#cfbf57";
 const HEAD = "#ff3d94";
@@ -109,7 +94,10 @@ export class Stage {
       controls.zoomToCursor = true;
       controls.enabled = false;
       controls.addEventListener("change", () => this.changed());
-      controls.addEventListener("start", () => (this.taken = true));
+      controls.addEventListener("start", () => {
+        this.taken = true;
+        this.flying = null;
+      });
       this.controls[name] = controls;
     }
     this.controls.top.enableRotate = false;
@@ -130,6 +118,8 @@ export class Stage {
     this.signs = new Map(); // names as they were painted
     this.changed = () => {}; // the camera has moved
     this.taken = false; // whether a person moves the camera, and not the page
+    /** @type {{ from: any, to: any, lasting: number, began: number } | null} */
+    this.flying = null;
     this.view = "top";
     this.setView("top");
   }
@@ -140,6 +130,7 @@ export class Stage {
 
   setView(view) {
     this.view = view;
+    this.flying = null;
     for (const [name, controls] of Object.entries(this.controls)) controls.enabled = name === view;
     this.changed();
   }
@@ -205,6 +196,59 @@ export class Stage {
     this.controls.orbit.target.copy(middle);
     orbit.position.copy(middle).addScaledVector(away, distance);
     this.controls.orbit.update();
+    this.changed();
+  }
+
+  /**
+   * Move the camera so that a place comes into the middle of what the panels leave free, and near.
+   * @param {number[]} place
+   * @param {number} scale of the markers, which are to be seen well
+   * @param {number} lasting milliseconds; 0 for at once
+   * @param {{ left: number, right: number, top: number, bottom: number }} inset
+   */
+  fly(place, scale, lasting, inset) {
+    const { camera } = this;
+    const controls = this.controls[this.view];
+    this.taken = true;
+    const from = { position: camera.position.clone(), target: controls.target.clone(), zoom: camera.zoom };
+    const to = { position: camera.position.clone(), target: new Vector3(...place), zoom: camera.zoom };
+    const near = 4 * scale; // metres from side to side, at most
+    let perPixel;
+    if (this.view === "top") {
+      to.zoom = Math.max(camera.zoom, 10 / near);
+      perPixel = 10 / this.height / to.zoom;
+      to.target.z = controls.target.z;
+    } else {
+      const half = Math.tan((camera.fov * Math.PI) / 360);
+      const distance = Math.min(from.position.distanceTo(from.target), near / half);
+      perPixel = (2 * distance * half) / this.height;
+      to.position.sub(from.target).setLength(distance);
+    }
+    // The middle of what is free, and not of the window.
+    const right = new Vector3().setFromMatrixColumn(camera.matrixWorld, 0);
+    const upward = new Vector3().setFromMatrixColumn(camera.matrixWorld, 1);
+    to.target.addScaledVector(right, ((inset.right - inset.left) / 2) * perPixel);
+    to.target.addScaledVector(upward, ((inset.top - inset.bottom) / 2) * perPixel);
+    if (this.view === "top") to.position.set(to.target.x, to.target.y, from.position.z);
+    else to.position.add(to.target);
+    this.flying = { from, to, lasting, began: performance.now() };
+    this.advance(this.flying.began);
+  }
+
+  /** Go on flying; `now` in milliseconds. */
+  advance(now) {
+    if (!this.flying) return;
+    const { from, to, lasting, began } = this.flying;
+    const share = lasting > 0 ? Math.min(1, Math.max(0, (now - began) / lasting)) : 1;
+    const eased = share * share * (3 - 2 * share);
+    const { camera } = this;
+    const controls = this.controls[this.view];
+    camera.position.lerpVectors(from.position, to.position, eased);
+    controls.target.lerpVectors(from.target, to.target, eased);
+    camera.zoom = from.zoom * (to.zoom / from.zoom) ** eased;
+    camera.updateProjectionMatrix();
+    controls.update();
+    if (share >= 1) this.flying = null;
     this.changed();
   }
 

@@ -1,66 +1,87 @@
 // @ts-check
 // The nested list of frames. Names go in by textContent and no other way.
+import { kept, led, listed } from "./outline.js";
 
 export class Tree {
-  /** Handlers: choose(name), toggle(name, shown), fold(name, closed), solid(name, shown). */
+  /**
+   * @param {any} list
+   * @param {{
+   *   choose(name: string): void, fly(name: string): void, hover(name: string | undefined): void,
+   *   toggle(name: string, shown: boolean): void, fold(name: string, closed: boolean): void,
+   *   solid(name: string, shown: boolean): void,
+   * }} handlers
+   */
   constructor(list, handlers) {
     this.list = list;
     this.handlers = handlers;
+    /** @type {any[]} */
     this.rows = [];
+    this.filtered = ""; // by what the rows that are seen were last chosen
+    /** @type {Set<number>} */
+    this.kept = new Set();
+    this.current = -1; // the one row that is a tab stop
+    list.addEventListener("keydown", (event) => this.press(event));
+    list.addEventListener("pointerleave", () => handlers.hover(undefined));
   }
 
   build(model, state) {
+    const before = this.model?.names[this.current];
+    const held = this.list.contains(document.activeElement);
     this.model = model;
+    this.state = state;
+    this.filtered = "";
     this.rows = new Array(model.names.length);
-    const seen = new Set();
-    const items = new Map();
-    const make = (index) => {
-      seen.add(index);
-      const item = this.item(index, state);
-      items.set(index, item);
-      return item;
-    };
-    const roots = [...model.roots, ...model.looped].map(make);
-    // Level by level, not by recursion: a chain may be thousands of frames long.
-    for (const index of model.order) {
-      const children = model.children[index].filter((child) => !seen.has(child));
-      if (!children.length) continue;
-      const below = document.createElement("ul");
-      below.setAttribute("role", "group");
-      below.append(...children.map(make));
-      items.get(index).append(below);
+    const below = new Map(); // where the children of a frame go
+    const roots = [];
+    this.order = listed(model);
+    for (const { index, level } of this.order) {
+      const item = this.item(index, level);
+      const group = below.get(level === 1 ? -1 : model.parents[index]);
+      if (group) group.append(item);
+      else roots.push(item);
+      if (model.children[index].length) {
+        const list = document.createElement("ul");
+        list.setAttribute("role", "group");
+        item.append(list);
+        below.set(index, list);
+      }
     }
     this.list.replaceChildren(...roots);
+    this.current = -1;
+    this.stop(model.index.get(before) ?? this.order[0]?.index ?? -1);
+    if (held) this.rows[this.current]?.item.focus();
   }
 
-  item(index, state) {
-    const { model } = this;
+  item(index, level) {
+    const { model, state } = this;
     const name = model.names[index];
     const item = document.createElement("li");
     item.setAttribute("role", "treeitem");
+    item.setAttribute("aria-level", String(level));
+    item.setAttribute("aria-selected", "false");
+    item.tabIndex = -1;
     const row = document.createElement("div");
     row.className = "row";
-    const fold = document.createElement("button");
+    const fold = document.createElement("span");
     fold.className = "fold";
-    fold.tabIndex = -1;
+    fold.setAttribute("aria-hidden", "true");
     if (model.children[index].length) {
-      const closed = state.closed.has(name);
-      item.classList.toggle("closed", closed);
-      fold.textContent = closed ? "▶" : "▼";
       fold.title = "Open or close";
       fold.onclick = (event) => {
         event.stopPropagation();
-        const now = item.classList.toggle("closed");
-        fold.textContent = now ? "▶" : "▼";
-        this.handlers.fold(name, now);
+        this.open(index, item.classList.contains("closed"));
       };
     }
     const box = document.createElement("input");
     box.type = "checkbox";
+    box.tabIndex = -1;
     box.checked = !state.hidden.has(name);
     box.title = "Show this frame";
+    box.setAttribute("aria-label", `Show ${name}`);
     box.onclick = (event) => event.stopPropagation();
     box.onchange = () => this.handlers.toggle(name, box.checked);
+    const swatch = document.createElement("span");
+    swatch.className = "swatch";
     const label = document.createElement("span");
     label.className = "name";
     label.textContent = name;
@@ -73,39 +94,130 @@ export class Tree {
     }
     const solid = document.createElement("button");
     solid.className = "solid plain";
-    solid.textContent = "◆";
+    solid.tabIndex = -1;
     solid.hidden = true;
     solid.onclick = (event) => {
       event.stopPropagation();
       this.handlers.solid(name, state.bare.has(name));
     };
-    row.append(fold, box, label, solid, told);
-    row.onclick = () => this.handlers.choose(name);
-    row.tabIndex = 0;
-    row.onkeydown = (event) => {
-      if (event.target === row && event.key === "Enter") this.handlers.choose(name);
+    row.append(fold, box, swatch, label, solid, told);
+    row.onclick = () => {
+      this.stop(index);
+      this.handlers.choose(name);
     };
+    row.ondblclick = () => this.handlers.fly(name);
+    row.onpointerenter = () => this.handlers.hover(name);
     item.append(row);
-    this.rows[index] = { row, box, told, solid };
+    this.rows[index] = { item, row, box, told, solid, fold, swatch };
+    if (model.children[index].length) this.open(index, !state.closed.has(name), false);
     return item;
   }
 
-  /** Refresh what changes with time; `frames[index]`: { lost, grey, trouble, told }; `links.has(name)`. */
+  /** Open or close what hangs below a frame. */
+  open(index, open, tell = true) {
+    const { item, fold } = this.rows[index];
+    item.classList.toggle("closed", !open);
+    item.setAttribute("aria-expanded", String(open));
+    fold.textContent = open ? "▼" : "▶";
+    if (tell) this.handlers.fold(this.model.names[index], !open);
+  }
+
+  /** Make a row the one that the tab key reaches. */
+  stop(index) {
+    if (this.rows[this.current]) this.rows[this.current].item.tabIndex = -1;
+    this.current = index;
+    if (this.rows[index]) this.rows[index].item.tabIndex = 0;
+  }
+
+  /** The frames whose rows can be seen, from top to bottom. */
+  visible() {
+    const { parents } = this.model;
+    const hidden = new Set();
+    return (this.order ?? [])
+      .filter(({ index, level }) => {
+        const above = level === 1 ? -1 : parents[index];
+        const under = above >= 0 && (hidden.has(above) || this.rows[above].item.classList.contains("closed"));
+        if (under || !this.kept.has(index)) hidden.add(index);
+        return !hidden.has(index);
+      })
+      .map(({ index }) => index);
+  }
+
+  press(event) {
+    if (event.ctrlKey || event.metaKey || event.altKey || !this.rows[this.current]) return;
+    const { model, current } = this;
+    const name = model.names[current];
+    const { item, box } = this.rows[current];
+    if (event.key === "Enter") this.handlers.choose(name);
+    else if (event.key === " ") box.click();
+    else {
+      const way = led(event.key, current, {
+        visible: this.visible(),
+        parents: model.parents,
+        opened: (index) =>
+          model.children[index].length ? !this.rows[index].item.classList.contains("closed") : null,
+      });
+      if (way === null) return;
+      if (way.open !== undefined) this.open(current, way.open);
+      if (way.go !== undefined) {
+        this.stop(way.go);
+        this.rows[way.go].item.focus();
+        this.handlers.hover(model.names[way.go]);
+      }
+    }
+    event.preventDefault();
+    event.stopPropagation();
+    if (!item.isConnected) this.rows[this.current]?.item.focus();
+  }
+
+  /** Hide what a filter leaves out. */
+  filter(frames) {
+    const key = frames.map(({ filtered }) => Number(filtered)).join("");
+    if (key === this.filtered) return;
+    this.filtered = key;
+    this.kept = kept(this.model, (index) => !frames[index].filtered);
+    this.rows.forEach(({ item }, index) => (item.hidden = !this.kept.has(index)));
+    if (!this.kept.has(this.current)) this.stop(this.visible()[0] ?? -1);
+  }
+
+  /** Light the row of a frame, and no other. */
+  light(name) {
+    this.rows.forEach(({ row }, index) => row.classList.toggle("lit", this.model.names[index] === name));
+  }
+
+  /**
+   * Refresh what changes with time; `frames[index]`: { lost, grey, trouble, told, late, color };
+   * `links.has(name)`.
+   */
   refresh(frames, state, links) {
-    this.rows.forEach(({ row, box, told, solid }, index) => {
+    if (frames.length !== this.rows.length) return;
+    this.filter(frames);
+    this.rows.forEach(({ item, row, box, told, solid, swatch }, index) => {
       const frame = frames[index];
       const name = this.model.names[index];
       const shown = !state.hidden.has(name);
+      const chosen = state.chosen === name;
       if (box.checked !== shown) box.checked = shown;
-      row.classList.toggle("off", !shown || frame.filtered);
-      row.classList.toggle("lost", frame.lost);
-      row.classList.toggle("grey", frame.grey > 0);
-      row.classList.toggle("chosen", state.chosen === name);
-      row.title = frame.trouble;
-      solid.hidden = !links.has(name);
-      solid.title = state.bare.has(name) ? "Draw this link" : "Do not draw this link";
-      solid.setAttribute("aria-pressed", String(!state.bare.has(name)));
-      if (!told.classList.contains("still") && told.textContent !== frame.told) told.textContent = frame.told;
+      const looks = `row${!shown || frame.filtered ? " off" : ""}${frame.lost ? " lost" : ""}${
+        frame.grey > 0 ? " grey" : ""}${chosen ? " chosen" : ""}${row.classList.contains("lit") ? " lit" : ""}`;
+      if (row.className !== looks) row.className = looks;
+      if (item.getAttribute("aria-selected") !== String(chosen)) item.setAttribute("aria-selected", String(chosen));
+      if (row.title !== frame.trouble) row.title = frame.trouble;
+      if (swatch.dataset.color !== frame.color) swatch.style.background = swatch.dataset.color = frame.color;
+      const solidShown = links.has(name);
+      if (solid.hidden === solidShown) solid.hidden = !solidShown;
+      if (solidShown) {
+        const drawn = !state.bare.has(name);
+        if (solid.getAttribute("aria-pressed") !== String(drawn)) {
+          solid.title = drawn ? "Do not draw this link" : "Draw this link";
+          solid.textContent = drawn ? "◆" : "◇";
+          solid.setAttribute("aria-pressed", String(drawn));
+        }
+      }
+      if (!told.classList.contains("still")) {
+        if (told.textContent !== frame.told) told.textContent = frame.told;
+        if (told.dataset.late !== frame.late) told.dataset.late = frame.late;
+      }
     });
   }
 }

@@ -1,0 +1,39 @@
+// @ts-check
+// What the keys do: one table for the keyboard and for the page that tells of it.
+
+/** Key, the control it stands for, and what that does. */
+export const KEYS = [
+  ["t", "top", "from above"],
+  ["o", "orbit", "turn around it"],
+  ["f", "fit", "show everything"],
+  ["n", "names", "names"],
+  ["a", "axes", "axes"],
+  ["r", "arrows", "arrows to parents"],
+  ["g", "grid", "grid"],
+  ["m", "trails", "trails"],
+  [" ", "play", "play or pause"],
+  ["[", "back", "a little earlier"],
+  ["]", "forth", "a little later"],
+  ["l", "live", "follow the present"],
+  ["?", "ask", "this page"],
+];
+
+/** Keys of the list of frames and of fields, told beside the others. */
+export const OTHERS = [
+  ["/", "find a frame"],
+  ["↑ ↓ ← →", "through the list of frames"],
+  ["Enter", "choose the frame"],
+  ["Esc", "close, let go of the frame"],
+];
+
+/**
+ * The control that a key stands for; undefined where the key belongs to what has the focus.
+ * @param {{ key: string, ctrlKey?: boolean, metaKey?: boolean, altKey?: boolean }} event
+ * @param {"text" | "button" | "other"} focus text: letters are typed; button: space presses it
+ * @returns {string | undefined}
+ */
+export function meant({ key, ctrlKey, metaKey, altKey }, focus) {
+  if (ctrlKey || metaKey || altKey || focus === "text") return undefined;
+  if (focus === "button" && key === " ") return undefined;
+  return KEYS.find(([letter]) => letter === key.toLowerCase())?.[1];
+}
