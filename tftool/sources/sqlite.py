@@ -110,6 +110,11 @@ class Sqlite:
         low, high = self._base.execute(asked).fetchone()
         return int(low or 0), int(high or 0)
 
+    @property
+    def topic_ids(self) -> list[int]:
+        """The number that its own rows have for each stream."""
+        return list(self._ids)
+
     @cached_property
     def counts(self) -> list[int]:
         """How many messages each stream has."""

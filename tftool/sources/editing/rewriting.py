@@ -30,10 +30,12 @@ from tftool.sources.editing.changes import (
     carries_transforms,
     fits,
 )
+from tftool.sources.editing.database import EditedDatabase, Unsound
 from tftool.sources.editing.inputs import EditedInput, open_input, open_tape
 from tftool.sources.editing.mcap_tape import McapChunk
 from tftool.sources.editing.outputs import EditedFile, digest
 from tftool.sources.editing.rosbag1_tape import Rosbag1Chunk
+from tftool.sources.editing.sqlite_tape import SqliteTape
 from tftool.sources.editing.tape import Block, Taken, Tape
 from tftool.sources.recording import Recording, open_recording
 from tftool.sources.writing.channel import Channel
@@ -171,6 +173,7 @@ class _Job:
         if window is not None:
             self._start = max(self._start, window.start)
         self._outputs: dict[int, EditedFile] = {}
+        self._databases: list[EditedDatabase] = []
         self._order: list[int] = []
         self._heads = bool(
             edits.statics_first or edits.statics_from or edits.cuts or edits.split_every
@@ -315,6 +318,8 @@ class _Job:
             finally:
                 for one in self._outputs.values():
                     one.writer.abandon()
+                for database in self._databases:
+                    database.abandon()
         self._sum_up()
         return self.report
 
@@ -325,6 +330,14 @@ class _Job:
         check_room(self._path, (size if same else size // 2) + _ROOM)
 
     def _write(self, part: Path) -> None:
+        databases = self._changed_in_place()
+        if databases:
+            try:
+                self._change_databases(databases, part)
+            except Unsound:
+                self._forget_databases()
+            else:
+                return
         self._collect_statics()
         total, done = sum(tape.size for tape in self._tapes), 0
         for source, tape in enumerate(self._tapes):
@@ -343,6 +356,47 @@ class _Job:
         for number, output in self._outputs.items():
             whose = [self._tapes[number]] if self._by_tape else self._tapes
             output.finish(whose if self._by_tape or number == self._order[0] else [])
+
+    # Databases
+
+    def _changed_in_place(self) -> list[SqliteTape]:
+        """The databases, if each becomes one that differs in some rows only; else none."""
+        tapes = [tape for tape in self._tapes if isinstance(tape, SqliteTape)]
+        alike = len(tapes) == len(self._tapes) and self._container == "db3"
+        one_to_one = self._by_tape or (len(tapes) == 1 and not self._edits.split_every)
+        # Messages that are packed each by itself are packed anew, and what is damaged is sought
+        # for row by row.
+        packed = self._mode == "message" or any(one.mode == "message" for one in self._inputs)
+        damaged = any(one.damage for one in self._inputs) or any(tape.damage for tape in tapes)
+        if not alike or not one_to_one or packed or damaged or self._heads:
+            return []
+        return tapes
+
+    def _change_databases(self, tapes: Sequence[SqliteTape], part: Path) -> None:
+        total, done = sum(tape.size for tape in tapes), 0
+        for tape in tapes:
+            database = EditedDatabase(self._path_in(part, len(self._databases)), tape)
+            self._databases.append(database)
+            done += tape.size
+            self._tell(done // 2, 2 * total)
+            touched = [n for n, one in tape.channels.items() if self._changer.touches(one)]
+            database.change(self._changer.changed, touched)
+            database.finish()
+            self._tell(done, 2 * total)
+
+    def _forget_databases(self) -> None:
+        for database in self._databases:
+            database.abandon()
+            database.path.unlink(missing_ok=True)
+        self._databases.clear()
+        self._changer.counts = Counter()
+
+    def _path_in(self, part: Path, number: int) -> Path:
+        """Where a file of the result is written."""
+        if not self._is_folder:
+            return part
+        suffix = {"mcap": ".mcap", "db3": ".db3", "bag": ".bag"}[self._container]
+        return part / f"{self._path.name}_{number}{suffix}"
 
     def _write_block(self, source: int, tape: Tape, block: Block, part: Path) -> None:
         if self._untouched(block, tape):
@@ -402,10 +456,7 @@ class _Job:
             return found
         if len(self._outputs) >= MOST_PARTS:
             raise UsageError(f"That makes more than {MOST_PARTS} files: split less often.")
-        path = part
-        if self._is_folder:
-            suffix = {"mcap": ".mcap", "db3": ".db3", "bag": ".bag"}[self._container]
-            path = part / f"{self._path.name}_{len(self._outputs)}{suffix}"
+        path = self._path_in(part, len(self._outputs))
         tape = self._tapes[number if self._by_tape else 0]
         latched = frozenset(one.channel.topic for one in self._statics)
         if self._edits.statics_from:
@@ -527,6 +578,9 @@ class _Job:
         Raises:
             InputError: If it differs.
         """
+        for database in self._databases:
+            database.compare()
+            self.report.messages += sum(database.counts.values())
         total = sum(tape.size for tape in self._tapes)
         sizes = [one.path.stat().st_size for one in self._outputs.values()]
         done = 0
@@ -571,7 +625,8 @@ class _Job:
 
     def _finish_folder(self, part: Path) -> None:
         facts, topics, names = [], dict[Channel, int](), []
-        for output in self._outputs.values():
+        files: list[EditedFile | EditedDatabase] = [*self._outputs.values(), *self._databases]
+        for output in files:
             count = sum(output.counts.values())
             start = output.start if count else 0
             names.append(output.path.name)

@@ -19,7 +19,12 @@ _SMALLEST: Final = len(ZSTD_MAGIC)
 
 
 class SqliteTape:
-    """A `.db3` file; see `Tape`. Messages that rosbag2 compressed each by itself are unpacked."""
+    """A `.db3` file; see `Tape`. Messages that rosbag2 compressed each by itself are unpacked.
+
+    Attributes:
+        path: Where it is.
+        topic_ids: The numbers its own rows have for its channels.
+    """
 
     container = "db3"
 
@@ -34,7 +39,9 @@ class SqliteTape:
             InputError: If it cannot be read as a recording.
             OSError: If it cannot be opened.
         """
+        self.path = path
         self._base = Sqlite(path)
+        self.topic_ids = self._base.topic_ids
         self._unpacks = unpacks
         self.size = self._base.size
         self.extras = Extras()
