@@ -21,9 +21,9 @@ def no_transforms(model: Model, limits: Limits) -> Iterator[Hit]:
 
 def gap(model: Model, limits: Limits) -> Iterator[Hit]:
     """A hole in a transform."""
-    holes = {track.edge: _holes(track, limits) for track in model.dynamic}
+    known = {track.edge: holes(track, limits) for track in model.dynamic}
     for track in model.dynamic:
-        found = holes[track.edge]
+        found = known[track.edge]
         if not found:
             continue
         begin, end = max(found, key=lambda hole: hole[1] - hole[0])
@@ -31,7 +31,7 @@ def gap(model: Model, limits: Limits) -> Iterator[Hit]:
             other.name
             for other in model.dynamic
             if other is not track
-            and any(low < end and begin < high for low, high in holes[other.edge])
+            and any(low < end and begin < high for low, high in known[other.edge])
         ]
         steps = track.steps
         regular = steps[steps <= _least_gap(track, limits)] if len(found) <= 3 else steps
@@ -63,7 +63,7 @@ def _least_gap(track: Track, limits: Limits) -> float:
     return max(limits["periods"] * track.period, limits["seconds"] * NANOSECONDS)
 
 
-def _holes(track: Track, limits: Limits) -> list[tuple[int, int]]:
+def holes(track: Track, limits: Limits) -> list[tuple[int, int]]:
     """Stamps between which an edge has nothing, although it should."""
     stamps = track.sorted_stamps
     if len(stamps) < limits["samples"] or not track.period:

@@ -20,4 +20,5 @@ const answers = JSON.parse(await readFile(asked, "utf8")).map(({ at, pairs }) =>
     pairs: pairs.map(([target, source]) => lookups.pair(target, source, at)),
   };
 });
-console.log(JSON.stringify({ answers, moments: lookups.moments() }));
+const series = lookups.series({ target: "map", source: "laser", from: -0.25, to: 3.3, count: 301 });
+console.log(JSON.stringify({ answers, moments: lookups.moments(), series }));

@@ -12,7 +12,15 @@ from tftool.frames.buffer import Buffer
 from tftool.frames.sample import TransformStamped
 from tftool.geometry.rigid import Transform
 from tftool.screens.browser import protocol
-from tftool.screens.browser.protocol import Got, PairRequest, Past, Show, parse
+from tftool.screens.browser.protocol import (
+    Got,
+    MarksRequest,
+    PairRequest,
+    Past,
+    SeriesRequest,
+    Show,
+    parse,
+)
 from tftool.stamps import seconds
 
 EPOCH = seconds(1000)
@@ -28,10 +36,18 @@ EPOCH = seconds(1000)
         ('{"type": "pair", "target": null, "source": null}', PairRequest(None)),
         ('{"type": "got", "sequence": 7}', Got(7)),
         ('{"type": "past"}', Past()),
+        ('{"type": "marks"}', MarksRequest()),
+        (
+            '{"type": "series", "target": "a", "source": "b", "from": 1, "to": 2.5, "count": 9}',
+            SeriesRequest("a", "b", 1.0, 2.5, 9),
+        ),
     ],
 )
 def test_what_the_page_may_say(said, means):
     assert parse(said) == means
+
+
+SERIES = '{"type": "series", "target": "a", "source": "b", "from": %s, "to": %s, "count": %s}'
 
 
 @pytest.mark.parametrize(
@@ -41,10 +57,10 @@ def test_what_the_page_may_say(said, means):
         ("", "not JSON"),
         ("{", "not JSON"),
         ("[" * 100_000, "not JSON"),
-        ("null", "show, pair, got, move or past"),
-        ("[]", "show, pair, got, move or past"),
-        ('{"type": "shutdown"}', "show, pair, got, move or past"),
-        ('{"type": ["show"]}', "show, pair, got, move or past"),
+        ("null", "show, pair, got, move, past, series or marks"),
+        ("[]", "show, pair, got, move, past, series or marks"),
+        ('{"type": "shutdown"}', "show, pair, got, move, past, series or marks"),
+        ('{"type": ["show"]}', "show, pair, got, move, past, series or marks"),
         ('{"type": "show", "at": "now"}', "a number of seconds"),
         ('{"type": "show", "at": NaN}', "a number of seconds"),
         ('{"type": "show", "at": 1e300}', "a number of seconds"),
@@ -52,6 +68,12 @@ def test_what_the_page_may_say(said, means):
         ('{"type": "pair", "target": "a"}', "two names"),
         ('{"type": "pair", "target": 1, "source": 2}', "two names"),
         ('{"type": "got", "sequence": "1"}', "whole number"),
+        ('{"type": "series", "target": "a"}', "two names"),
+        (SERIES % (5, 4, 10), "to a later one"),
+        (SERIES % ("NaN", 4, 10), "a number of seconds"),
+        (SERIES % ("null", 4, 10), "to a later one"),
+        (SERIES % (0, 4, 1), "from 2 to 2000"),
+        (SERIES % (0, 4, 10**9), "from 2 to 2000"),
     ],
 )
 def test_anything_else_is_refused_with_a_sentence(said, told):

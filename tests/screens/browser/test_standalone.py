@@ -100,6 +100,13 @@ def test_every_answer_is_the_servers(tmp_path, seed):
     assert told["moments"] == [
         moment - EPOCH for moment in protocol.moments(buffer.snapshot(now).frames)
     ]
+    asked = protocol.SeriesRequest("map", "laser", -0.25, 3.3, 301)
+    wanted = json.loads(protocol.encode_series(buffer, EPOCH, asked))
+    assert told["series"].keys() == wanted.keys()
+    for key in ("times", *protocol.SERIES):
+        found, known = (np.array(one[key], dtype=float) for one in (told["series"], wanted))
+        assert 10 < np.isnan(known).sum() < 200 or key == "times"
+        np.testing.assert_allclose(found, known, rtol=1e-9, atol=1e-12)
     refused = 0
     for at, answer in zip(moments, told["answers"], strict=True):
         stamp = 0 if at is None else EPOCH + at

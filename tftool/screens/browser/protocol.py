@@ -5,6 +5,8 @@ Server to page:
   text   {"type": "pair", ...}    the transform of the chosen pair, or why there is none
   text   {"type": "robot", ...}   shapes, joints and sliders of the robot; see `robots.py`
   text   {"type": "range", ...}   how far the buffer reaches, while a past moment is shown
+  text   {"type": "series", ...}  a pair's transform at many moments; see `encode_series`
+  text   {"type": "marks", ...}   gaps and the doctor's findings; see `marks.py`
   binary                          every frame's pose at one moment; see `encode_poses`
 
 Page to server, text only:
@@ -14,6 +16,9 @@ Page to server, text only:
   {"type": "move", "joint": …, "position": …}   put a joint elsewhere, radians or metres
   {"type": "past"}                              send what the buffer remembers, for trails;
                                                 it comes as poses of sequence number 0
+  {"type": "series", "target": …, "source": …,  tell a pair's transform at `count` moments from
+   "from": seconds, "to": seconds, "count": n}  the one to the other
+  {"type": "marks"}                             tell gaps and findings, when they are known
 
 Moments travel as seconds since the clock's epoch, which a float holds to the nanosecond
 for a hundred days; the epoch itself travels as text.
@@ -26,7 +31,9 @@ import sys
 from array import array
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
-from typing import Any
+from typing import Any, TypeAlias
+
+import numpy as np
 
 from tftool.errors import InputError, TransformException
 from tftool.frames.buffer import Buffer
@@ -48,6 +55,9 @@ FIELDS = 11
 
 MOST_FRAMES = 2000
 """More than this is neither drawn nor listed by a browser at a useful rate."""
+
+MOST_MOMENTS = 2000
+"""Moments of a pair that are told at once: a plot has no more columns."""
 
 MOST_BYTES = 16 * 1024
 """The longest message a page has a reason to send: two names of some thousand letters."""
@@ -90,11 +100,30 @@ class Past:
     """Send poses from all over the buffer once."""
 
 
-def parse(message: str | bytes) -> Show | PairRequest | Got | Move | Past:
+@dataclass(frozen=True, slots=True)
+class SeriesRequest:
+    """Tell a pair's transform at `count` moments from `first` to `last`, in seconds."""
+
+    target: str
+    source: str
+    first: float
+    last: float
+    count: int
+
+
+@dataclass(frozen=True, slots=True)
+class MarksRequest:
+    """Tell the gaps, and what the doctor finds."""
+
+
+Said: TypeAlias = Show | PairRequest | Got | Move | Past | SeriesRequest | MarksRequest
+
+
+def parse(message: str | bytes) -> Said:
     """Read what a page sent.
 
     Raises:
-        InputError: If it is none of the five messages; says what is wrong.
+        InputError: If it is none of the seven messages; says what is wrong.
     """
     if isinstance(message, bytes):
         raise InputError("the page speaks text, not bytes")
@@ -126,7 +155,25 @@ def parse(message: str | bytes) -> Show | PairRequest | Got | Move | Past:
         return Move(joint, float(position))
     if kind == "past":
         return Past()
-    raise InputError('a message is an object whose "type" is show, pair, got, move or past')
+    if kind == "series":
+        return _series(said)
+    if kind == "marks":
+        return MarksRequest()
+    raise InputError(
+        'a message is an object whose "type" is show, pair, got, move, past, series or marks'
+    )
+
+
+def _series(said: dict[str, Any]) -> SeriesRequest:
+    target, source, count = said.get("target"), said.get("source"), said.get("count")
+    if not isinstance(target, str) or not isinstance(source, str):
+        raise InputError("a series is of two names of frames")
+    if not isinstance(count, int) or not 2 <= count <= MOST_MOMENTS:
+        raise InputError(f"a series has from 2 to {MOST_MOMENTS} moments")
+    first, last = _moment(said.get("from")), _moment(said.get("to"))
+    if first is None or last is None or not first < last:
+        raise InputError("a series goes from one moment to a later one")
+    return SeriesRequest(target, source, first, last, count)
 
 
 def _moment(value: Any) -> float | None:
@@ -278,6 +325,37 @@ def encode_pair(buffer: Buffer, epoch: Stamp, target: str, source: str, at: Stam
         "chain": list(chain),
     }
     return json.dumps(answer)
+
+
+def encode_series(buffer: Buffer, epoch: Stamp, asked: SeriesRequest) -> str:
+    """Write a pair's transform at evenly spread moments, null where there is none."""
+    first, last = stamp_at(epoch, asked.first), stamp_at(epoch, asked.last)
+    steps = asked.count - 1
+    stamps = [first + (last - first) * step // steps for step in range(asked.count)]
+    answer: dict[str, Any] = {
+        "type": "series",
+        "target": asked.target,
+        "source": asked.source,
+        "times": [since(epoch, stamp) for stamp in stamps],
+    }
+    columns: list[list[float | None]] = [[None] * asked.count for _ in SERIES]
+    try:
+        path = buffer.lookup_transforms(
+            asked.target, asked.source, np.array(stamps, dtype=np.int64), missing="nan"
+        )
+    except TransformException:
+        pass
+    else:
+        for row in np.flatnonzero(path.valid).tolist():
+            angles = rpy_from_quaternion(path.rotations[row].tolist())
+            numbers = _finite((*path.translations[row].tolist(), *angles))
+            for column, number in zip(columns, numbers, strict=True):
+                column[row] = number
+    return json.dumps(answer | dict(zip(SERIES, columns, strict=True)))
+
+
+SERIES = ("x", "y", "z", "roll", "pitch", "yaw")
+"""The columns of a series: metres, radians."""
 
 
 def _finite(values: Iterable[float]) -> list[float | None]:

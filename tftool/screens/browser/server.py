@@ -10,6 +10,7 @@ in between: nothing is ever queued for it.
 
 import asyncio
 import errno
+import json
 import logging
 import math
 from collections.abc import Callable
@@ -29,6 +30,7 @@ from tftool.frames.sample import Snapshot
 from tftool.runtime.clock import Clock, Phase, pace_of
 from tftool.screens.browser import assets, protocol
 from tftool.screens.browser.client import PageClient, Poses, SharedMoment, TreeMessage
+from tftool.screens.browser.marks import marks_of
 from tftool.screens.browser.meshes import MeshRefused
 from tftool.screens.browser.robots import ShownRobot
 from tftool.screens.browser.standalone import StandaloneData, standalone_page
@@ -310,11 +312,18 @@ class PageServer:
             client.show_robot(self._robot_text)
         feeding = asyncio.ensure_future(client.feed())
         telling: asyncio.Future[None] | None = None
+        judging: asyncio.Future[None] | None = None
         try:
             async for message in socket:
                 said = protocol.parse(message)
                 if isinstance(said, protocol.Move):
                     self._move(said)
+                elif isinstance(said, protocol.SeriesRequest):
+                    buffer, epoch = self.source.buffer, self.source.clock.epoch
+                    await socket.send(protocol.encode_series(buffer, epoch, said))
+                elif isinstance(said, protocol.MarksRequest):
+                    if judging is None or judging.done():
+                        judging = asyncio.ensure_future(self._tell_marks(socket))
                 elif not isinstance(said, protocol.Past):
                     client.hear(said, self.source.clock.epoch)
                 elif telling is None or telling.done():
@@ -325,7 +334,7 @@ class PageServer:
             pass
         finally:
             self.clients.discard(client)
-            tasks = [feeding] if telling is None else [feeding, telling]
+            tasks = [task for task in (feeding, telling, judging) if task is not None]
             for task in tasks:
                 task.cancel()
             await asyncio.gather(*tasks, return_exceptions=True)
@@ -337,6 +346,13 @@ class PageServer:
             began = clock.now()
             await socket.send(self._picture(now, moment).poses(0))
             await clock.sleep(self._period // 8 + 2 * (clock.now() - began), Phase.WATCH)
+
+    async def _tell_marks(self, socket: ServerConnection) -> None:
+        """Send what the doctor finds, who is asked beside the loop."""
+        told = await asyncio.get_running_loop().run_in_executor(
+            None, marks_of, self.source.buffer, self.source.clock.epoch
+        )
+        await socket.send(json.dumps(told))
 
 
 def _period(clock: Clock, rate: float) -> int:

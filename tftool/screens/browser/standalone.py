@@ -20,6 +20,7 @@ import numpy as np
 from tftool.frames.buffer import Buffer
 from tftool.frames.sample import FrameInfo
 from tftool.screens.browser import assets, protocol
+from tftool.screens.browser.marks import marks_of
 from tftool.screens.browser.meshes import MeshRefused
 from tftool.screens.browser.packing import METRES, QUATERNION, PackedBlock, Progress, TooLarge
 from tftool.screens.browser.robots import ShownRobot
@@ -176,6 +177,7 @@ def _header(data: StandaloneData, block: PackedBlock) -> dict[str, Any]:
         "frames": _frames(data, shown, block),
         "robot": robot,
         "files": meshes,
+        "marks": marks_of(data.buffer, data.epoch),
     }
 
 

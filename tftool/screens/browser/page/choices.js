@@ -4,6 +4,9 @@
 /** Least and most of the numbers that can be typed. */
 export const LIMITS = { interval: [0, 60], timeout: [1, 1e6], length: [1, 60], side: [180, 640] };
 
+/** What can be plotted of the pair. */
+export const PLOTTED = ["xyz", "distance", "rpy", "none"];
+
 export const SPEEDS = [0.1, 0.25, 0.5, 1, 2, 4];
 
 /**
@@ -41,6 +44,7 @@ export class Choices {
     this.length = 10; // of trails, seconds
     this.side = 264; // width of the list of frames, pixels
     for (const id of Object.keys(LIMITS)) this.setNumber(id, given[id]);
+    this.plot = PLOTTED.includes(given.plot) ? given.plot : "xyz";
     this.speed = SPEEDS.includes(given.speed) ? given.speed : 1;
     /** @type {number | undefined} */
     this.scale = given.scale; // of the markers; undefined: by the size of the scene

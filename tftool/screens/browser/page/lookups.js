@@ -9,6 +9,14 @@ const MOST_DEPTH = 1000;
 const SHORTEST = 100_000; // nanoseconds: tf2 divides by no less when it tells a rate
 const HISTORY = 120; // moments that tell what is remembered
 
+/** A moment in seconds as whole nanoseconds; halves go to the even one, as in Python. */
+export function nanoseconds(moment) {
+  const value = moment * NANOSECONDS;
+  const below = Math.floor(value);
+  if (value - below !== 0.5) return Math.round(value);
+  return below % 2 === 0 ? below : below + 1;
+}
+
 /** Why a lookup has no answer, in the server's words. */
 export class Refusal extends Error {}
 
@@ -237,6 +245,28 @@ export class Lookups {
     let pose = this.chained(up, time);
     if (down.length) pose = between(this.chained(down, time), pose);
     return { time, pose: canonical(pose), chain: [...up, top, ...down.reverse()].map((index) => this.links[index].name) };
+  }
+
+  /**
+   * A pair's transform at evenly spread moments, as the server writes it; null where there is none.
+   * @param {{ target: string, source: string, from: number, to: number, count: number }} asked
+   */
+  series({ target, source, from, to, count }) {
+    const [first, last] = [nanoseconds(from), nanoseconds(to)];
+    const stamps = Array.from({ length: count }, (_, step) => first + Math.floor(((last - first) * step) / (count - 1)));
+    const poses = stamps.map((stamp) => {
+      try {
+        const { pose } = this.lookup(target, source, stamp);
+        return [...pose.slice(0, 3), ...rpy(pose)];
+      } catch (error) {
+        if (error instanceof Refusal) return null;
+        throw error;
+      }
+    });
+    const column = (place) => poses.map((pose) => (pose && Number.isFinite(pose[place]) ? pose[place] : null));
+    const [x, y, z, roll, pitch, yaw] = [0, 1, 2, 3, 4, 5].map(column);
+    const times = stamps.map((stamp) => stamp / NANOSECONDS);
+    return { type: "series", target, source, times, x, y, z, roll, pitch, yaw };
   }
 
   number(frame, argument) {

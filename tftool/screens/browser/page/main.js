@@ -2,6 +2,7 @@
 // The page: joins the server, the model, the choices, the time and the picture.
 import { Bounds, spread } from "./bounds.js";
 import { Choices, LIMITS } from "./choices.js";
+import { Course } from "./course.js";
 import { keepFiles } from "./files.js";
 import { chain, describe, retell, trails } from "./frames.js";
 import { freshness } from "./freshness.js";
@@ -102,6 +103,7 @@ const handlers = {
     timeline.rate = model.rate;
     if (another) timeline.goLive();
     tree.build(model, choices);
+    course.forget();
     fillPickers();
     timers.past.forEach(clearTimeout);
     timers.past = PAST_AFTER.map((wait) => setTimeout(() => wire.past(), wait));
@@ -125,6 +127,14 @@ const handlers = {
     $("robot").hidden = false;
     redraw.everything();
   },
+  series(message) {
+    course.setSeries(message);
+    redraw.picture();
+  },
+  marks(message) {
+    course.setMarks(message);
+    redraw.picture();
+  },
   range(message) {
     timeline.setReach(message);
     redraw.data();
@@ -144,6 +154,12 @@ if (inside) {
   $("live").hidden = true;
 }
 const wire = inside ? new Standalone(handlers, inside) : new Wire(handlers);
+
+const course = new Course({
+  want: (type, fields) => wire.want(type, fields),
+  go: (moment) => timeline.scrub(moment),
+  now: () => performance.now(),
+});
 
 const pickers = {
   fixed: new Picker($("fixed"), $("offers"), (name) => name && setFixed(name), false),
@@ -179,6 +195,8 @@ function render(now) {
     if (!stage.taken) follow();
     paint();
   }
+  course.ask(timeline.reach, choices);
+  if (due.picture || due.lists) course.draw(timeline, choices, server.pair?.found ? server.pair.chain : []);
   if (due.lists) {
     if (!due.picture) retell(model, shown.frames, timeline.past); // ages go on without a picture
     tree.refresh(shown.frames, choices, robot);
@@ -466,6 +484,11 @@ $("play").onclick = () => {
   changed();
 };
 $("live").onclick = () => timeline.goLive();
+$("quantity").value = choices.plot;
+$("quantity").onchange = () => {
+  choices.plot = $("quantity").value;
+  changed();
+};
 $("speed").value = String(choices.speed);
 $("speed").onchange = () => {
   timeline.speed = choices.speed = Number($("speed").value);
@@ -628,6 +651,13 @@ Object.assign(globalThis, {
     moment: () => model.poses?.at ?? null,
     pair: () => server.pair,
     reach: () => timeline.reach,
+    course: () => ({
+      gaps: course.gaps,
+      findings: course.marks.findings.map(({ id, since }) => ({ id, since, pixel: course.scale.pixel(since) })),
+      series: course.series,
+      limits: course.limits,
+      pixel: (moment) => course.scale.pixel(moment),
+    }),
     plain: () => stage.plain,
     trails: () => shown.lines.map(({ points }) => points.length),
     remembered: () => model.history.length,

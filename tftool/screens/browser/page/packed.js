@@ -7,7 +7,7 @@
  * @typedef {{ name: string, authority: string | null, count?: number, static?: boolean,
  *   parents?: Column, poses?: Column[], stamps?: Column }} PackedFrame
  * @typedef {{ name: string, epoch: string, now: number, begin: number | null, view: string,
- *   rounded: boolean, total: number, frames: PackedFrame[], robot: any, script: Section,
+ *   rounded: boolean, total: number, frames: PackedFrame[], robot: any, marks: any, script: Section,
  *   files: { address: string, kind: string, content: Section }[] }} Header
  */
 

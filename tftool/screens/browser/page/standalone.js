@@ -1,6 +1,6 @@
 // @ts-check
 // In place of the connection to a server: answers from what is packed into the file.
-import { Lookups } from "./lookups.js";
+import { Lookups, nanoseconds } from "./lookups.js";
 import { Packed } from "./packed.js";
 
 /** @returns {Packed | null} what is packed into this page; null where a server is behind it */
@@ -18,6 +18,7 @@ export class Standalone {
     this.handlers = handlers;
     this.lookups = new Lookups(packed);
     this.robot = packed.header.robot;
+    this.marks = packed.header.marks;
     /** @type {number | null} */
     this.at = null;
     this.frames = { target: null, source: null };
@@ -33,9 +34,11 @@ export class Standalone {
   }
 
   want(type, fields) {
-    if (type === "show") this.at = fields.at === null ? null : even(fields.at * 1e9);
+    if (type === "show") this.at = fields.at === null ? null : nanoseconds(fields.at);
     if (type === "pair") this.frames = fields;
-    this.later();
+    if (type === "marks") queueMicrotask(() => this.handlers.marks(this.marks));
+    else if (type === "series") queueMicrotask(() => this.handlers.series(this.lookups.series(fields)));
+    else this.later();
   }
 
   /** What is asked for several times in a row is answered once. */
@@ -68,11 +71,4 @@ export class Standalone {
   got() {}
 
   move() {}
-}
-
-/** A number rounded to a whole one, halves to the even one, as Python does. */
-function even(value) {
-  const below = Math.floor(value);
-  if (value - below !== 0.5) return Math.round(value);
-  return below % 2 === 0 ? below : below + 1;
 }

@@ -65,6 +65,7 @@ export class Wire {
   /**
    * Handlers: open(), ended(reason), names(message),
    *  pair(message), range(message), poses(Poses),
+   *  series(message), marks(message),
    *  robot(message), its shapes, joints and sliders;
    *  past(Poses), which are drawn nowhere but in trails.
    */

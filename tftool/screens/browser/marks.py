@@ -1,0 +1,54 @@
+"""What the page marks on its ruler of time: where links have no data, and what the doctor found."""
+
+from typing import Any, Final
+
+from tftool.diagnostics.asking import of_buffer
+from tftool.diagnostics.catalogue import CHECKS
+from tftool.diagnostics.coverage import holes
+from tftool.diagnostics.judge import judge
+from tftool.diagnostics.model import Settings
+from tftool.frames.buffer import Buffer
+from tftool.screens.browser.protocol import since
+from tftool.stamps import Stamp
+
+MOST_GAPS: Final = 2000
+"""Gaps that are told; the longest of more."""
+
+MOST_FINDINGS: Final = 200
+"""Findings that are told, the worst first."""
+
+
+def marks_of(buffer: Buffer, epoch: Stamp) -> dict[str, Any]:
+    """Gaps and findings as a message for the page; moments in seconds since the epoch.
+
+    Args:
+        buffer: What is judged; it keeps no log times, so what needs them is not looked for.
+        epoch: The moment from which the page counts.
+    """
+    frames = buffer.snapshot(0).frames
+    if not any(frame.samples > 1 and not frame.is_static for frame in frames):
+        return {"type": "marks", "gaps": [], "findings": []}
+    diagnosis = judge(of_buffer(buffer), Settings())
+    limits = CHECKS["gap"].limits
+    gaps = [
+        (track.child, low, high)
+        for track in diagnosis.model.dynamic
+        for low, high in holes(track, limits)
+    ]
+    gaps = sorted(gaps, key=lambda gap: gap[1] - gap[2])[:MOST_GAPS]
+    found = [one for one in diagnosis.findings if one.since is not None]
+    found.sort(key=lambda one: one.severity.rank)
+    return {
+        "type": "marks",
+        "gaps": [[frame, since(epoch, low), since(epoch, high)] for frame, low, high in gaps],
+        "findings": [
+            {
+                "id": one.id,
+                "severity": one.severity.value,
+                "message": one.message,
+                "since": since(epoch, one.since or 0),
+                "until": since(epoch, one.until or one.since or 0),
+            }
+            for one in found[:MOST_FINDINGS]
+        ],
+    }
