@@ -225,3 +225,48 @@ def test_two_judgements_are_the_same(tftool):
     words = ["check", "turtles", "--launch", "pkg_tf turtle_following.launch.py", "--json"]
 
     assert tftool(*words) == tftool(*words)
+
+
+SQUARE = """
+launch:
+- node: {pkg: turtlesim, exec: turtlesim_node}
+- node: {pkg: turtlesim, exec: draw_square}
+"""
+STILL_THERE = """
+duration: 60 s
+nodes: [turtlesim]
+expect:
+- {turtles: [turtle1], at: 50 s}
+"""
+
+
+@pytest.fixture
+def drawn(tmp_path):
+    (tmp_path / "square.launch.yaml").write_text(SQUARE)
+    (tmp_path / "there.yaml").write_text(STILL_THERE)
+    return ("check", str(tmp_path / "there.yaml"), "--launch", str(tmp_path / "square.launch.yaml"))
+
+
+def test_lines_that_differ_in_numbers_alone_are_shown_once_and_counted(tftool, drawn):
+    told = tftool(*drawn)
+    whole = tftool(*drawn, "--verbose")
+
+    assert told.status == whole.status == 0
+    goals = whole.err.count("] [draw_square]: New goal [")
+    assert goals > 10
+    assert told.err.count("] [draw_square]: New goal [") == 1
+    assert f"[draw_square]: {goals - 1} more lines like 'New goal [7.544445" in told.err
+    assert "more line" not in whole.err
+
+
+@pytest.mark.parametrize("command", ["launch", "check"])
+def test_what_cannot_be_read_in_a_workspace_is_told_where_it_is_asked_for(
+    tftool, drawn, tmp_path, monkeypatch, command
+):
+    (tmp_path / "odd").mkdir()
+    (tmp_path / "odd" / "package.xml").write_bytes(b"<name>\xff</name>")
+    monkeypatch.chdir(tmp_path)
+    words = ("launch", drawn[-1], "--simulated", "--for", "1") if command == "launch" else drawn
+
+    assert "is skipped" not in tftool(*words).err
+    assert "odd' is skipped: cannot read" in tftool(*words, "--verbose").err

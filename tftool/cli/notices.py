@@ -1,6 +1,7 @@
 """What a command says beside its results, and the log of its world: on stderr."""
 
 import os
+import re
 import sys
 from collections.abc import Mapping
 from typing import TYPE_CHECKING
@@ -12,6 +13,9 @@ if TYPE_CHECKING:
 
 _COLORS = {"DEBUG": 32, "WARN": 33, "ERROR": 31, "FATAL": 31}
 """ROS 2's: green, yellow, red; INFO keeps the terminal's own."""
+
+
+_NUMBER = re.compile(r"-?\d+(?:\.\d+)?(?:e[+-]?\d+)?")
 
 
 def notice(sentence: str) -> None:
@@ -43,6 +47,39 @@ def tell_record(record: "LogRecord", *, label: str = "") -> None:
     if color is not None and wants_color(os.environ, is_terminal=sys.stderr.isatty()):
         line = f"\033[{color}m{line}\033[0m"
     notice(f"[{label}] {line}" if label else line)
+
+
+class FoldedLog:
+    """Shows the lines of a world's log, and of lines that are alike the first; counts the others.
+
+    Lines are alike if one node said both, and they differ in nothing but numbers.
+    """
+
+    def __init__(self, *, whole: bool = False) -> None:
+        """Begin.
+
+        Args:
+            whole: Show every line.
+        """
+        self._whole = whole
+        self._more: dict[tuple[str, str, str], tuple[LogRecord, int]] = {}
+
+    def tell(self, record: "LogRecord") -> None:
+        """Show a line, or count it."""
+        kind = (record.node, record.level, _NUMBER.sub("#", record.text))
+        first, more = self._more.get(kind, (record, -1))
+        self._more[kind] = (first, more + 1)
+        if self._whole or more < 0:
+            tell_record(record)
+
+    def end(self) -> None:
+        """Say how many lines were not shown, and begin anew."""
+        for first, more in () if self._whole else self._more.values():
+            if more:
+                text = visible(first.text.splitlines()[0] if first.text else "")
+                lines = "1 more line" if more == 1 else f"{more} more lines"
+                notice(f"[{visible(first.node)}]: {lines} like '{text}'; --verbose shows them")
+        self._more.clear()
 
 
 def wants_color(environment: Mapping[str, str], *, is_terminal: bool) -> bool:

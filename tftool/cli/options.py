@@ -304,6 +304,10 @@ RunFor = Annotated[
     ),
 ]
 
+SkippedFolders = Annotated[
+    bool, typer.Option("--verbose", "-v", help="Say which folders are skipped.")
+]
+
 Json = Annotated[bool, typer.Option("--json", rich_help_panel=OUTPUT, help="Print JSON.")]
 
 Ascii = Annotated[

@@ -6,7 +6,7 @@ import sys
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated
+from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
@@ -65,7 +65,14 @@ def check(
             help="Keep a recording of each scenario in which something did not hold: NAME.mcap.",
         ),
     ] = None,
-    verbose: Annotated[bool, typer.Option("--verbose", "-v", help="Show what held, too.")] = False,
+    verbose: Annotated[
+        bool,
+        typer.Option(
+            "--verbose",
+            "-v",
+            help="Show what held, every line of the nodes' logs, and which folders are skipped.",
+        ),
+    ] = False,
     for_programs: Json = False,
 ) -> ExitStatus:
     """Play scenarios on simulated time and judge what they expect.
@@ -88,7 +95,7 @@ def check(
     from tftool.views import judgements
     from tftool.views.escaping import visible
 
-    with _judge_of(programs or (), launched, force) as judge:
+    with _judge_of(programs or (), launched, force=force, verbose=verbose) as judge:
         judged = [_judge(word, judge, recordings) for word in scenarios]
     reports = [report for report, _ in judged]
     if for_programs:
@@ -117,7 +124,7 @@ def check(
 
 @contextmanager
 def _judge_of(
-    programs: "Sequence[str]", launched: str | None, force: bool
+    programs: "Sequence[str]", launched: str | None, *, force: bool, verbose: bool
 ) -> "Iterator[Callable[..., Verdict]]":
     """Give what plays and judges a scenario: with its own nodes, or with the user's programs."""
     if not programs and launched is None:
@@ -126,7 +133,7 @@ def _judge_of(
         yield run_scenario
         return
 
-    from tftool.cli.notices import notice, tell_record
+    from tftool.cli.notices import FoldedLog, notice
     from tftool.ros.host import hosting
     from tftool.scenario.exercise import Exercise
     from tftool.views.escaping import visible_lines
@@ -140,9 +147,20 @@ def _judge_of(
                 "--run NODE=… takes the place of one."
             )
     workspace = hosting.Workspace(Path.cwd())
+    for skipped in workspace.skipped if verbose else ():
+        notice(visible_lines(skipped))
+    log = FoldedLog(whole=verbose)
+
+    def judge(scenario: "Scenario", **given: Any) -> "Verdict":
+        try:
+            return exercise.judge(scenario, **given)
+        finally:
+            log.end()
+
     with hosting.ros_free(force=force):
         hosting.packages.use(workspace)
-        yield Exercise(workspace, entrants, launch, tell=tell_record).judge
+        exercise = Exercise(workspace, entrants, launch, tell=log.tell)
+        yield judge
 
 
 def _entrant(text: str) -> "Entrant":

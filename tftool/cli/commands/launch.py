@@ -6,7 +6,7 @@ import typer
 
 from tftool.cli.app import ExitStatus
 from tftool.cli.connection import Connection, Mode
-from tftool.cli.options import RunFor, refuse_long_simulation
+from tftool.cli.options import RunFor, SkippedFolders, refuse_long_simulation
 
 if TYPE_CHECKING:
     from tftool.runtime.log import LogRecord
@@ -32,6 +32,7 @@ def launch(
     simulated: Annotated[
         bool, typer.Option("--simulated", help="On simulated time: at once, the same every time.")
     ] = False,
+    verbose: SkippedFolders = False,
 ) -> ExitStatus:
     """Launch what a ROS 2 launch file says, without ROS (ros2 launch).
 
@@ -56,6 +57,8 @@ def launch(
     if simulated:
         refuse_long_simulation(run_for)
     workspace = hosting.Workspace(Path.cwd())
+    for skipped in workspace.skipped if verbose else ():
+        notice(visible_lines(skipped))
     with hosting.ros_free(force=force):
         hosting.packages.use(workspace)
         path, rest = hosting.find_launch_file(workspace, words)

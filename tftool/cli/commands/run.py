@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 from tftool.cli.connection import Connection
-from tftool.cli.options import RunFor, refuse_long_simulation
+from tftool.cli.options import RunFor, SkippedFolders, refuse_long_simulation
 from tftool.views.escaping import visible, visible_lines
 
 ROBOTS = ("robot_state_publisher", "joint_state_publisher")
@@ -83,10 +83,7 @@ def run(
     simulated: Annotated[
         bool, typer.Option("--simulated", help="On simulated time: at once, the same every time.")
     ] = False,
-    verbose: Annotated[
-        bool,
-        typer.Option("--verbose", "-v", help="Say which folders are skipped."),
-    ] = False,
+    verbose: SkippedFolders = False,
 ) -> int:
     """Run a node written for ROS 2, unmodified, without ROS (ros2 run).
 
