@@ -3,6 +3,7 @@
 import os
 import re
 import shlex
+import shutil
 import signal
 import subprocess
 import sys
@@ -433,3 +434,26 @@ def test_a_person_is_told_once_where_to_look(capsys, monkeypatch, words, said):
     shown = run(is_terminal=True)
     assert shown.count("another terminal") == (said is not None)
     assert (said or "") in shown
+
+
+@pytest.mark.parametrize(
+    ("words", "near"),
+    [
+        (["run", "pkg_tf/pkg_tf/turtle_following.py"], "src/pkg_tf/pkg_tf/turtle_following.py"),
+        (["run", "turtle_following.py"], "src/pkg_tf/pkg_tf/turtle_following.py"),
+        (["launch", "carrot.launch.xml"], "src/pkg_tf/launch/carrot.launch.xml"),
+        (
+            ["check", "turtles", "--run", "follower=pkg_tf/pkg_tf/turtle_following.py"],
+            "src/pkg_tf/pkg_tf/turtle_following.py",
+        ),
+    ],
+)
+def test_a_path_that_is_right_from_another_folder_of_the_workspace_is_told(
+    tmp_path, monkeypatch, capfd, words, near
+):
+    (tmp_path / "src").mkdir()
+    shutil.copytree(TUTORIAL / "pkg_tf", tmp_path / "src" / "pkg_tf")
+    monkeypatch.chdir(tmp_path)
+
+    assert main(words) == 3
+    assert f"No such file or directory; did you mean '{near}'?" in "".join(capfd.readouterr())

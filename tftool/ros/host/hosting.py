@@ -4,7 +4,7 @@ import asyncio
 from collections.abc import Callable, Sequence
 from pathlib import Path
 
-from tftool.errors import NodeFailed, UsageError
+from tftool.errors import InputError, NodeFailed, UsageError
 from tftool.ros.host import executables, importing, names, user_code
 from tftool.ros.host.error_text import error_sentence
 from tftool.ros.host.fibers import StuckError
@@ -44,11 +44,23 @@ def check_program(workspace: Workspace, target: str, rest: Sequence[str]) -> Non
             raise UsageError(
                 f"'{target}' is a launch file: 'tftool launch {target}' carries it out"
             )
-        user_code.compile_file(Path(target))
+        user_code.compile_file(_file(workspace, target))
     else:
         _need_executable(workspace, target, rest)
         words = rest[1:]
     names.parse(words)
+
+
+def _file(workspace: Workspace, word: str) -> Path:
+    """The file that a word of the command line names.
+
+    Raises:
+        InputError: If there is none, but one of that name in a package: its path is told.
+    """
+    path = Path(word)
+    if not path.exists() and (near := workspace.file_named(path)) is not None:
+        raise InputError(f"cannot read '{word}': No such file or directory; did you mean '{near}'?")
+    return path
 
 
 def _need_executable(workspace: Workspace, target: str, rest: Sequence[str]) -> None:
@@ -90,7 +102,7 @@ def start_program(
         InputError: If the file cannot be read or is no Python.
     """
     if is_file(target):
-        path = Path(target)
+        path = _file(workspace, target)
         options, _ = names.parse(rest)
         options.name = options.name or name or None
         label = world.free_name(name or path.stem)
@@ -141,10 +153,11 @@ def find_launch_file(workspace: Workspace, words: Sequence[str]) -> tuple[Path, 
 
     Raises:
         UsageError: If there is none; the ones of the package are told.
+        InputError: If a file is named that is not there, but in a package.
     """
     first, *rest = words
     if is_file(first):
-        return Path(first), rest
+        return _file(workspace, first), rest
     folder = workspace.share(first)
     if not rest or ":=" in rest[0]:
         raise UsageError(f"which launch file of package '{first}'? {_listed(folder)}")

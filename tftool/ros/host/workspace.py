@@ -87,6 +87,23 @@ class Workspace:
                     return folder
         return None
 
+    def file_named(self, path: Path) -> Path | None:
+        """A package's file that a path would name from another folder of the workspace.
+
+        Returns:
+            `src/pkg/pkg/node.py` for `pkg/pkg/node.py` or `node.py`, relative to the start
+            where it lies below it; None if no package has such a file.
+        """
+        if path.is_absolute() or ".." in path.parts:
+            return None
+        for name, package in self.packages.items():
+            for folder in (package.path.parent, package.path, package.path / name):
+                for file in (folder / path, folder / "launch" / path):
+                    if file.is_file():
+                        below = file.is_relative_to(self.start)
+                        return file.relative_to(self.start) if below else file
+        return None
+
     def package(self, name: str) -> Package:
         """The package of a name.
 
