@@ -30,7 +30,7 @@ def test_a_file_is_run_beside_a_simulator(capsys):
     )
     told = capsys.readouterr().err
 
-    assert status == 0
+    assert status == 0, told
     assert "[INFO] [1002.000000000] [f]: Successfully spawned turtle2" in told
     assert 'Could not transform turtle2 to turtle1: "turtle2" passed to lookupTransform' in told
 

@@ -62,6 +62,7 @@ class Program(Node):
         failure: What ended it, unless it ended well.
         status: Its exit status once it has ended, None before.
         nodes: The seats (`rclpy.seat.NodeSeat`) of the nodes it made, withdrawn at the end.
+        event_loops: Those of asyncio that it made, closed at the end.
     """
 
     is_shown: ClassVar[bool] = False
@@ -98,6 +99,7 @@ class Program(Node):
         self.context: Any = None
         self.executor: Any = None
         self.nodes: list[Any] = []
+        self.event_loops: list[asyncio.AbstractEventLoop] = []
         self.log_levels: dict[str, int] = {}
         self._on_exit = on_exit
         self._others: set[asyncio.Task[None]] = set()
@@ -164,6 +166,10 @@ class Program(Node):
         for node in reversed(list(self.nodes)):
             node.withdraw()
         self.nodes.clear()
+        for loop in self.event_loops:
+            if not loop.is_running():  # as it is in a fiber that was left alone
+                loop.close()
+        self.event_loops.clear()
 
     def start_fiber(self, fiber: Fiber) -> "asyncio.Task[None]":
         """Drive one more thread of this program (on the loop's thread)."""

@@ -1,9 +1,9 @@
-"""What users' files get instead of three standard modules.
+"""What users' files get instead of four standard modules.
 
 In a user's own files `import time` gives a module whose `sleep` and clocks are the
 world's, `import threading` one whose threads take turns too and whose locks wait in the
-world's time, and `import queue` the standard queues over those. The `time`, `threading`
-and `queue` of all other modules stay as they are.
+world's time, `import queue` the standard queues over those, and `import asyncio` one whose
+event loops wait in the world's time. The four of all other modules stay as they are.
 """
 
 import asyncio
@@ -17,7 +17,7 @@ from functools import cache
 from types import ModuleType
 from typing import Any
 
-from tftool.ros.host import locks
+from tftool.ros.host import event_loops, locks
 from tftool.ros.host.error_text import error_sentence
 from tftool.ros.host.fibers import Fiber
 from tftool.ros.host.locks import running_program
@@ -140,6 +140,14 @@ def _shims() -> dict[str, ModuleType]:
                 "Barrier": locks.UserBarrier,
             },
         ),
+        "asyncio": _Shim(
+            asyncio,
+            {
+                "get_event_loop": event_loops.get_event_loop,
+                "new_event_loop": event_loops.new_event_loop,
+                "run": event_loops.run,
+            },
+        ),
     }
 
 
@@ -171,7 +179,7 @@ def _is_imported(name: str, fromlist: Any) -> bool:
 
 @cache
 def builtins_for_users() -> dict[str, Any]:
-    """Builtins whose `import` gives users' files our `time` and `threading`."""
+    """Builtins whose `import` gives users' files our `time`, `threading`, `asyncio` and `queue`."""
     shims = _shims()
 
     def import_(
