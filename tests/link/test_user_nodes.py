@@ -45,7 +45,7 @@ def test_services_parameters_actions_and_latched_topics_reach_another_terminal()
             server.says("New subscription discovered on topic '/noise' (node 'client')")
     told = [line.partition("[client]: ")[2] for line in client.lines if "[INFO]" in line]
     assert told == [
-        "parameters: ['speed', 'use_sim_time']",
+        "parameters: ['speed', 'start_type_description_service', 'use_sim_time']",
         "set: True",
         "set: False",
         "changed: speed 4.5",

@@ -15,9 +15,10 @@ def brief(tmp_path):
     (nodes / "brief.py").write_text(
         "import rclpy\nrclpy.init()\n"
         "node = rclpy.create_node('brief', automatically_declare_parameters_from_overrides=True)\n"
+        "own = ('use_sim_time', 'start_type_description_service')\n"
         "told = sorted(f'{name}={one.value}' for name, one in\n"
-        "              node.get_parameters_by_prefix('').items() if name != 'use_sim_time'\n"
-        "              or one.value)\n"
+        "              node.get_parameters_by_prefix('').items() if name not in own\n"
+        "              or one.value is True and name == 'use_sim_time')\n"
         "node.get_logger().info(' '.join(told))\n"
         "node.create_timer(0.7, rclpy.shutdown)\nrclpy.spin(node)\n"
     )

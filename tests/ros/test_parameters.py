@@ -5,9 +5,9 @@ def test_parameters_are_declared_with_types_and_read_back(node):
     from rclpy.parameter import Parameter, parameter_value_to_python
 
     node.declare_parameters(
-        "arm",
-        [("reach", 0.5), ("joints", ["a", "b"]), ("speed", Parameter.Type.DOUBLE), ("free",)],
+        "arm", [("reach", 0.5), ("joints", ["a", "b"]), ("speed", Parameter.Type.DOUBLE)]
     )
+    node.declare_parameter("arm.free")
     node.declare_parameter("on", True)
 
     assert node.get_parameter("arm.reach").get_parameter_value().double_value == 0.5
@@ -28,12 +28,16 @@ def test_parameters_are_declared_with_types_and_read_back(node):
     assert not node.has_parameter("on")
 
 
+OWN = ("use_sim_time", "start_type_description_service")
+"""What each node declares by itself."""
+
+
 @pytest.mark.parametrize(
     ("prefixes", "depth", "names"),
     [
-        ([], 0, {"use_sim_time", "arm", "arm.reach", "arm.hand.grip"}),
-        ([], 1, {"use_sim_time", "arm"}),
-        ([], 2, {"use_sim_time", "arm", "arm.reach"}),
+        ([], 0, {*OWN, "arm", "arm.reach", "arm.hand.grip"}),
+        ([], 1, {*OWN, "arm"}),
+        ([], 2, {*OWN, "arm", "arm.reach"}),
         (["arm"], 0, {"arm", "arm.reach", "arm.hand.grip"}),
         (["arm"], 1, {"arm", "arm.reach"}),
         (["arm.hand", "use_sim_time"], 1, {"arm.hand.grip", "use_sim_time"}),

@@ -191,3 +191,80 @@ def test_with_verbose_a_run_says_what_of_the_workspace_it_skips(tmp_path, monkey
     assert "odd' is skipped" in capsys.readouterr().err
     assert main(["run", "--simulated", "--for", "1", "node.py"]) == 0
     assert "is skipped" not in capsys.readouterr().err
+
+
+def test_parameters_are_set_one_after_the_other_until_one_is_not_declared(node):
+    from rclpy.exceptions import ParameterNotDeclaredException
+    from rclpy.parameter import Parameter
+
+    node.declare_parameter("first", 1)
+    with pytest.raises(ParameterNotDeclaredException, match="nowhere"):
+        node.set_parameters([Parameter("first", value=2), Parameter("nowhere", value=3)])
+
+    assert node.get_parameter("first").value == 2
+    with pytest.raises(TypeError, match="42 is no Parameter"):
+        node.set_parameters([42])
+
+
+def test_what_a_callback_makes_of_a_change_is_judged_as_the_change(node):
+    from rclpy.exceptions import ParameterNotDeclaredException
+    from rclpy.parameter import Parameter
+
+    node.declare_parameter("first", 1)
+    change = [Parameter("first", value=2)]
+
+    def add_another(parameters):
+        return [*parameters, Parameter("nowhere", value=3)]
+
+    node.add_pre_set_parameters_callback(add_another)
+    with pytest.raises(ParameterNotDeclaredException, match="nowhere"):
+        node.set_parameters_atomically(change)
+    node.remove_pre_set_parameters_callback(add_another)
+    node.add_pre_set_parameters_callback(lambda parameters: [])
+    result = node.set_parameters_atomically(change)
+
+    assert (result.successful, node.get_parameter("first").value) == (False, 1)
+    assert "parameter list cannot be empty" in result.reason
+
+
+def test_a_descriptor_changes_all_but_name_and_type_unless_the_value_no_longer_fits(node):
+    from rcl_interfaces.msg import IntegerRange, ParameterDescriptor, ParameterType, ParameterValue
+    from rclpy.exceptions import InvalidParameterValueException, ParameterImmutableException
+
+    node.declare_parameter("gain", 5)
+    node.declare_parameter("fixed", "x", ParameterDescriptor(read_only=True))
+    narrow = [IntegerRange(from_value=0, to_value=3, step=1)]
+
+    with pytest.raises(InvalidParameterValueException, match="out of range"):
+        node.set_descriptor("gain", ParameterDescriptor(integer_range=narrow))
+    assert node.describe_parameter("gain").integer_range == []
+
+    told = ParameterDescriptor(
+        name="other", type=ParameterType.PARAMETER_STRING, integer_range=narrow
+    )
+    two = ParameterValue(type=ParameterType.PARAMETER_INTEGER, integer_value=2)
+    assert node.set_descriptor("gain", told, two).integer_value == 2
+    described = node.describe_parameter("gain")
+    assert (described.name, described.type) == ("gain", ParameterType.PARAMETER_INTEGER)
+    assert node.get_parameter("gain").value == 2
+    with pytest.raises(ParameterImmutableException):
+        node.set_descriptor("fixed", ParameterDescriptor())
+
+
+def test_a_parameter_without_a_value_gives_way_to_an_alternative(node):
+    from rcl_interfaces.msg import ParameterValue
+    from rclpy.parameter import Parameter, get_parameter_value, parameter_value_to_python
+
+    node.declare_parameter("later", Parameter.Type.INTEGER)
+
+    assert node.get_parameter_or("later", Parameter("other", value=7)).value == 7
+    assert node.has_parameter("start_type_description_service")
+    with pytest.raises(ValueError, match="do not agree"):
+        Parameter("x", Parameter.Type.NOT_SET, 42)
+    with pytest.raises(ValueError, match="ParameterValue declares nothing"):
+        node.declare_parameter("x", ParameterValue())
+    assert get_parameter_value("null").string_value == "null"
+    with pytest.raises(RuntimeError, match="42"):
+        parameter_value_to_python(ParameterValue(type=42))
+    with pytest.warns(UserWarning, match="'y' is declared by its name alone"):
+        node.declare_parameters("", [("y",)])

@@ -1,12 +1,13 @@
 """The parameters of a node: declaring, reading and setting."""
 
 import math
+import warnings
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from difflib import get_close_matches
 from typing import Any
 
 from tftool.interfaces.classes import INTERFACES
-from tftool.interfaces.parameters import list_result
+from tftool.interfaces.parameters import list_result, value_of
 from tftool.ros.rclpy.exceptions import (
     InvalidParameterTypeException,
     InvalidParameterValueException,
@@ -43,6 +44,8 @@ class NodeParameters:
         self._on_set_parameters_callbacks: list[Setter] = []
         self._post_set_parameters_callbacks: list[Callable[..., Any]] = []
         self.__declare_one("use_sim_time", False, None, False)
+        # What ROS's own nodes have, and `ros2 param list` shows.
+        self.__declare_one("start_type_description_service", True, None, False)
         if automatic:
             for name, value in self._parameter_overrides.items():
                 if name not in self._parameters:
@@ -73,8 +76,19 @@ class NodeParameters:
         parameters: Sequence[tuple[Any, ...]],
         ignore_override: bool = False,
     ) -> list[Parameter]:
-        """Make several known: tuples of name, value and descriptor."""
+        """Make several known: tuples of name, value and descriptor.
+
+        Warns:
+            UserWarning: Of a name alone: any value fits, which is seldom meant.
+        """
         prefix = f"{namespace}." if namespace else ""
+        for one in parameters:
+            if len(one) == 1:
+                warnings.warn(
+                    f"parameter '{prefix}{one[0]}' is declared by its name alone: give a default, "
+                    "or a Parameter.Type",
+                    stacklevel=2,
+                )
         return [
             self.__declare_one(
                 prefix + one[0],
@@ -94,6 +108,10 @@ class NodeParameters:
             raise ParameterAlreadyDeclaredException(name)
         if descriptor is None:
             descriptor = INTERFACES.message("rcl_interfaces/ParameterDescriptor")()
+        if isinstance(value, INTERFACES.message("rcl_interfaces/ParameterValue")):
+            raise ValueError(
+                "a ParameterValue declares nothing: give its value, or a Parameter.Type"
+            )
         if isinstance(value, Type):
             kind, value = value, None
         elif isinstance(value, Parameter):
@@ -160,10 +178,11 @@ class NodeParameters:
         return [self.get_parameter(name) for name in names]
 
     def get_parameter_or(self, name: str, alternative_value: Parameter | None = None) -> Parameter:
-        """A parameter, or something else if it is not declared."""
-        if name in self._parameters:
-            return self._parameters[name]
-        return alternative_value or Parameter(name, Type.NOT_SET, None)
+        """A parameter, or something else if it is not declared or has no value."""
+        found = self._parameters.get(name)
+        if found is not None and found.type_ is not Type.NOT_SET:
+            return found
+        return alternative_value or found or Parameter(name, Type.NOT_SET, None)
 
     def get_parameters_by_prefix(self, prefix: str) -> dict[str, Parameter]:
         """Declared parameters below a prefix, by the rest of their names."""
@@ -206,53 +225,101 @@ class NodeParameters:
         """Change parameters one by one; for each, whether it was accepted.
 
         Raises:
-            ParameterNotDeclaredException: If one is not declared.
+            ParameterNotDeclaredException: If one is not declared; those before it are set.
+            TypeError: If something is no Parameter.
         """
-        for one in parameter_list:
-            if not self._allow_undeclared_parameters:
-                self.__known(one.name)
         return [self.set_parameters_atomically([one]) for one in parameter_list]
 
     def set_parameters_atomically(self, parameter_list: Sequence[Parameter]) -> Any:
-        """Change parameters together; all or none."""
-        for one in parameter_list:
-            if not self._allow_undeclared_parameters:
-                self.__known(one.name)
+        """Change parameters together; all or none.
+
+        Raises:
+            ParameterNotDeclaredException: If one, or one that a callback added, is not declared.
+            TypeError: If something is no Parameter.
+        """
+        self.__settable(parameter_list)
         changes = list(parameter_list)
         for before in self._pre_set_parameters_callbacks:
             changes = before(changes)
+            if not changes:
+                # The words are rclpy's, which programs compare.
+                return set_result(
+                    False,
+                    "parameter list cannot be empty, this might be due to "
+                    "pre_set_parameters_callback modifying the original parameters list.",
+                )
+        self.__settable(changes)
         for one in changes:
             reason = self.__fault(one)
             if reason:
                 return set_result(False, reason)
         result = self.__ask_callbacks(changes)
         if result.successful:
-            new = [one for one in changes if one.name not in self._parameters]
-            deleted = [one for one in changes if one.type_ is Type.NOT_SET]
-            for one in changes:
-                if one.type_ is Type.NOT_SET:
-                    # As in ROS, setting a parameter to nothing undeclares it.
-                    self._parameters.pop(one.name, None)
-                    self._descriptors.pop(one.name, None)
-                    continue
-                self._parameters[one.name] = one
-                if one.name not in self._descriptors:
-                    self._descriptors[one.name] = INTERFACES.message(
-                        "rcl_interfaces/ParameterDescriptor"
-                    )(name=one.name, type=int(one.type_), dynamic_typing=True)
-            new = [one for one in new if one not in deleted]
-            changed = [one for one in changes if one not in new and one not in deleted]
-            self._tell_of_parameters(new=new, changed=changed, deleted=deleted)
-            for after in self._post_set_parameters_callbacks:
-                after(changes)
+            self.__apply(changes)
         return result
 
+    def __settable(self, parameters: Iterable[Parameter]) -> None:
+        for one in parameters:
+            if not isinstance(one, Parameter):
+                raise TypeError(f"{one!r} is no Parameter")
+            if not self._allow_undeclared_parameters:
+                self.__known(one.name)
+
+    def __apply(self, changes: list[Parameter]) -> None:
+        new = [one for one in changes if one.name not in self._parameters]
+        deleted = [one for one in changes if one.type_ is Type.NOT_SET]
+        for one in changes:
+            if one.type_ is Type.NOT_SET:
+                # As in ROS, setting a parameter to nothing undeclares it.
+                self._parameters.pop(one.name, None)
+                self._descriptors.pop(one.name, None)
+                continue
+            self._parameters[one.name] = one
+            if one.name not in self._descriptors:
+                self._descriptors[one.name] = INTERFACES.message(
+                    "rcl_interfaces/ParameterDescriptor"
+                )(name=one.name, type=int(one.type_), dynamic_typing=True)
+        new = [one for one in new if one not in deleted]
+        changed = [one for one in changes if one not in new and one not in deleted]
+        self._tell_of_parameters(new=new, changed=changed, deleted=deleted)
+        for after in self._post_set_parameters_callbacks:
+            after(changes)
+
     def set_descriptor(self, name: str, descriptor: Any, alternative_value: Any = None) -> Any:
-        """Describe a declared parameter anew."""
+        """Describe a declared parameter anew; its name and type stay.
+
+        Args:
+            name: The parameter.
+            descriptor: What it is described by from now on.
+            alternative_value: A ParameterValue that takes the place of one that no longer fits.
+
+        Returns:
+            The ParameterValue it has then.
+
+        Raises:
+            ParameterNotDeclaredException: If it is not declared.
+            ParameterImmutableException: If it is read-only.
+            InvalidParameterValueException: If neither value fits; all stays as it was.
+        """
+        if name not in self._parameters and self._allow_undeclared_parameters:
+            return Parameter(name, Type.NOT_SET, None).get_parameter_value()
         self.__known(name)
-        descriptor.name = name
+        before, current = self._descriptors[name], self._parameters[name]
+        if before.read_only:
+            raise ParameterImmutableException(name)
+        descriptor.name, descriptor.type = name, before.type
         self._descriptors[name] = descriptor
-        return self._parameters[name].get_parameter_value()
+        candidates = [current]
+        if alternative_value is not None:
+            candidates.append(Parameter(name, value=value_of(alternative_value)))
+        fault = ""
+        for one in candidates:
+            fault = self.__range_fault(one)
+            if not fault:
+                self._parameters[name] = one
+                return one.get_parameter_value()
+        self._descriptors[name] = before
+        raise InvalidParameterValueException(name, candidates[-1].value, fault)
 
     def __fault(self, parameter: Parameter) -> str:
         name = parameter.name
@@ -264,7 +331,8 @@ class NodeParameters:
         wanted = Type(descriptor.type)
         if not descriptor.dynamic_typing and wanted is not Type.NOT_SET:
             if parameter.type_ is Type.NOT_SET:
-                return f"Parameter '{name}' cannot be undeclared by setting it to nothing"
+                # The words are rclpy's, which programs compare.
+                return "Static parameter cannot be undeclared"
             if parameter.type_ is not wanted:
                 return (
                     f"Wrong parameter type, parameter {{{name}}} is of type {{{wanted.name}}}, "

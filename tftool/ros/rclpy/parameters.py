@@ -75,7 +75,7 @@ class Parameter:
             type_ = ParameterType.from_parameter_value(value)
         if not isinstance(type_, ParameterType):
             raise TypeError("type must be an instance of 'Parameter.Type'")
-        if type_ is not ParameterType.NOT_SET and value is not None and not type_.check(value):
+        if value is not None and not type_.check(value):
             raise ValueError(f"Type '{type_}' and value '{value}' do not agree")
         self._name = name
         self._type = type_
@@ -124,12 +124,22 @@ class Parameter:
         return cls(param_msg.name, ParameterType(param_msg.value.type), value_of(param_msg.value))
 
 
-parameter_value_to_python = value_of
+def parameter_value_to_python(parameter_value: Any) -> Any:
+    """The Python value of a ParameterValue; None for one that is not set.
+
+    Raises:
+        RuntimeError: If its type is no type of a parameter.
+    """
+    try:
+        return value_of(parameter_value)
+    except ValueError as error:
+        raise RuntimeError(str(error)) from None
 
 
 def get_parameter_value(string_value: str) -> Any:
-    """The ParameterValue that a text means, read as YAML."""
-    return Parameter("", value=names.yaml_value(string_value)).get_parameter_value()
+    """The ParameterValue that a text means, read as YAML; the text itself where that is nothing."""
+    value = names.yaml_value(string_value)
+    return Parameter("", value=string_value if value is None else value).get_parameter_value()
 
 
 PARAMETER_SEPARATOR_STRING = "."
@@ -150,8 +160,11 @@ def parameter_dict_from_yaml_file(
         namespace: What the parameters' names begin with.
 
     Raises:
+        FileNotFoundError: If there is no such file.
         InputError: If it cannot be read, is no YAML, or is laid out otherwise.
     """
+    if not Path(parameter_file).exists():
+        raise FileNotFoundError(f"there is no parameter file '{parameter_file}'")
     wanted = {one.strip("/") for one in target_nodes or ()}
     found = {}
     for node, name, value in names.read_parameters(Path(parameter_file)):
