@@ -20,6 +20,7 @@ class MemoryMiddleware:
         self.session = f"{next(self.numbers):x}"
         self.graph = Graph(self.session, options.domain)
         self.unanswering = ()
+        self.notices = ()
         self.lost = 0
         self.shown, self.heard, self.servers = {}, [], {}
         self.loop = self.watcher = None

@@ -87,6 +87,12 @@ class RecordingOptions:
             raise UsageError(f"{what}: leave out --with-odometry.")
 
 
+LOOKING = frozenset(
+    ["doctor", "echo", "explain", "export", "monitor", "plot", "record", "session", "tree", "view"]
+)
+"""Commands that over DDS write to no topic."""
+
+
 class Mode(Enum):
     """What a command was told to do about the session that may run here."""
 
@@ -181,6 +187,8 @@ class Connection:
         tls: Certificate, key and authority, where given.
         config: A zenoh configuration to take as it is.
         read_only: Whether to look only.
+        dds: Where DDS goes, in place of zenoh: interfaces and addresses beyond the loopback,
+            none for the loopback alone; None for zenoh.
         robot: Joint positions, xacro arguments, a description for a recording.
         recording: How a recording is read.
         providers: Where its clocks and links come from.
@@ -194,6 +202,7 @@ class Connection:
     tls: tuple[Path, Path, Path] | None = None
     config: Path | None = None
     read_only: bool = False
+    dds: tuple[str, ...] | None = None
     robot: RobotOptions = field(default_factory=RobotOptions)
     recording: RecordingOptions = field(default_factory=RecordingOptions)
     providers: Providers = field(default_factory=Providers, compare=False, repr=False)
@@ -215,15 +224,32 @@ class Connection:
             or self.connect
             or self.config is not None
             or self.read_only
+            or self.dds is not None
         )
+
+    @property
+    def looks(self) -> bool:
+        """Whether it is for what others bring, and its own world has no place among that."""
+        return bool(self.connect or (self.dds is not None and self.command in LOOKING))
+
+    @property
+    def place(self) -> str:
+        """Where the others of its session are, in words, where that is not this machine."""
+        if self.dds is None:
+            return ", ".join(self.connect)
+        return f"DDS domain {self.domain} on {', '.join(self.dds) or 'the loopback'}"
 
     def options(self) -> "Options":
         """The same as the link takes it."""
         from tftool.link.options import Certificates, Options, Reach
 
         certificates = None if self.tls is None else Certificates(*self.tls)
-        reach = Reach(self.listen, self.connect, certificates, self.config)
-        return Options(self.command, self.domain, reach, self.read_only)
+        reach = Reach(self.listen, self.connect, certificates, self.config, self.dds or ())
+        if self.dds is None:
+            return Options(self.command, self.domain, reach, self.read_only)
+        # Among a robot's nodes, what only looks has nothing to write.
+        read_only = self.read_only or self.command in LOOKING
+        return Options(self.command, self.domain, reach, read_only, "dds")
 
     def open_link(self) -> "Link | None":
         """Open a link, which is closed with this connection at the latest.
@@ -234,6 +260,8 @@ class Connection:
         link = self.providers.link(self.options())
         if link is not None:
             self._opened.append(link)
+            for sentence in link.middleware.notices:
+                notice(sentence)
         return link
 
     def open_stored(self, found: "Found") -> "StoredFrames":
@@ -265,7 +293,7 @@ class Connection:
             )
 
 
-FLAGS = ("join", "host", "read_only", "with_odometry", "no_cache")
+FLAGS = ("join", "host", "read_only", "dds", "with_odometry", "no_cache")
 
 SESSION_OPTIONS: dict[str, Any] = {
     "join": Annotated[
@@ -317,6 +345,21 @@ SESSION_OPTIONS: dict[str, Any] = {
     ],
     "read_only": Annotated[
         bool, typer.Option("--read-only", help="Only look: publish nothing, serve nothing.")
+    ],
+    "dds": Annotated[
+        bool,
+        typer.Option(
+            "--dds", help="A ROS 2 robot over DDS, in place of zenoh: on this machine's loopback."
+        ),
+    ],
+    "dds_on": Annotated[
+        list[str] | None,
+        typer.Option(
+            "--dds-on",
+            metavar="PLACE",
+            help="The same on an interface (eth0), or with a machine (192.168.1.5); again for "
+            "more. DDS here has no TLS: all of that network can read and write.",
+        ),
     ],
 }
 
@@ -437,6 +480,8 @@ def _read(
     tls_ca: Path | None = None,
     zenoh_config: Path | None = None,
     read_only: bool = False,
+    dds: bool = False,
+    dds_on: list[str] | None = None,
     joint: list[str] | None = None,
     argument: list[str] | None = None,
     urdf: Path | None = None,
@@ -455,6 +500,11 @@ def _read(
         raise UsageError("--read-only looks at a session, so it cannot --host one.")
     if zenoh_config is not None and (listen or connect):
         raise UsageError("--zenoh-config says all endpoints: leave out --listen and --connect.")
+    if (dds or dds_on) and (listen or connect or zenoh_config or tls_cert or tls_key or tls_ca):
+        raise UsageError(
+            "--dds goes by DDS: leave out --listen, --connect, --zenoh-config and --tls-*, which "
+            "are zenoh's."
+        )
     files = [tls_cert, tls_key, tls_ca]
     given = [file for file in (*files, zenoh_config) if file is not None]
     for file in given:
@@ -479,6 +529,7 @@ def _read(
         tls,
         zenoh_config,
         read_only,
+        tuple(dds_on or ()) if dds or dds_on else None,
         RobotOptions(
             dict(_joint(word) for word in joint or ()),
             dict(_argument(word) for word in argument or ()),

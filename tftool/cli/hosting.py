@@ -368,7 +368,7 @@ def look_around(
     if word is None and connection.mode is not Mode.HOST:
         # --connect means what is at the other end, or comes there; turtles of our own have no
         # place among a robot's frames.
-        if connection.connect or (there and (not needs_turtles or _has_host(link))):
+        if connection.looks or (there and (not needs_turtles or _has_host(link))):
             world = World(connection.providers.joined_clock(), cache_time=cache_time or CACHE_TIME)
             name = _name_of(connection, link)
             notice(f"Joined {name}.")
@@ -614,7 +614,7 @@ def refuse_to_share(connection: Connection, word: str | None) -> None:
     if connection.needs_link:
         raise UsageError(
             f"'{visible(word or HOME)}' is played on simulated time here, which cannot be shared: "
-            "leave out --join, --listen, --connect, --zenoh-config and --read-only."
+            "leave out --join, --listen, --connect, --zenoh-config, --dds and --read-only."
         )
 
 
@@ -804,7 +804,7 @@ def _name_of(connection: Connection, link: "Link") -> str:
     nodes = sorted({one.node for one in link.graph.entities(NODE)})
     if nodes:
         return f"the session of ROS node '{visible(nodes[0])}'"
-    return f"what is at {visible(', '.join(connection.connect))}, where nothing has answered yet"
+    return f"what is at {visible(connection.place)}, where nothing has answered yet"
 
 
 def left_to_a_person(scenario: "Scenario") -> "Scenario":

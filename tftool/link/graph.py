@@ -138,6 +138,10 @@ class Graph:
             del self._by_name[gone.name]
         return gone
 
+    def get(self, key: str) -> GraphEntity | Process | None:
+        """What is entered under a key; None where nothing is."""
+        return self._entities.get(key) or self._processes.get(key)
+
     @property
     def foreign_domains(self) -> frozenset[int]:
         """Other domains that were heard of."""

@@ -40,6 +40,16 @@ class Inbox:
         if self._scheduled:
             loop.call_soon(self._drain)
 
+    def call_now(self) -> None:
+        """Make here and now the calls that wait, before a loop is there to make them."""
+        while self._loop is None:
+            with self._lock:
+                if not self._waiting:
+                    return
+                callback, argument, size = self._waiting.popleft()
+                self._bytes -= size
+            callback(argument)
+
     def close(self) -> None:
         """Make no call any more."""
         with self._lock:

@@ -64,12 +64,14 @@ class Reach:
         connect: Endpoints to go to, "tcp/robot:7447".
         certificates: For endpoints that begin with tls/ or quic/.
         config: A zenoh configuration, JSON5, taken in place of ours.
+        interfaces: Over DDS: interfaces to use and addresses to go to beyond the loopback.
     """
 
     listen: tuple[str, ...] = ()
     connect: tuple[str, ...] = ()
     certificates: Certificates | None = None
     config: Path | None = None
+    interfaces: tuple[str, ...] = ()
 
 
 @dataclass(frozen=True, slots=True)

@@ -17,7 +17,10 @@ from tftool.link.options import Options
 from tftool.runtime.endpoints import Quality
 from tftool.stamps import Stamp
 
-MIDDLEWARES: Final = {"zenoh": "tftool.link.zenoh.middleware:ZenohMiddleware"}
+MIDDLEWARES: Final = {
+    "dds": "tftool.link.dds.middleware:DdsMiddleware",
+    "zenoh": "tftool.link.zenoh.middleware:ZenohMiddleware",
+}
 """Where the class of each middleware is; imported when a link opens and not before."""
 
 
@@ -90,6 +93,9 @@ class Watcher(Protocol):
     def refuse(self, name: str, refusal: MalformedMessage) -> None:
         """A message of a topic or service came in and is not what it should be."""
 
+    def say_once(self, what: str, sentence: str) -> None:
+        """Warn of something about the others; `what` it is, so that it is said once."""
+
 
 class Middleware(Protocol):
     """A process's part in a ROS graph. Names have no leading slash.
@@ -98,11 +104,13 @@ class Middleware(Protocol):
         graph: Who else is there; filled before the constructor returns with those who were.
         session: This process's name in the graph.
         unanswering: Process numbers of this machine's processes that do not answer.
+        notices: What the user should know of the way in, as sentences.
     """
 
     graph: Graph
     session: str
     unanswering: tuple[int, ...]
+    notices: tuple[str, ...]
 
     def __init__(self, options: Options) -> None:
         """Join the others of this machine, and those `options` reach out to.

@@ -27,6 +27,7 @@ class ZenohMiddleware:
         graph: Who else is there.
         session: Our zenoh session, in hexadecimal.
         unanswering: Process numbers of this machine's processes that do not answer.
+        notices: Nothing: what there is to say is said where it happens.
         wire: The zenoh session.
     """
 
@@ -38,6 +39,7 @@ class ZenohMiddleware:
         self.graph = self._opening.graph
         self.session = self.wire.zid
         self.unanswering = self._opening.unanswering
+        self.notices: tuple[str, ...] = ()
         self._nodes: dict[str, int] = {}
         self._numbers = 0
         self._watcher: Watcher | None = None
