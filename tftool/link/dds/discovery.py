@@ -142,6 +142,7 @@ class Discovery:
         self._names: dict[bytes, str] = {}
         self._found: dict[tuple[str, bytes], _Found] = {}
         self._gids: dict[int, bytes] = {}
+        self._speaking: set[bytes] = set()
         self._informing: dict[bytes, int] = {}
         self._nodes: dict[bytes, tuple[dict[bytes, str], list[str]]] = {}
         self._shown_nodes: dict[bytes, set[str]] = {}
@@ -156,7 +157,6 @@ class Discovery:
             PUBLISHER: participant.builtin(builtin.BuiltinTopicDcpsPublication, told),
             SUBSCRIPTION: participant.builtin(builtin.BuiltinTopicDcpsSubscription, told),
         }
-        self._said: list[tuple[int, Sample]] = []
         self._infos = [
             participant.reader(names.DISCOVERY, form.raw(), LATEST_OF_ALL, self._informed_by(form))
             for form in self._information.values()
@@ -187,8 +187,9 @@ class Discovery:
 
     @property
     def is_complete(self) -> bool:
-        """Whether every participant that tells its nodes has told them."""
-        return self._informing.keys() <= self._nodes.keys()
+        """Whether every participant has shown its endpoints, and its nodes if it tells them."""
+        has_spoken = self._names.keys() <= self._speaking
+        return has_spoken and self._informing.keys() <= self._nodes.keys()
 
     def wait(self, seconds: float) -> bool:
         """Wait until something has changed, before anything is called back."""
@@ -253,6 +254,7 @@ class Discovery:
             return
         if owner == self._participant.gid or len(self._found) >= MOST:
             return
+        self._speaking.add(owner)
         handle = one.sample_info.instance_handle
         if role == PUBLISHER:
             self._gids[handle] = key[1]
@@ -298,6 +300,7 @@ class Discovery:
     def _forget(self, participant: bytes) -> None:
         self._names.pop(participant, None)
         self._informing.pop(participant, None)
+        self._speaking.discard(participant)
         self._nodes.pop(participant, None)
         for name in self._shown_nodes.pop(participant, set()):
             self._exchange(f"node {participant.hex()} {name}", None)

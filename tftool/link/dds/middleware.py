@@ -83,7 +83,9 @@ class DdsMiddleware:
             known = discovery.participants
             if waited > INTRODUCED:
                 break
-            if known and known >= there and discovery.is_complete and not news:
+            is_known = known and known >= there and not news
+            # One that has no endpoint at all shows none, however long it is waited for.
+            if is_known and (discovery.is_complete or waited > ALONE):
                 return
             # On the loopback there is no other machine that could still answer.
             alone = 0 if self._network.is_loopback and there == 0 else ALONE
