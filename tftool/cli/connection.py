@@ -92,6 +92,9 @@ LOOKING = frozenset(
 )
 """Commands that over DDS write to no topic."""
 
+HOSTING = frozenset(["demo", "teleop"])
+"""Commands that host turtles over DDS too, where none are there; others wait for a robot."""
+
 
 class Mode(Enum):
     """What a command was told to do about the session that may run here."""
@@ -230,7 +233,7 @@ class Connection:
     @property
     def looks(self) -> bool:
         """Whether it is for what others bring, and its own world has no place among that."""
-        return bool(self.connect or (self.dds is not None and self.command in LOOKING))
+        return bool(self.connect or (self.dds is not None and self.command not in HOSTING))
 
     @property
     def place(self) -> str:

@@ -53,6 +53,8 @@ TOOLS = ("g++", "gcc", "idlc", "fastddsgen", "java")
 RECIPE = (
     "fastddsgen -replace -d f tf.idl",
     "idlc -l c -o c tf.idl",
+    "idlc -l c -o c service.idl",
+    "gcc -O1 -Ic service_peer.c c/service.c -lddsc -o service_peer",
     "gcc -O1 -Ic cyclone_peer.c c/tf.c -lddsc -o cyclone_peer",
     "g++ -O0 -std=c++17 -w -If fast_peer.cpp f/tf.cxx f/tfPubSubTypes.cxx -lfastrtps -lfastcdr "
     "-lpthread -o fast_peer",

@@ -124,3 +124,34 @@ def test_a_peer_that_is_killed_is_missed_when_its_lease_is_over(peer, domain):
     departures, frames = asyncio.run(scene())
     assert departures == 1
     assert {"odom", "base", "laser"} <= set(frames)
+
+
+def test_garbage_and_ten_megabytes_of_it_are_dropped_beside_what_is_right(peer, domain):
+    async def scene():
+        async with joined(domain, read_only=True) as (world, link):
+            good, hostile = peer("cyclone", "pub", 300), peer("fast", "hostile", 60)
+            await until(lambda: ["sent"] in hostile.lines)
+            await until(lambda: ["sent"] in good.lines)
+            await until(lambda: world.buffer.frames() and len(link.graph.sessions) == 2)
+            await until(lambda: world.buffer.samples("base").stamps[-1] == stamp(299))
+            return world.buffer.samples("base").stamps.tolist(), set(world.buffer.frames())
+
+    stamps, frames = asyncio.run(scene())
+    assert stamps == [stamp(number) for number in range(300)]
+    assert frames == {"odom", "base", "laser"}
+
+
+def test_a_message_of_ten_megabytes_arrives_whole(domain):
+    count = 100_000
+
+    async def scene():
+        async with joined(domain) as (robot, _), joined(domain, read_only=True) as (world, _):
+            await until(lambda: robot.tf.far_subscribers)
+            path = [transform("odom", "base", seconds(100) + at, float(at)) for at in range(count)]
+            robot.broadcast(path, "wheels")
+            await until(lambda: "base" in world.buffer.frames())
+            await until(lambda: len(world.buffer.samples("base").stamps) == count)
+            return world.buffer.samples("base")
+
+    samples = asyncio.run(scene())
+    assert samples.poses[:, 0].tolist() == list(range(count))

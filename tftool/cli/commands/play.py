@@ -74,6 +74,10 @@ def play(
             "--all", help="Send every other topic too whose type is known, with its own stamps."
         ),
     ] = False,
+    force: Annotated[
+        bool,
+        typer.Option("--force", help="Over --dds: play beside publishers of /tf that are there."),
+    ] = False,
     run_for: RunFor = None,
 ) -> ExitStatus:
     """Play a recording as a live session (ros2 bag play).
@@ -116,9 +120,29 @@ def play(
     )
     # Last of all: while it has not been decided who hosts, other processes wait.
     link = look_around(connection, file).link
+    if link is not None and connection.dds is not None and not force:
+        _refuse_to_mix(link)
     pace = connection.providers.wall_clock()
     run(pace, showing.play(pace, link))
     return ExitStatus.DONE
+
+
+def _refuse_to_mix(link: "Link") -> None:
+    """Keep a recording's transforms out of the graph of a robot that sends its own.
+
+    Raises:
+        UsageError: If transforms are published there.
+    """
+    from tftool.runtime.endpoints import PUBLISHER
+    from tftool.views.escaping import visible
+
+    nodes = sorted({one.node for one in link.graph.entities(PUBLISHER, name="tf")})
+    if nodes:
+        some = ", ".join(f"'{visible(node)}'" for node in nodes[:3])
+        raise UsageError(
+            f"/tf has publishers here, {some}: what is played would mix with it, and a robot "
+            "would act on both. Choose another --domain, or --force it."
+        )
 
 
 def _span(

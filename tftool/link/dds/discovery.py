@@ -295,7 +295,7 @@ class Discovery:
         if len(only) == 1:
             return only[0]
         name = self._names.get(participant, "")
-        return node_name(name) if name else f"participant_{participant[:12].hex()}"
+        return node_name(name) if name else f"participant_{participant[2:8].hex()}"
 
     def _forget(self, participant: bytes) -> None:
         self._names.pop(participant, None)

@@ -11,9 +11,10 @@ from tftool.interfaces.hashes import type_hash
 from tftool.link.dds import names
 from tftool.link.dds.discovery import Discovery
 from tftool.link.dds.participant import Participant, Reader, Sample, Writer
+from tftool.link.dds.services import CycloneClient, CycloneServer, ServicePart
 from tftool.link.dds.settings import network, other_domains, participants_here
 from tftool.link.dds.types import Raw, Types
-from tftool.link.graph import SERVER, GraphEntity, Process, node_name
+from tftool.link.graph import GraphEntity, Process, node_name
 from tftool.link.options import Options
 from tftool.link.seam import Arrived, Middleware, Watcher, WireClient, WireRequest
 from tftool.runtime.clock import WallClock
@@ -31,11 +32,6 @@ SETTLED: Final = 0.3
 
 _RELIABILITY: Final = 11
 """The library's number of that policy."""
-
-NO_SERVICES: Final = (
-    "{vendor} carries the number of a request beside it, where DDS's library for Python cannot "
-    "read or write it: run the robot with RMW_IMPLEMENTATION=rmw_cyclonedds_cpp or rmw_zenoh_cpp"
-)
 
 
 class DdsMiddleware:
@@ -61,6 +57,7 @@ class DdsMiddleware:
             self.session = self.graph.own
             self.unanswering: tuple[int, ...] = ()
             self._types = Types(INTERFACES)
+            self._services = ServicePart(self._participant, self._types, self.graph, self.sender)
             self._watcher: Watcher | None = None
             self._readers: dict[tuple[str, str], list[_Listening]] = {}
             self._claims: list[_Claim] = []
@@ -258,11 +255,35 @@ class DdsMiddleware:
         self, node: str, name: str, ros_type: str, on_request: Callable[[WireRequest], object]
     ) -> Callable[[], None]:
         """Serve a service as a node of this process."""
-        return _nothing
+
+        def stranger(vendor: str) -> None:
+            self.say_once(
+                f"asked {vendor}",
+                f"A node over {vendor} asks for the service '{name}': {vendor} numbers requests "
+                "where DDS's library for Python cannot read them, so it gets no answer.",
+            )
+
+        try:
+            server = CycloneServer(self._services, name, ros_type, on_request, stranger)
+        except (LinkError, InputError) as error:
+            self.say_once(f"type {ros_type}", f"'{name}' cannot be served over DDS: {error}.")
+            return _nothing
+        reads, writes = server.gids
+        hide = [
+            self._discovery.show_endpoint(node_name(node), SUBSCRIPTION, reads),
+            self._discovery.show_endpoint(node_name(node), PUBLISHER, writes),
+        ]
+
+        def leave() -> None:
+            for one in hide:
+                one()
+            server.close()
+
+        return leave
 
     def client(self, node: str, name: str, ros_type: str) -> WireClient:
         """Ask a service as a node of this process."""
-        return _Refusing(self, name)
+        return CycloneClient(self._services, name, ros_type)
 
     # What others show
 
@@ -373,23 +394,6 @@ class DdsPublisher:
         """Send no more."""
         self._hide()
         self._writer.close()
-
-
-class _Refusing:
-    """A client whose every request is refused, by name."""
-
-    def __init__(self, middleware: DdsMiddleware, name: str) -> None:
-        self._middleware = middleware
-        self._name = name
-
-    async def ask(self, payload: bytes, stamp: Stamp, timeout: float) -> bytes:
-        """Refuse."""
-        servers = self._middleware.graph.entities(SERVER, name=self._name)
-        vendor = names.vendor(servers[0].gid) if servers else "DDS"
-        raise LinkError(NO_SERVICES.format(vendor=vendor))
-
-    def close(self) -> None:
-        """Do nothing."""
 
 
 def _listed(domains: list[int]) -> str:

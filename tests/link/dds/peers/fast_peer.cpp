@@ -19,6 +19,7 @@
 
 using namespace eprosima::fastdds;
 using namespace eprosima::fastdds::dds;
+using eprosima::fastrtps::rtps::SerializedPayload_t;
 using Message = tf2_msgs::msg::dds_::TFMessage_;
 
 template <class Qos> Qos quality(Qos qos, bool latched) {
@@ -54,6 +55,24 @@ void hear(DataReader* reader, const char* topic) {
   }
 }
 
+// Bytes of any kind under the name of a type, in front of those that are well-formed.
+class Garbage : public tf2_msgs::msg::dds_::TFMessage_PubSubType {
+ public:
+  Garbage() { m_typeSize = 12000000; }
+  bool serialize(void* data, SerializedPayload_t* payload) override {
+    auto seed = static_cast<unsigned*>(data);
+    const unsigned sizes[] = {4, 5, 8, 40, 1000, 10000000};
+    payload->encapsulation = CDR_LE;
+    payload->length = sizes[*seed % 6];
+    for (unsigned at = 0; at < payload->length; at++)
+      payload->data[at] = at < 4 ? at == 1 : (*seed / 6) * 2654435761u * (at + 1) >> 13;
+    return true;
+  }
+  std::function<uint32_t()> getSerializedSizeProvider(void*) override {
+    return [] { return 10000008u; };
+  }
+};
+
 int main(int, char** argv) {  // domain mode count
   DomainParticipantQos ours;
   ours.name("fast_peer");
@@ -68,7 +87,8 @@ int main(int, char** argv) {  // domain mode count
   ours.wire_protocol().builtin.metatrafficUnicastLocatorList.push_back(near);
   auto us = DomainParticipantFactory::get_instance()->create_participant(std::stoi(argv[1]), ours);
   if (us == nullptr) return 1;
-  TypeSupport type(new tf2_msgs::msg::dds_::TFMessage_PubSubType());
+  bool is_hostile = std::strcmp(argv[2], "hostile") == 0;
+  TypeSupport type(is_hostile ? new Garbage() : new tf2_msgs::msg::dds_::TFMessage_PubSubType());
   type.register_type(us, "tf2_msgs::msg::dds_::TFMessage_");
   auto tf = us->create_topic("rt/tf", type.get_type_name(), TOPIC_QOS_DEFAULT);
   auto fixed = us->create_topic("rt/tf_static", type.get_type_name(), TOPIC_QOS_DEFAULT);
@@ -83,7 +103,7 @@ int main(int, char** argv) {  // domain mode count
   auto out = us->create_publisher(PUBLISHER_QOS_DEFAULT);
   auto moving = out->create_datawriter(tf, quality(DATAWRITER_QOS_DEFAULT, false));
   auto still = out->create_datawriter(fixed, quality(DATAWRITER_QOS_DEFAULT, true));
-  send(still, "base", "laser", 1);
+  if (!is_hostile) send(still, "base", "laser", 1);
   std::cout << "ready" << std::endl;
   PublicationMatchedStatus matched;
   while (matched.current_count < 1) {
@@ -91,7 +111,8 @@ int main(int, char** argv) {  // domain mode count
     std::this_thread::sleep_for(std::chrono::milliseconds(1));
   }
   for (int i = 0; i < std::stoi(argv[3]); i++) {
-    send(moving, "odom", "base", i);
+    unsigned seed = i;
+    is_hostile ? (void)moving->write(&seed) : send(moving, "odom", "base", i);
     std::this_thread::sleep_for(std::chrono::milliseconds(10));
   }
   std::cout << "sent" << std::endl;
