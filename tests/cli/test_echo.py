@@ -1,9 +1,18 @@
 import json
+import re
 
 import pytest
 
 from tests.cli.test_app import start
+from tftool.cli.commands.echo import LivePrinter
 from tftool.cli.hosting import HOME
+from tftool.cli.redrawing import Redrawing
+from tftool.cli.waiting import FramePair
+from tftool.errors import LookupException
+from tftool.frames.buffer import Buffer
+from tftool.frames.sample import TransformStamped
+from tftool.geometry.rigid import Transform
+from tftool.runtime.clock import SimClock
 
 HOSTING = f"No session is running here: hosting scenario '{HOME}'.\n"
 
@@ -149,3 +158,36 @@ def test_an_unreadable_scenario_says_why(tftool, tmp_path):
 
     assert result.status == 3
     assert str(broken) in result.err
+
+
+def test_on_a_terminal_answers_take_the_place_of_the_last(monkeypatch, capsys):
+    monkeypatch.setenv("FORCE_COLOR", "1")
+    clock = SimClock()
+    answer = TransformStamped(clock.now(), "world", "turtle1", Transform((1.0, 2.0, 3.0)))
+
+    with Redrawing(clock) as redrawing:
+        printer = LivePrinter(redrawing, FramePair("world", "turtle1"), 3, True)
+        for _ in range(2):
+            printer.found(clock.now(), answer)
+        printer.failed(clock.now(), LookupException("gone"), Buffer())
+
+    out = capsys.readouterr().out
+    assert out.count("\x1b[1mturtle1 in world\x1b[0m\x1b[2m  0.00 s ago") == 2
+    assert "\x1b[31m1.000\x1b[0m, \x1b[32m2.000\x1b[0m, \x1b[94m3.000\x1b[0m" in out
+    # The second begins by going up over the twelve lines of the first, and so does the refusal;
+    # the end draws the four lines of that once more.
+    assert out.count("\x1b[1A\x1b[2K") == 2 * 11 + 3
+    assert "Exception thrown:gone" in out
+    assert out.count("\x1b[?25h") == out.count("\x1b[?25l") == 1
+
+
+def test_on_a_terminal_one_answer_is_coloured_and_its_words_are_the_same(tftool, monkeypatch):
+    words = ("echo", "turtle2", "turtle1", "turtles", "--at", "4")
+    piped = tftool(*words).out
+    monkeypatch.setenv("FORCE_COLOR", "1")
+    monkeypatch.setattr("sys.stdout.isatty", lambda: True)
+
+    painted = tftool(*words).out
+
+    assert re.sub(r"\x1b\[[0-9;]*m", "", painted) == piped
+    assert "\x1b[31m2.323\x1b[0m, \x1b[32m0.965\x1b[0m, \x1b[94m0.000\x1b[0m" in painted

@@ -1,6 +1,8 @@
 import json
 import math
 
+import pytest
+
 from tftool.errors import LookupException
 from tftool.frames.sample import TransformStamped
 from tftool.geometry.rigid import Transform
@@ -88,3 +90,12 @@ def test_programs_get_full_precision_and_null_for_what_is_no_number():
 def test_a_lookup_is_said_in_words():
     assert echo.in_words("turtle2", "turtle1") == "turtle1 in turtle2"
     assert echo.in_words("a\n", "\x1b[31m") == "␛[31m in a␊"
+
+
+@pytest.mark.parametrize(("age", "style"), [(2, "dim"), (6, "yellow"), (16, "red")])
+def test_the_age_of_an_answer_is_amber_then_red(age, style):
+    heading = echo.live_heading("map", "laser", seconds(age))
+
+    assert heading.plain == f"laser in map  {age}.0 s ago\n"
+    assert heading.spans[-1].style == style
+    assert echo.live_heading("map", "laser", None).plain == "laser in map  static\n"

@@ -1,8 +1,7 @@
 import json
-from io import StringIO
 
 import pytest
-from rich.console import Console
+from rich.cells import cell_len
 
 from tftool.frames.sample import TransformStamped
 from tftool.frames.traffic import NetDelay, Traffic
@@ -129,35 +128,99 @@ def test_tf2_monitors_own_numbers_are_there_to_compare_with():
     ).split("\n")
 
 
-def shown(renderable):
-    console = Console(file=StringIO(), width=90, color_system=None, _environ={})
-    console.print(renderable)
-    return [line.rstrip() for line in console.file.getvalue().split("\n")]
+def shown(*words, width=90, height=40, **options):
+    text = monitor.table(*words, width=width, height=height, **options)
+    lines = [line.plain for line in text.split("\n", allow_blank=True)]
+    assert max(map(cell_len, lines)) <= width
+    return lines
 
 
-def test_the_table_shows_milliseconds_and_statics_as_such():
+def test_the_table_shows_milliseconds_bars_and_statics_as_such():
     heard = steady()
     heard.receive(seconds(11), [sample("A\x1b", 0)], "static[b]", is_static=True)
 
-    assert shown(monitor.table(seconds(21), seconds(10), heard)) == [
-        "All frames, for 11 s",
+    assert shown(seconds(11.5), seconds(10), heard) == [
+        "All frames, for 2 s",
         "",
-        "frame    in     broadcaster       rate  average delay     most",
-        "A␛       world  static[b]       static              -        -",
-        "turtle1  world  broadcaster1  10.00 Hz        20.0 ms  20.0 ms",
+        "frame    in     broadcaster       rate              delay     most",
+        "A␛       world  static[b]       static                  -        -",
+        "turtle1  world  broadcaster1  10.00 Hz  ████████  20.0 ms  20.0 ms",
         "",
-        "broadcaster       rate  average delay     most",
-        "broadcaster1  10.00 Hz        20.0 ms  20.0 ms",
-        "static[b]            -              -        -",
-        "",
+        "broadcaster       rate              delay     most",
+        "broadcaster1  10.00 Hz  ████████  20.0 ms  20.0 ms",
+        "static[b]            -                  -        -",
     ]
 
 
-def test_the_table_of_a_chain_names_its_way_and_its_delay():
-    assert shown(monitor.table(seconds(21), seconds(10), steady(), chain()))[:2] == [
-        "turtle1 in turtle2, for 11 s, by way of turtle1, world, turtle2: net delay 200.0 ms on",
-        "average, 300.0 ms at most",
-    ]
+def test_bars_are_as_long_as_rates_are_high():
+    heard = steady()
+    for n in range(6):
+        heard.receive(seconds(10 + n * 0.2), [sample("slow", 10 + n * 0.2)], "b")
+
+    lines = shown(seconds(11.1), seconds(10), heard, ascii_only=True)
+
+    assert [line.count("#") for line in lines[3:5]] == [4, 8]
+
+
+def test_the_table_of_a_chain_has_its_links_in_its_order():
+    heard = steady()
+    for n in range(3):
+        heard.receive(seconds(10.5 + n * 0.2), [sample("eye", 10.5, "turtle1")], "b")
+    delay = NetDelay()
+    delay.add(0.2)
+    way = monitor.Chain("world", "eye", ("eye", "turtle1", "world"), delay)
+
+    lines = shown(seconds(11), seconds(10), heard, way)
+
+    assert lines[0] == (
+        "eye in world, for 1 s, by way of eye, turtle1, world: net delay 200.0 ms on average, 200.0"
+    )
+    assert lines[1] == "ms at most"
+    assert [line.split()[0] for line in lines[4:6]] == ["eye", "turtle1"]
+    away = monitor.Chain("eye", "world", ("world", "turtle1", "eye"), delay)
+    there = shown(seconds(11), seconds(10), heard, away)
+    assert [line.split()[0] for line in there[4:6]] == ["turtle1", "eye"]
+
+
+def styles(text, word):
+    (line,) = [line for line in text.split("\n") if line.plain.startswith(word)]
+    return {str(span.style) for span in line.spans if line.plain[span.start : span.end].strip()}
+
+
+@pytest.mark.parametrize(
+    ("now", "told", "style"), [(13, "2.0 s ago", "yellow"), (40, "29.0 s ago", "red")]
+)
+def test_a_link_not_heard_of_is_amber_then_red(now, told, style):
+    heard = steady()
+
+    text = monitor.table(seconds(now), seconds(10), heard, width=90, height=40)
+
+    assert told in text.plain
+    assert style in styles(text, "turtle1")
+
+
+def test_a_link_that_is_dated_long_before_it_arrives_is_amber():
+    heard = traffic(
+        *[(10 + n * 0.1, ("map", 9 + n * 0.1), ("odom", 10 + n * 0.1)) for n in range(9)]
+    )
+
+    text = monitor.table(seconds(11), seconds(10), heard, width=90, height=40)
+
+    assert "yellow" in styles(text, "map")
+    assert "yellow" not in styles(text, "odom")
+
+
+@pytest.mark.parametrize("width", [24, 40, 60, 80, 120])
+def test_the_table_fits_a_terminal_and_says_how_many_frames_more_there_are(width):
+    heard = traffic(
+        *[(10 + n * 0.1, *[(f"link_{k:02}", 10 + n * 0.1) for k in range(60)]) for n in range(3)]
+    )
+
+    lines = shown(seconds(11), seconds(10), heard, width=width, height=23)
+
+    assert len(lines) == 23
+    assert "44 more" in lines
+    assert "".join(lines).count("link_") == 16
 
 
 def test_programs_get_plain_numbers_and_null_for_none():

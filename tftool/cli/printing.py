@@ -10,8 +10,8 @@ LOG_WIDTH = 2000
 """How wide a line gets where there is no terminal to wrap it for."""
 
 
-def write(what: "RenderableType") -> None:
-    """Write a renderable to stdout.
+def write(what: "RenderableType", *, end: str = "\n") -> None:
+    """Write a renderable to stdout, and `end` after it.
 
     In a log, which may be searched by line, what is one sentence stays in one.
     """
@@ -22,6 +22,6 @@ def write(what: "RenderableType") -> None:
         console.width = LOG_WIDTH
     # Written by us: rich ends the process with 1 when a reader (`| head`) is gone.
     with console.capture() as captured:
-        console.print(what)
+        console.print(what, end=end)
     for line in captured.get().splitlines():
         sys.stdout.write(f"{line.rstrip()}\n")

@@ -52,6 +52,11 @@ class Series:
         return (len(self._arrivals) - 1) / span if span > 0.0 else None
 
     @property
+    def last(self) -> Stamp | None:
+        """When the newest message arrived; None before the first."""
+        return self._arrivals[-1] if self._arrivals else None
+
+    @property
     def average_delay(self) -> float | None:
         """Mean seconds from stamp to arrival; None where no stamp says when."""
         return sum(self._delays) / len(self._delays) if self._delays else None

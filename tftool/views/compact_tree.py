@@ -14,14 +14,12 @@ from rich.text import Text
 from tftool.frames.sample import FrameInfo, Snapshot
 from tftool.stamps import Stamp, as_seconds, display
 from tftool.views.branches import ASCII, UNICODE, Branch, Guides, branches
+from tftool.views.columns import Cell, Column, fit
 from tftool.views.escaping import distinct, visible
 from tftool.views.fixed_width import middle_cut
 from tftool.views.forest import Forest, grow
 from tftool.views.short_numbers import short_duration, short_rate
 from tftool.views.theme import FRAME_TIMEOUT
-
-GAP = 2
-"""Cells between two columns."""
 
 LEAST_NAME = 16
 """Cells that names get, and what is before them, before a column is given up for them."""
@@ -31,8 +29,6 @@ SHARE = 0.6
 
 BROADCASTERS = (24, 16, 11)
 """How many cells names of broadcasters get; fewer rather than none."""
-
-STOPPED = "edge-stopped"
 
 
 class TreeOrder(StrEnum):
@@ -60,11 +56,15 @@ class CompactTree:
     is_cut: bool
 
 
-@dataclass(frozen=True, slots=True)
-class _Column:
-    heading: str
-    cell: Callable[[FrameInfo], str]
-    stands_right: bool = True
+Told = Callable[[FrameInfo], str]
+
+
+def _measured(told: Told) -> Told:
+    return lambda info: "" if info.is_static else told(info)
+
+
+def _broadcaster(info: FrameInfo) -> str:
+    return visible(info.authority or "-")
 
 
 def _rate(info: FrameInfo) -> str:
@@ -73,22 +73,10 @@ def _rate(info: FrameInfo) -> str:
     return "-" if info.samples < 2 else short_rate(info.rate)
 
 
-def _measured(cell: Callable[[FrameInfo], str]) -> Callable[[FrameInfo], str]:
-    return lambda info: "" if info.is_static else cell(info)
-
-
-_BROADCASTER = _Column("broadcaster", lambda info: visible(info.authority or "-"), False)
-_RATE = _Column("rate", _rate)
-_KEPT = _Column("kept", _measured(lambda info: short_duration(info.buffer_length)))
-_OLDEST = _Column("oldest", _measured(lambda info: display(info.oldest)))
-_NEWEST = _Column("newest", _measured(lambda info: display(info.newest)))
-_AGE = _Column("age", _measured(lambda info: short_duration(info.age)))
-
-COLUMNS = (_BROADCASTER, _RATE, _KEPT, _OLDEST, _NEWEST, _AGE)
-"""Of frames that are sent, from left to right."""
-
-_GIVEN_UP = (_OLDEST, _NEWEST, _KEPT, _BROADCASTER, _RATE, _AGE)
-"""The same in the order in which they go as the width shrinks."""
+_KEPT = _measured(lambda info: short_duration(info.buffer_length))
+_OLDEST = _measured(lambda info: display(info.oldest))
+_NEWEST = _measured(lambda info: display(info.newest))
+_AGE = _measured(lambda info: short_duration(info.age))
 
 
 def compact(
@@ -116,25 +104,31 @@ def compact(
     rows = _ordered(forest, order, wanted)
     if moving is not None:
         rows = [_of_robot(branch, moving) for branch in rows]
-    columns: tuple[_Column, ...] = COLUMNS
-    given_up: tuple[_Column, ...] = _GIVEN_UP
-    if moving is not None:
-        kind = _Column("link", lambda info: "moving" if info.frame in moving else "fixed", False)
-        joint = _Column("joint", _BROADCASTER.cell, False)
-        columns, given_up = (kind, joint), (joint, kind)
     told = _told(snapshot, moving)
-    drawing = _Drawing(rows, distinct(forest.info), width, ascii_only, order, told)
-    wrong = {branch.info.frame: _wrong(branch, marks or {}) for branch in rows}
-    if any(wrong.values()):
-        wrong_column = _Column("wrong", lambda info: wrong[info.frame], False)
-        columns = (*columns, wrong_column)
-    drawing.choose(columns, given_up)
-    lines = tuple(drawing.line(branch, marked=bool(wrong[branch.info.frame])) for branch in rows)
-    heading = [drawing.heading()]
+    more = "~" if ascii_only else "…"
+    drawing = _Drawing(rows, distinct(forest.info), width, ascii_only, order)
+    longest = max(drawing.longest(drawing.guides), cell_len(told), LEAST_NAME)
+    columns = fit(
+        _columns(rows, width, moving, marks or {}),
+        width,
+        wanted=min(longest, drawing.most),
+        longest=longest,
+        more=more,
+    )
+    heading = [columns.heading(told)]
     if len(forest.roots) > 1:
         listed = ", ".join(visible(root) for root in forest.roots)
-        text = middle_cut(f"{len(forest.roots)} separate trees: {listed}", width, more=drawing.more)
+        text = middle_cut(f"{len(forest.roots)} separate trees: {listed}", width, more=more)
         heading.insert(0, Text(text, style="yellow"))
+    lines = tuple(
+        columns.row(
+            place,
+            drawing.first(
+                branch, columns.room, marked=bool(_wrong(branch, marks or {})), more=more
+            ),
+        )
+        for place, branch in enumerate(rows)
+    )
     return CompactTree(tuple(heading), lines, drawing.is_cut)
 
 
@@ -205,8 +199,48 @@ def _wrong(branch: Branch, marks: Mapping[str, Sequence[str]]) -> str:
     return ids[0] if len(ids) == 1 else f"{ids[0]} +{len(ids) - 1}"
 
 
+def _columns(
+    rows: list[Branch],
+    width: int,
+    moving: Collection[str] | None,
+    marks: Mapping[str, Sequence[str]],
+) -> list[Column]:
+    """What there is to say about each frame, beside its name."""
+
+    def cells(told: Told, style: str = "") -> list[Cell]:
+        return [
+            ("", "")
+            if one.info.parent is None
+            else (told(one.info), "dim" if one.info.is_static else style)
+            for one in rows
+        ]
+
+    wrong = [(_wrong(one, marks), "yellow") for one in rows]
+    last = Column("wrong", wrong, caps=(max(12, width // 4),))
+    if moving is not None:
+        kinds = cells(lambda info: "fixed" if info.is_static else "moving")
+        return [
+            Column("link", kinds, goes=2),
+            Column("joint", cells(_broadcaster), caps=BROADCASTERS, goes=1),
+            last,
+        ]
+    ages = [
+        (text, _age_style(one.info) if why else style)
+        for one, (text, style), (why, _) in zip(rows, cells(_AGE), wrong, strict=True)
+    ]
+    return [
+        Column("broadcaster", cells(_broadcaster, "dim"), caps=BROADCASTERS, goes=4),
+        Column("rate", cells(_rate), stands_right=True, goes=5),
+        Column("kept", cells(_KEPT), stands_right=True, goes=3),
+        Column("oldest", cells(_OLDEST, "dim"), stands_right=True, goes=1),
+        Column("newest", cells(_NEWEST, "dim"), stands_right=True, goes=2),
+        Column("age", ages, stands_right=True, goes=6),
+        last,
+    ]
+
+
 class _Drawing:
-    """Which columns there is room for, and the lines that they make."""
+    """The first column: guides, and names behind them."""
 
     def __init__(
         self,
@@ -215,120 +249,42 @@ class _Drawing:
         width: int,
         ascii_only: bool,
         order: TreeOrder,
-        told: str,
     ) -> None:
-        self.told = told
         self.rows = rows
         self.names = names
-        self.width = width
         self.is_flat = order is not TreeOrder.tree
-        self.more = "~" if ascii_only else "…"
-        self.kinds = ASCII if ascii_only else UNICODE
-        self.guides = self.kinds[0]
-        self.columns: tuple[_Column, ...] = ()
-        self.cells: dict[str, list[str]] = {}
-        self.widths: list[int] = []
-        self.room = width
+        self.most = max(LEAST_NAME, int(width * SHARE))
+        kinds = ASCII if ascii_only else UNICODE
+        self.guides = next((one for one in kinds if self.longest(one) <= self.most), kinds[-1])
         self.is_cut = False
 
-    def choose(self, columns: tuple[_Column, ...], given_up: tuple[_Column, ...]) -> None:
-        """Choose guides and columns so that every line fits."""
-        most = max(LEAST_NAME, int(self.width * SHARE))
-        self.guides = next(
-            (one for one in self.kinds if self._longest(one) <= most), self.kinds[-1]
-        )
-        longest = max(self._longest(self.guides), cell_len(self.told), LEAST_NAME)
-        wanted = min(longest, most)
-        going = list(given_up)
-        cells = {
-            column.heading: [
-                "" if one.info.parent is None and column.heading != "wrong"
-                else column.cell(one.info)
-                for one in self.rows
-            ]
-            for column in columns
-        }  # fmt: skip
-        # A column in which nothing stands is none.
-        columns = tuple(one for one in columns if any(cells[one.heading]))
-        limits = dict.fromkeys(cells, self.width)
-        limits["wrong"] = max(10, self.width // 4)
-        while True:
-            widths = [
-                min(limits[one.heading], max(map(cell_len, [one.heading, *cells[one.heading]])))
-                for one in columns
-            ]
-            room = self.width - sum(widths) - GAP * len(widths)
-            if room >= wanted or not going:
-                break
-            column = going[0]
-            tighter = [one for one in BROADCASTERS if one < limits[column.heading]]
-            if column in columns and not column.stands_right and tighter:
-                limits[column.heading] = tighter[0]
-                continue
-            del going[0]
-            columns = tuple(one for one in columns if one is not column)
-        self.columns, self.widths, self.cells = columns, widths, cells
-        self.room = min(max(1, room), longest)
-        self._at = {one.info.frame: place for place, one in enumerate(self.rows)}
-
-    def heading(self) -> Text:
-        """What the drawing is of, and what its columns are."""
-        line = self._fill(middle_cut(self.told, self.room, more=self.more), self.room)
-        for column, width in zip(self.columns, self.widths, strict=True):
-            line += " " * GAP + self._cell(column, column.heading, width)
-        return Text(line.rstrip(), style="dim")
-
-    def line(self, branch: Branch, *, marked: bool) -> Text:
-        """One frame."""
-        info = branch.info
-        lead = self._lead(branch)
-        name = self.names[info.frame]
-        shown = middle_cut(name, max(1, self.room - cell_len(lead)), more=self.more)
+    def first(self, branch: Branch, room: int, *, marked: bool, more: str) -> Text:
+        """Guides and name of one frame in so many cells."""
+        lead = self._lead(branch, more)
+        name = self.names[branch.info.frame]
+        shown = middle_cut(name, max(1, room - cell_len(lead)), more=more)
         self.is_cut = self.is_cut or shown != name
-        line = Text(no_wrap=True, overflow="crop")
-        line.append(lead, style="dim")
-        line.append(shown, style=_style(info, marked))
-        line.append(" " * (self.room - cell_len(lead) - cell_len(shown)))
-        for column, width in zip(self.columns, self.widths, strict=True):
-            cell = self.cells[column.heading][self._at[info.frame]]
-            line.append(" " * GAP)
-            line.append(self._cell(column, cell, width), style=_cell_style(column, info, marked))
-        line.rstrip()
-        return line
+        return Text().append(lead, style="dim").append(shown, style=_style(branch.info, marked))
 
-    def _lead(self, branch: Branch) -> str:
-        if self.is_flat or not branch.turns:
-            return ""
-        depth = len(branch.turns)
-        if self.guides.width(depth) <= max(4, int(self.width * SHARE)):
-            return self.guides.lead(branch.turns)
-        # So deep that guides alone would fill the line: a number says where it hangs.
-        return f"{depth}{self.more}{self.guides.lead(branch.turns[-1:])}"
-
-    def _longest(self, guides: Guides) -> int:
+    def longest(self, guides: Guides) -> int:
         """How many cells the longest name takes with what is before it."""
         return max(
             (
                 cell_len(self.names[one.info.frame])
-                + (
-                    0
-                    if self.is_flat
-                    else min(guides.width(len(one.turns)), int(self.width * SHARE))
-                )
+                + (0 if self.is_flat else min(guides.width(len(one.turns)), self.most))
                 for one in self.rows
             ),
             default=LEAST_NAME,
         )
 
-    def _cell(self, column: _Column, text: str, width: int) -> str:
-        shown = middle_cut(text, width, more=self.more)
-        if column.stands_right:
-            return " " * (width - cell_len(shown)) + shown
-        return self._fill(shown, width)
-
-    @staticmethod
-    def _fill(text: str, width: int) -> str:
-        return text + " " * (width - cell_len(text))
+    def _lead(self, branch: Branch, more: str) -> str:
+        if self.is_flat or not branch.turns:
+            return ""
+        depth = len(branch.turns)
+        if self.guides.width(depth) <= self.most:
+            return self.guides.lead(branch.turns)
+        # So deep that guides alone would fill the line: a number says where it hangs.
+        return f"{depth}{more}{self.guides.lead(branch.turns[-1:])}"
 
 
 def _style(info: FrameInfo, marked: bool) -> str:
@@ -339,9 +295,5 @@ def _style(info: FrameInfo, marked: bool) -> str:
     return "cyan" if info.is_static else ""
 
 
-def _cell_style(column: _Column, info: FrameInfo, marked: bool) -> str:
-    if column.heading == "wrong":
-        return "yellow"
-    if column is _AGE and marked:
-        return "red" if as_seconds(info.age) > FRAME_TIMEOUT else "yellow"
-    return "dim" if column in (_BROADCASTER, _OLDEST, _NEWEST) or info.is_static else ""
+def _age_style(info: FrameInfo) -> str:
+    return "red" if as_seconds(info.age) > FRAME_TIMEOUT else "yellow"

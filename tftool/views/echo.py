@@ -1,14 +1,20 @@
 """One lookup as text: tf2_echo's block, one JSON object, one sentence."""
 
 import math
-from typing import Any
+import re
+from typing import TYPE_CHECKING, Any
 
 from tftool.errors import TransformException
 from tftool.frames.sample import TransformStamped
 from tftool.geometry.conversions import rpy_from_quaternion
 from tftool.geometry.rigid import distance
-from tftool.stamps import NANOSECONDS, Stamp, as_seconds
+from tftool.stamps import NANOSECONDS, Duration, Stamp, as_seconds
 from tftool.views.escaping import visible, visible_lines
+from tftool.views.short_numbers import short_duration
+from tftool.views.theme import FRAME_TIMEOUT
+
+if TYPE_CHECKING:
+    from rich.text import Text
 
 AXES = ("x", "y", "z")
 
@@ -56,6 +62,55 @@ def block(
     if with_distance:
         lines.append(f"- Distance: {distance(pose):.{precision}f}")
     return "\n".join(lines) + "\n"
+
+
+AXIS_STYLES = ("red", "green", "bright_blue", "")
+"""Of the numbers of a line, in the order x, y, z and what comes after."""
+
+_NUMBER = re.compile(r"(?<![\w.])-?(?:\d+(?:\.\d+)?(?:e[-+]?\d+)?|nan|inf)(?![\w.])")
+
+
+def painted(found: TransformStamped, *, precision: int = 3, with_distance: bool = False) -> "Text":
+    """The lines of `block` with x, y and z in the colours of the axes, for a terminal.
+
+    So are roll, pitch and yaw, which turn about them, and of the matrix the columns, which
+    are the source's axes as the target sees them.
+    """
+    from rich.text import Text
+
+    text = Text()
+    for line in block(found, precision=precision, with_distance=with_distance).splitlines():
+        row = Text(line)
+        if line.startswith(("At time", "- Distance")):
+            row.stylize("dim" if line.startswith("At") else "bold", len(line.rpartition(" ")[0]))
+        else:
+            for match, style in zip(_NUMBER.finditer(line), AXIS_STYLES, strict=False):
+                row.stylize(style, *match.span())
+        text.append_text(row).append("\n")
+    return text
+
+
+def live_heading(target: str, source: str, age: Duration | None) -> "Text":
+    """What is shown and how old it is; amber, then red, where it is not new any more.
+
+    Args:
+        target: The frame looked up in.
+        source: The frame looked up.
+        age: Nanoseconds since the answer's stamp; None for what holds at all times.
+    """
+    from rich.text import Text
+
+    heading = Text().append(in_words(target, source), style="bold")
+    if age is None:
+        return heading.append("  static\n", style="cyan")
+    return heading.append(f"  {short_duration(age)} ago\n", style=age_style(age))
+
+
+def age_style(age: Duration) -> str:
+    """How an age is coloured: as views fade frames that get no news."""
+    if as_seconds(age) <= FRAME_TIMEOUT / 3:
+        return "dim"
+    return "yellow" if as_seconds(age) <= FRAME_TIMEOUT else "red"
 
 
 def failure(now: Stamp, error: TransformException, frames: str) -> str:

@@ -63,6 +63,21 @@ def _within(signs: Iterable[str], room: int) -> list[str]:
     return kept
 
 
+def wrap_words(sentence: str, width: int) -> list[str]:
+    """Break a sentence at its blanks, and nowhere else, into lines of at most `width` cells.
+
+    A word that is longer than a line stands alone in one, and sticks out.
+    """
+    lines = [""]
+    for word in sentence.split(" "):
+        longer = f"{lines[-1]} {word}" if lines[-1] else word
+        if lines[-1] and cell_len(longer) > width:
+            lines.append(word)
+        else:
+            lines[-1] = longer
+    return lines
+
+
 def padded(text: str, width: int, *, more: str = "…") -> str:
     """Give `fitted(text, width)` filled up with blanks to exactly `width` cells."""
     shown = fitted(text, width, more=more)

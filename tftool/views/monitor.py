@@ -4,14 +4,18 @@ from collections.abc import Collection
 from dataclasses import dataclass
 from typing import Any
 
-from rich.console import Group, RenderableType
-from rich.table import Table
+from rich.cells import cell_len
 from rich.text import Text
 
+from tftool.diagnostics.catalogue import CHECKS
 from tftool.frames.traffic import FrameTraffic, NetDelay, Series, Traffic
-from tftool.stamps import Stamp
+from tftool.stamps import Duration, Stamp, as_seconds
+from tftool.views.columns import Cell, Column, fit
 from tftool.views.echo import in_words
 from tftool.views.escaping import visible
+from tftool.views.fixed_width import middle_cut, wrap_words
+from tftool.views.short_numbers import short_duration
+from tftool.views.theme import FRAME_TIMEOUT
 
 NONE = "-"
 
@@ -81,33 +85,166 @@ def sender_line(name: str, series: Series, *, as_tf2: bool = False) -> str:
     )
 
 
-def table(now: Stamp, began: Stamp, traffic: Traffic, chain: Chain | None = None) -> RenderableType:
-    """The same to look at: one table of frames, one of broadcasters."""
-    seconds = (now - began) / 1e9
+def table(
+    now: Stamp,
+    began: Stamp,
+    traffic: Traffic,
+    chain: Chain | None = None,
+    *,
+    width: int,
+    height: int,
+    ascii_only: bool = False,
+) -> Text:
+    """The same to look at: frames, in the order of the chain where there is one, and senders.
+
+    What is late, by the doctor's limits, is amber: dated long before it arrives, or not heard
+    of for many periods; what has been silent for longer still is red.
+
+    Args:
+        now: What the clock reads.
+        began: When listening began.
+        traffic: What came.
+        chain: The pair it is about; None for all frames.
+        width: Columns there are.
+        height: Lines there are; of what is more, the number is told.
+        ascii_only: Whether to keep to ASCII for what is drawn.
+    """
+    links = _links(traffic, chain)
+    if chain is not None:
+        places = {frame: place for place, frame in enumerate(chain.frames)}
+        links.sort(key=lambda link: places[link.frame])
+    more = "~" if ascii_only else "…"
+    parents = [(visible(link.parent), "dim") for link in links]
+    senders = [(visible(link.sender), "dim") for link in links]
+    series = [link.series for link in links]
+    statics = [link.is_static for link in links]
+    columns = [
+        Column("in", parents, caps=(24, 12), goes=4),
+        Column("broadcaster", senders, caps=(24, 16, 11), goes=3),
+        *_measures(now, series, statics, ascii_only),
+    ]
+    names = [(visible(link.frame), _late(now, link.series, link.is_static)) for link in links]
+    frames = _rows("frame", names, columns, width, more)
+
+    by_name = sorted(traffic.senders.items())
+    of_senders = [one for _, one in by_name]
+    measured = _measures(now, of_senders, [False] * len(by_name), ascii_only)
+    names = [(visible(name), _late(now, one, False)) for name, one in by_name]
+    broadcasters = _rows("broadcaster", names, measured, width, more)
+
+    words = wrap_words(_title((now - began) / 1e9, chain), width)
+    title = [Text(middle_cut(line, width, more=more), style="bold") for line in words]
+    room = height - len(title) - 2
+    least = min(len(broadcasters), max(3, room // 3))
+    frames = _within(frames, room - least)
+    broadcasters = _within(broadcasters, room - len(frames))
+    return Text("\n").join([*title, Text(), *frames, Text(), *broadcasters])
+
+
+def _title(seconds: float, chain: Chain | None) -> str:
     if chain is None:
-        title = Text(f"All frames, for {seconds:.0f} s")
-    else:
-        path = ", ".join(visible(one) for one in chain.frames)
-        title = Text(
-            f"{in_words(chain.target, chain.source)}, for {seconds:.0f} s, by way of {path}: "
-            f"net delay {_milliseconds(chain.delay.average)} on average, "
-            f"{_milliseconds(chain.delay.maximum)} at most"
-        )
-    frames = Table("frame", "in", "broadcaster", box=None, pad_edge=False)
-    senders = Table("broadcaster", box=None, pad_edge=False)
-    for one in (frames, senders):
-        for heading in ("rate", "average delay", "most"):
-            one.add_column(heading, justify="right")
-    for link in _links(traffic, chain):
-        frames.add_row(
-            Text(visible(link.frame)),
-            Text(visible(link.parent)),
-            Text(visible(link.sender)),
-            *(("static", NONE, NONE) if link.is_static else _measured(link.series)),
-        )
-    for name, series in sorted(traffic.senders.items()):
-        senders.add_row(Text(visible(name)), *_measured(series))
-    return Group(title, Text(), frames, Text(), senders)
+        return f"All frames, for {seconds:.0f} s"
+    path = ", ".join(visible(one) for one in chain.frames)
+    return (
+        f"{in_words(chain.target, chain.source)}, for {seconds:.0f} s, by way of {path}: "
+        f"net delay {_milliseconds(chain.delay.average)} on average, "
+        f"{_milliseconds(chain.delay.maximum)} at most"
+    )
+
+
+def _rows(
+    heading: str, names: list[Cell], columns: list[Column], width: int, more: str
+) -> list[Text]:
+    longest = max(cell_len(text) for text, _ in [(heading, ""), *names])
+    wanted = min(longest, max(12, width // 3))
+    fitted = fit(columns, width, wanted=wanted, longest=longest, more=more)
+    return [
+        fitted.heading(heading),
+        *(
+            fitted.row(place, Text(middle_cut(name, fitted.room, more=more), style=style))
+            for place, (name, style) in enumerate(names)
+        ),
+    ]
+
+
+def _within(rows: list[Text], room: int) -> list[Text]:
+    """The first rows, and how many there are more where they are too many."""
+    if len(rows) <= max(2, room):
+        return rows
+    kept = max(1, room - 1)
+    return [*rows[:kept], Text(f"{len(rows) - kept} more", style="bold")]
+
+
+def _measures(
+    now: Stamp, series: list[Series], statics: list[bool], ascii_only: bool
+) -> list[Column]:
+    """Rate, delay, and since when nothing came, of what sends again and again."""
+    rates = [NONE if one.rate is None else f"{one.rate:.2f} Hz" for one in series]
+    late = [_late(now, one, still) for one, still in zip(series, statics, strict=True)]
+
+    def cells(values: list[str]) -> list[Cell]:
+        return [
+            (NONE, "dim") if still else (value, style)
+            for value, still, style in zip(values, statics, late, strict=True)
+        ]
+
+    shown = [
+        ("static", "dim") if still else (rate, "")
+        for rate, still in zip(rates, statics, strict=True)
+    ]
+    fastest = max([one.rate or 0.0 for one in series], default=0.0)
+    bars = [
+        ("" if still else _bar(one.rate or 0.0, fastest, ascii_only), style or "green")
+        for one, still, style in zip(series, statics, late, strict=True)
+    ]
+    silent = [
+        (f"{short_duration(_silence(now, one))} ago" if _is_silent(now, one, still) else "", style)
+        for one, still, style in zip(series, statics, late, strict=True)
+    ]
+    return [
+        Column("rate", shown, stands_right=True, goes=6),
+        Column("", bars, goes=1),
+        Column("delay", cells([_milliseconds(one.average_delay) for one in series]), True, goes=5),
+        Column("most", cells([_milliseconds(one.maximum_delay) for one in series]), True, goes=2),
+        Column("last heard", silent, True),
+    ]
+
+
+_EIGHTHS = "▏▎▍▌▋▊▉█"
+BAR = 8
+"""Cells of the longest bar."""
+
+
+def _bar(rate: float, fastest: float, ascii_only: bool) -> str:
+    if fastest <= 0.0 or rate <= 0.0:
+        return ""
+    if ascii_only:
+        return "#" * max(1, round(BAR * rate / fastest))
+    whole, part = divmod(max(1, round(8 * BAR * rate / fastest)), 8)
+    return _EIGHTHS[-1] * whole + (_EIGHTHS[part - 1] if part else "")
+
+
+def _silence(now: Stamp, series: Series) -> Duration:
+    return 0 if series.last is None else now - series.last
+
+
+def _is_silent(now: Stamp, series: Series, is_static: bool) -> bool:
+    if is_static or series.rate is None:
+        return False
+    limits = CHECKS["edge-stopped"].limits
+    return as_seconds(_silence(now, series)) > max(
+        limits["seconds"], limits["periods"] / series.rate
+    )
+
+
+def _late(now: Stamp, series: Series, is_static: bool) -> str:
+    """The style of what is late; "" of what is not."""
+    if _is_silent(now, series, is_static):
+        return "red" if as_seconds(_silence(now, series)) > FRAME_TIMEOUT else "yellow"
+    delay = series.average_delay
+    if is_static or delay is None or delay <= CHECKS["stale-stamp"].limits["transforms"]:
+        return ""
+    return "yellow"
 
 
 def as_object(now: Stamp, traffic: Traffic, chain: Chain | None = None) -> dict[str, Any]:
@@ -145,15 +282,6 @@ def _delays(series: Series, as_tf2: bool) -> tuple[str, str]:
     if as_tf2:
         return _number(series.tf2_average_delay), _number(series.tf2_maximum_delay)
     return _number(series.average_delay), _number(series.maximum_delay)
-
-
-def _measured(series: Series) -> tuple[str, str, str]:
-    rate = series.rate
-    return (
-        NONE if rate is None else f"{rate:.2f} Hz",
-        _milliseconds(series.average_delay),
-        _milliseconds(series.maximum_delay),
-    )
 
 
 def _object(series: Series) -> dict[str, Any]:

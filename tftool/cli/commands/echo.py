@@ -1,5 +1,6 @@
 """`tftool echo`: one transform, again and again, as tf2_echo prints it."""
 
+import contextlib
 import json
 import sys
 from collections.abc import Callable
@@ -26,6 +27,7 @@ from tftool.stamps import Duration, Stamp, seconds
 from tftool.views import echo as view
 
 if TYPE_CHECKING:
+    from tftool.cli.redrawing import Redrawing
     from tftool.cli.waiting import FramePair
     from tftool.frames.buffer import Buffer
     from tftool.frames.sample import TransformStamped
@@ -130,7 +132,8 @@ def echo(
     """Print where SOURCE is in TARGET (ros2 run tf2_ros tf2_echo).
 
     Waits until the transform is there and says why it waits. Then, once a second:
-    translation, quaternion (x y z w), roll pitch yaw in radians and degrees, matrix.
+    translation, quaternion (x y z w), roll pitch yaw in radians and degrees, matrix; on a
+    terminal in place of the last, with x red, y green and z blue, and with its age.
     Of a recording the whole span is printed, or one moment with --at or --once.
 
     tftool echo turtle2 turtle1            turtle1 as turtle2 sees it
@@ -139,6 +142,7 @@ def echo(
     """
     from tftool.cli.hosting import A_MOMENT, NO_SESSION, named, open_session
     from tftool.cli.notices import notice
+    from tftool.cli.redrawing import Redrawing, can_redraw
     from tftool.cli.waiting import FramePair
     from tftool.sources.find import Kind
 
@@ -168,11 +172,11 @@ def echo(
         from tftool.cli.recorded import moments
 
         refuse_to_share(connection, place)
-        printer = Printer(precision, distance, for_programs)
+        blocks = Printer(precision, distance, for_programs)
         notice(f"{view.in_words(target, source)}:")
         stored = connection.open_stored(found)
         for answer in moments(stored, target, source, rate=rate, topic=stamps_of, most=count):
-            printer.found(answer)
+            blocks.found(answer.stamp, answer)
         return ExitStatus.DONE
     # Where nothing changes, once is enough.
     still = found is not None and found.kind in (Kind.DESCRIPTION, Kind.STATICS)
@@ -193,20 +197,29 @@ def echo(
     if timeout is None and (stamp or recorded):
         # What has not come a second after the moment asked about will not come.
         timeout = max(stamp, session.world.clock.now()) - session.world.clock.now() + seconds(1)
-    notice(f"{heading}:")
+    pair = FramePair(target, source, stamp, offset or 0, fixed_frame)
+    count = 1 if once or stamp or recorded else count
+    redraws = count is None and not for_programs and can_redraw()
+    if not redraws:
+        notice(f"{heading}:")
     if target == source:
         notice("A frame seen from itself is always the identity.")
-    echoing = Echo(
-        session.world,
-        FramePair(target, source, stamp, offset or 0, fixed_frame),
-        Printer(precision, distance, for_programs),
-        period=seconds(1.0 / (rate or 1.0)),
-        count=1 if once or stamp or recorded else count,
-        patience=timeout,
-        tells=not (stamp or recorded),
-        departures=session.departures,
-    )
-    session.run(echoing.run())
+    with contextlib.ExitStack() as stack:
+        printer: Printer | LivePrinter = Printer(precision, distance, for_programs)
+        if redraws:
+            redrawing = stack.enter_context(Redrawing(session.world.clock))
+            printer = LivePrinter(redrawing, pair, precision, distance)
+        echoing = Echo(
+            session.world,
+            pair,
+            printer,
+            period=seconds(1.0 / (rate or 1.0)),
+            count=count,
+            patience=timeout,
+            tells=not (stamp or recorded),
+            departures=session.departures,
+        )
+        session.run(echoing.run())
     return ExitStatus.DONE
 
 
@@ -218,10 +231,18 @@ class Printer:
     with_distance: bool = False
     for_programs: bool = False
 
-    def found(self, found: "TransformStamped") -> None:
+    def found(self, now: Stamp, found: "TransformStamped") -> None:
         """Print an answer."""
         if self.for_programs:
             self._line(view.as_object(found, with_distance=self.with_distance))
+        elif sys.stdout.isatty():
+            from tftool.cli.printing import write
+
+            write(
+                view.painted(found, precision=self.precision, with_distance=self.with_distance),
+                end="",
+            )
+            sys.stdout.flush()
         else:
             self._write(
                 view.block(found, precision=self.precision, with_distance=self.with_distance)
@@ -242,6 +263,36 @@ class Printer:
         sys.stdout.flush()
 
 
+class LivePrinter:
+    """How answers are shown where each takes the place of the one before."""
+
+    def __init__(
+        self, redrawing: "Redrawing", pair: "FramePair", precision: int, with_distance: bool
+    ) -> None:
+        """Prepare to show answers about `pair`."""
+        self.redrawing = redrawing
+        self.pair = pair
+        self.precision = precision
+        self.with_distance = with_distance
+
+    def found(self, now: Stamp, found: "TransformStamped") -> None:
+        """Show an answer and how old it is."""
+        age = now - found.stamp if found.stamp else None
+        heading = view.live_heading(self.pair.target, self.pair.source, age)
+        answer = view.painted(found, precision=self.precision, with_distance=self.with_distance)
+        answer.rstrip()
+        self.redrawing.show(heading.append_text(answer))
+
+    def failed(self, now: Stamp, refusal: TransformException, buffer: "Buffer") -> None:
+        """Show a refusal, as much of it as there is room for."""
+        from rich.text import Text
+
+        words = view.in_words(self.pair.target, self.pair.source)
+        told = view.failure(now, refusal, buffer.all_frames_as_string()).rstrip()
+        text = Text().append(f"{words}\n", style="bold").append(told, style="yellow")
+        self.redrawing.show(text)
+
+
 class Echo:
     """One pair of frames, looked up in one world until enough answers are printed."""
 
@@ -249,7 +300,7 @@ class Echo:
         self,
         world: "World",
         pair: "FramePair",
-        printer: Printer,
+        printer: Printer | LivePrinter,
         *,
         period: Duration,
         count: int | None = None,
@@ -302,7 +353,7 @@ class Echo:
                 due = pace.now()
             now = clock.now()
             try:
-                self.printer.found(self.pair.ask(self.world.buffer, now))
+                self.printer.found(now, self.pair.ask(self.world.buffer, now))
                 printed += 1
                 for sentence in self._oddities():
                     if sentence not in said:

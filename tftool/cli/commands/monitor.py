@@ -67,6 +67,7 @@ def monitor(
     tftool monitor robot --for 10 --json
     """
     from tftool.cli.hosting import open_session
+    from tftool.cli.redrawing import can_redraw
 
     if as_tf2 and for_programs:
         raise UsageError("--tf2 and --json are two ways of writing: choose one.")
@@ -85,7 +86,7 @@ def monitor(
     elif as_tf2:
         style = ReportStyle.TF2
     else:
-        style = ReportStyle.TABLE if sys.stdout.isatty() else ReportStyle.LINES
+        style = ReportStyle.TABLE if can_redraw() else ReportStyle.LINES
     if session.is_played and session.duration is not None:
         # What was recorded is over at once: one report says all of it.
         run_for = min(run_for or session.duration, session.duration) or 1
@@ -153,9 +154,7 @@ class Monitor:
         Raises:
             TransformException: If the frames are not connected in as much time, or never will be.
         """
-        from rich.console import Console
-        from rich.live import Live
-
+        from tftool.cli.redrawing import Redrawing
         from tftool.runtime.clock import pace_of
         from tftool.runtime.supervisor import beside
         from tftool.views import monitor as view
@@ -173,14 +172,24 @@ class Monitor:
         ]
         self._hear_statics()
         self._announce()
-        console = Console()
         try:
             if self.style is ReportStyle.TABLE:
-                with Live(console=console, auto_refresh=False) as live:
+                with Redrawing(clock) as redrawing:
 
                     def show() -> None:
-                        picture = view.table(clock.now(), began, self.traffic, self.chain)
-                        live.update(picture, refresh=True)
+                        console = redrawing.console
+                        redrawing.show(
+                            view.table(
+                                clock.now(),
+                                began,
+                                self.traffic,
+                                self.chain,
+                                width=console.width,
+                                # The line below it is the cursor's.
+                                height=console.height - 1,
+                                ascii_only=console.options.ascii_only,
+                            )
+                        )
 
                     await beside(self._report_until(pace, end, show), self._ask(pace))
             else:

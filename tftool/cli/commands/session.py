@@ -14,13 +14,6 @@ if TYPE_CHECKING:
     from tftool.link.session import Link
 
 
-ROLES = {"host": "hosts", "source": "brings its own", "guest": "joined"}
-"""What a process is to the others, in words."""
-
-_EVERY_NODES = ("rcl_interfaces/", "type_description_interfaces/")
-"""How the types of those services begin that every node of ROS 2 has."""
-
-
 def session(
     connection: Connection,
     listen_for: Annotated[
@@ -136,52 +129,18 @@ def _listened(connection: Connection, link: "Link", lasting: Duration) -> dict[s
 
 
 def _written(found: dict[str, Any], *, verbose: bool) -> str:
-    """Say it to a person; names come from strangers and are made harmless."""
-    from datetime import datetime
+    """The lines for a person: in the width of the terminal, or as long as they get."""
+    from tftool.views import session as view
 
-    from tftool.views.escaping import visible
+    if not sys.stdout.isatty():
+        return "\n".join(line.plain for line in view.lines(found, verbose=verbose))
+    from rich.console import Console
+    from rich.text import Text
 
-    lines = [f"Processes ({len(found['processes'])})"]
-    for one in found["processes"]:
-        since = datetime.fromtimestamp(one["since"]).strftime("%H:%M:%S")
-        nodes = ", ".join(visible(node) for node in one["nodes"]) or "no nodes"
-        role = ROLES[one["role"]]
-        lines.append(
-            f"  tftool {visible(one['command'])}, process {one['pid']}, {role}, "
-            f"since {since}: {nodes}"
-        )
-    ours = {node for one in found["processes"] for node in one["nodes"]}
-    others = [node for node in found["nodes"] if node not in ours]
-    if others:
-        lines.append(f"Other nodes ({len(others)})")
-        lines += [f"  {visible(node)}" for node in others]
-    lines.append(f"Topics ({len(found['topics'])})")
-    width = max((len(visible(name)) for name in found["topics"]), default=0)
-    for name, topic in found["topics"].items():
-        lines.append(
-            f"  {visible(name):{width}}  {topic['rate']:7.1f} Hz  {visible(topic['type'])}  "
-            f"from {_several(topic['publishers'])}, to {_several(topic['subscribers'])}"
-        )
-    lines.append(f"Services ({len(found['services'])})")
-    shown = {
-        name: service["type"]
-        for name, service in found["services"].items()
-        if verbose or not _goes_without_saying(name, service["type"])
-    }
-    lines += [f"  {visible(name)}  {visible(ros_type)}" for name, ros_type in shown.items()]
-    folded = len(found["services"]) - len(shown)
-    if folded:
-        lines.append(f"  and {folded} of parameters and actions (--verbose lists them)")
-    return "\n".join(lines)
-
-
-def _goes_without_saying(name: str, ros_type: str) -> bool:
-    """Whether a service is no node's own: one that every node has, or hidden as in ROS 2."""
-    hidden = any(part.startswith("_") for part in name.split("/"))
-    return hidden or ros_type.startswith(_EVERY_NODES)
-
-
-def _several(nodes: list[str]) -> str:
-    from tftool.views.escaping import visible
-
-    return ", ".join(visible(node) for node in sorted(set(nodes))) or "none"
+    console = Console()
+    lines = view.lines(
+        found, verbose=verbose, width=console.width, ascii_only=console.options.ascii_only
+    )
+    with console.capture() as captured:
+        console.print(Text("\n").join(lines), soft_wrap=True, end="")
+    return captured.get()
