@@ -1,8 +1,8 @@
-"""The build hook: the native kernel, where there is a C compiler and Python's headers.
+"""The build hook: the native modules, where there is a C compiler and Python's headers.
 
 Without either, on a Python that is not CPython or runs without a GIL, or with `TFTOOL_PURE=1`,
 the package is plain Python and means the same; `tftool --version` says which one runs. One build
-serves every CPython from 3.11 on. An editable install gets the kernel next to the sources.
+serves every CPython from 3.11 on. An editable install gets them next to the sources.
 """
 
 import os
@@ -17,7 +17,7 @@ from typing import Any
 
 from hatchling.builders.hooks.plugin.interface import BuildHookInterface
 
-SOURCE = "tftool/frames/_kernel.c"
+SOURCES = ("tftool/frames/_kernel.c", "tftool/wire/_scan.c")
 
 # The same operations in the same order as in Python: nothing fused, nothing reordered.
 EXACT = ("-O3", "-std=c11", "-ffp-contract=off", "-fno-math-errno", "-fno-trapping-math")
@@ -30,17 +30,15 @@ SETUP = """
 import sys
 from setuptools import Extension, setup
 
-source, folder = sys.argv[1:]
-kernel = Extension(
-    "_kernel", [source], py_limited_api=True, extra_compile_args=["/O2", "/fp:precise"]
-)
+source, name, folder = sys.argv[1:]
+module = Extension(name, [source], py_limited_api=True, extra_compile_args=["/O2", "/fp:precise"])
 sys.argv[1:] = ["build_ext", "--build-lib", folder, "--build-temp", folder]
-setup(name="kernel", packages=[], py_modules=[], ext_modules=[kernel])
+setup(name=name, packages=[], py_modules=[], ext_modules=[module])
 """
 
 
 class KernelBuild(BuildHookInterface):  # type: ignore[misc]
-    """Build the kernel if that is possible here."""
+    """Build the native modules if that is possible here."""
 
     PLUGIN_NAME = "custom"
 
@@ -57,18 +55,21 @@ class KernelBuild(BuildHookInterface):  # type: ignore[misc]
             return
         root = Path(self.root)
         self.folder = Path(tempfile.mkdtemp(prefix="tftool-kernel-"))
-        built = self.folder / f"_kernel{SUFFIX}"
-        if reason := build(root / SOURCE, built):
-            self.app.display_warning(f"plain Python, the native kernel does not build: {reason}")
-            return
-        place = Path(SOURCE).with_name(built.name)
-        if version == "editable":
-            # A new file under the name: a program that runs keeps the one it has loaded.
-            copy = root / f"{place}.new"
-            shutil.copy(built, copy)
-            copy.replace(root / place)
-        else:
-            build_data["force_include"][str(built)] = place.as_posix()
+        done = []
+        for source in map(Path, SOURCES):
+            target = self.folder / f"{source.stem}{SUFFIX}"
+            if reason := build(root / source, target):
+                self.app.display_warning(f"plain Python, {source} does not build: {reason}")
+                return
+            done.append((target, source.with_name(target.name)))
+        for built, place in done:
+            if version == "editable":
+                # A new file under the name: a program that runs keeps the one it has loaded.
+                copy = root / f"{place}.new"
+                shutil.copy(built, copy)
+                copy.replace(root / place)
+            else:
+                build_data["force_include"][str(built)] = place.as_posix()
         build_data["pure_python"] = False
         build_data["tag"] = f"cp311-abi3-{platform()}"
 
@@ -79,13 +80,13 @@ class KernelBuild(BuildHookInterface):  # type: ignore[misc]
 
 
 def unfit() -> str:
-    """Why no kernel is built on this Python; empty if it can be."""
+    """Why nothing is built on this Python; empty if it can be."""
     if os.environ.get("TFTOOL_PURE", "") not in ("", "0"):
         return "TFTOOL_PURE asks for it"
     if sys.implementation.name != "cpython":
-        return f"the native kernel is for CPython, and this is {sys.implementation.name}"
+        return f"the native modules are for CPython, and this is {sys.implementation.name}"
     if sysconfig.get_config_var("Py_GIL_DISABLED"):
-        return "the native kernel needs a GIL, and this Python runs without"
+        return "the native modules need a GIL, and this Python runs without"
     if not Path(sysconfig.get_path("include"), "Python.h").exists():
         return "there is no Python.h (Debian's is in python3-dev)"
     return ""
@@ -102,16 +103,16 @@ def build(source: Path, target: Path) -> str:
     if done.returncode:
         return f"{done.stdout}{done.stderr}".strip()
     if not target.exists():
-        target.with_name(next(path.name for path in target.parent.glob("_kernel*.pyd"))).replace(
-            target
-        )
+        target.with_name(
+            next(path.name for path in target.parent.glob(f"{source.stem}*.pyd"))
+        ).replace(target)
     return ""
 
 
 def command(source: Path, target: Path) -> list[str]:
     """What compiles it. `CC`, `CFLAGS`, `LDFLAGS` and `ARCHFLAGS` are kept to, as is the custom."""
     if WINDOWS:
-        return [sys.executable, "-c", SETUP, str(source), str(target.parent)]
+        return [sys.executable, "-c", SETUP, str(source), source.stem, str(target.parent)]
     told = {name: shlex.split(os.environ.get(name, "")) for name in ("CC", "CFLAGS", "LDFLAGS")}
     compiler = told["CC"] or shlex.split(sysconfig.get_config_var("CC") or "cc")[:1]
     if shutil.which(compiler[0]) is None:

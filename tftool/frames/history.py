@@ -19,7 +19,7 @@ How a moving link's samples lie in memory, which the batch path and `Buffer.samp
 import struct
 from array import array
 from math import inf, nan
-from typing import TYPE_CHECKING, Any, Final, Literal, TypeAlias
+from typing import TYPE_CHECKING, Any, Final, Literal, TypeAlias, cast
 
 from tftool.frames.native import IS_NATIVE
 from tftool.geometry import poses, quaternions
@@ -38,6 +38,9 @@ Refusal: TypeAlias = tuple[int, Stamp]
 
 Columns: TypeAlias = "tuple[memoryview[int], array[int] | None, int]"
 """A view of the records, oldest first; an origin for each (None: all alike); the newest origin."""
+
+Words: TypeAlias = "array[int] | memoryview[int]"
+"""Records, one behind the other."""
 
 NO_PARENT: Final = -1
 """In place of a parent's number or an origin: none."""
@@ -563,7 +566,7 @@ class History(Fields):
                 pass
             else:
                 return
-        records = self.records[:]
+        records = _copied(self.records, 0, len(self.records) // WORDS)
         records[where] = words
         self.records = records
         self._borrowed = False
@@ -595,14 +598,13 @@ class History(Fields):
         if self.oldest_stamp < oldest_kept:
             self._prune(oldest_kept)
 
-    def replace(
-        self, records: "array[int]", origins: "array[int]", count: int | None = None
-    ) -> None:
+    def replace(self, records: "Words", origins: "array[int]", count: int | None = None) -> None:
         """Remember these instead: not none, oldest first, of equal stamps the newest last.
 
         Only so many of them, if that is said.
         """
-        self.records = records
+        # Of what is borrowed nothing is asked that a view cannot do.
+        self.records = cast("array[int]", records)
         self.count = len(records) // WORDS if count is None else count
         self._borrowed = False
         self._compact_at = max(_LEAST_SLACK, self.count >> _SLACK)
@@ -614,10 +616,11 @@ class History(Fields):
         self._newest_parent_start = self._find_newest_parent_start()
         self.mixed = self._newest_parent_start > 0
 
-    def borrow(self, records: "array[int]", origin: int, count: int | None = None) -> None:
+    def borrow(self, records: "Words", origin: int, count: int | None = None) -> None:
         """Remember these instead, each newer than the one before, all of one origin.
 
-        They are copied only when something is inserted or pruned.
+        They are copied only when something is inserted or pruned: until then they may lie in
+        memory of others.
 
         Args:
             records: See the head of this module.
@@ -655,7 +658,7 @@ class History(Fields):
 
     def _own(self) -> "array[int]":
         """Copy records that were borrowed, before they change."""
-        self.records = self.records[: self.count * WORDS]
+        self.records = _copied(self.records, 0, self.count)
         self._borrowed = False
         return self.records
 
@@ -686,7 +689,7 @@ class History(Fields):
             self.mixed = False
         if start >= self._compact_at:
             # With as much room behind: as a rule as many samples come until the next time.
-            records = self.records[WORDS * start : WORDS * self.count]
+            records = _copied(self.records, start, self.count)
             if IS_NATIVE:
                 records.frombytes(bytes(RECORD * start))
             self.records, self._borrowed = records, False
@@ -705,6 +708,12 @@ class History(Fields):
         self.start = start
         self.oldest_stamp = oldest = self._stamp(start)
         self._prune_after = min(oldest + self.limit, _LATEST_STAMP)
+
+
+def _copied(records: Words, start: int, stop: int) -> "array[int]":
+    """Some of the records, in an array of their own."""
+    words = records[WORDS * start : WORDS * stop]
+    return words if isinstance(words, array) else array("q", words.tobytes())
 
 
 Link: TypeAlias = StaticLink | History

@@ -9,7 +9,7 @@ from typing import Final
 import numpy as np
 
 from tftool.errors import InputError
-from tftool.sources.columns import Batch, Cutter, Decoding, Table
+from tftool.sources.columns import Batch, Table
 from tftool.sources.compressed import LARGEST, unpack_beginning
 from tftool.sources.container import TRANSIENT_LOCAL, Container, MessageStream
 from tftool.sources.contract import (
@@ -21,6 +21,7 @@ from tftool.sources.contract import (
     Stamps,
     Transforms,
 )
+from tftool.sources.cutting import AnyCutter, Cutter, Decoding, cutter
 from tftool.sources.find import ZSTD_MAGIC
 from tftool.sources.foreign import decoder_of, is_foreign
 from tftool.stamps import NANOSECONDS, Stamp
@@ -151,7 +152,7 @@ class Recorded:
         chosen = [n for n, one in enumerate(self._container.streams) if self._gives(one, topics)]
         table = Table(self._container.expected(chosen))
         cutters: dict[tuple[Layout, bool], Cutter] = {}
-        of_stream: dict[int, Cutter | Decoding] = {}
+        of_stream: dict[int, AnyCutter] = {}
         for number, stream in enumerate(self._container.streams):
             if topics is not None and stream.topic not in topics:
                 continue
@@ -159,7 +160,7 @@ class Recorded:
             if _is_tf(stream):
                 key = _LAYOUTS[stream.encoding], static
                 if key not in cutters:
-                    cutters[key] = Cutter(table, *key)
+                    cutters[key] = cutter(table, *key)
                 of_stream[number] = cutters[key]
             elif topics is not None or _has_transforms(stream):
                 kind = short_type(stream.type)
@@ -173,10 +174,10 @@ class Recorded:
         for batch in self._batches(of_stream.keys(), progress):
             first = table.note(batch.log_times, batch.senders)
             numbers = np.arange(first, first + len(batch), dtype=np.int32)
-            for cutter, which in _by_cutter(batch, of_stream):
-                cutter.add(batch.chosen(which), numbers[which])
-        for cutter in cutters.values():
-            cutter.flush()
+            for taker, which in _by_cutter(batch, of_stream):
+                taker.add(batch.chosen(which), numbers[which])
+        for one in cutters.values():
+            one.flush()
         return table.finished(self._senders)
 
     def _gives(self, stream: MessageStream, topics: Collection[str] | None) -> bool:
@@ -307,18 +308,18 @@ def _unpacked(batch: Batch) -> Batch:
 
 
 def _by_cutter(
-    batch: Batch, of_stream: "dict[int, Cutter | Decoding]"
-) -> "Iterator[tuple[Cutter | Decoding, slice | Stamps]]":
+    batch: Batch, of_stream: dict[int, AnyCutter]
+) -> "Iterator[tuple[AnyCutter, slice | Stamps]]":
     """Which of a batch's messages each cutter takes."""
     first = int(batch.senders[0])
     if (batch.senders == first).all():
         yield of_stream[first], slice(None)
         return
-    owners: dict[Cutter | Decoding, list[int]] = {}
+    owners: dict[AnyCutter, list[int]] = {}
     for number in np.unique(batch.senders).tolist():
         owners.setdefault(of_stream[number], []).append(number)
-    for cutter, numbers in owners.items():
-        yield cutter, np.flatnonzero(np.isin(batch.senders, numbers))
+    for taker, numbers in owners.items():
+        yield taker, np.flatnonzero(np.isin(batch.senders, numbers))
 
 
 def _stamp(payload: bytes, place: int, order: str = "<") -> Stamp:

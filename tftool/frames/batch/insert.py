@@ -199,7 +199,7 @@ def adopt(
     stamps = records[:, 0]
     if not (stamps[1:] > stamps[:-1]).all():
         return False
-    words = shared = _array_of(records)
+    lent = words = _lent(records)
     for begin in range(0, len(records), _BLOCK):
         samples = records[begin : begin + _BLOCK].view(np.float64)[:, 1:]
         if not np.isfinite(samples).all():
@@ -209,12 +209,10 @@ def adopt(
         turns = batch.canonical(batch.unit(samples[:, 3:]))
         if np.isnan(turns).any():
             return False
-        if words is None or words is shared:
+        if words is lent:
             words = _words(records)
         changed = np.frombuffer(words, dtype=np.float64).reshape(-1, WORDS)
         changed[begin : begin + _BLOCK, 4:] = turns
-    if words is None:
-        words = _words(records)
     frame, history, _ = tree.hang(child, parent, False)
     assert isinstance(history, History)
     origin = tree.origin(parent, authority)
@@ -223,14 +221,11 @@ def adopt(
     return True
 
 
-def _array_of(records: npt.NDArray[np.int64]) -> "array[int] | None":
-    """The array that these records are all of; None where there is none."""
-    base: object = records
-    while isinstance(base, np.ndarray | memoryview):
-        base = base.base if isinstance(base, np.ndarray) else base.obj
-    if isinstance(base, array) and base.typecode == "q" and len(base) == records.size:
-        return base
-    return None
+def _lent(records: npt.NDArray[np.int64]) -> "array[int] | memoryview[int]":
+    """The records as flat words: where they are, as far as they lie one behind the other."""
+    if not records.flags.c_contiguous:
+        return _words(records)
+    return records.data.cast("B").cast("q")
 
 
 def _is_canonical(turns: Floats) -> bool:

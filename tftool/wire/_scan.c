@@ -1,0 +1,504 @@
+/* The native scan: where the transforms of many recorded messages lie, and which frames they join.
+
+   `rows.walk` says the same in Python, for reading, and `sources.columns` does it with numpy where
+   there is no compiler; the tests run on both. Its rules are those of the kernel of `frames`:
+
+   - It does exactly what its twin does, or leaves a message to it: whatever is odd about one (its
+     byte order, a length that does not fit, bytes left over) is for the twin to judge, and to name.
+   - Nothing that a message says is believed: every offset is checked against the message's end,
+     every message against the buffer's, every place to write to against its array's.
+   - The limited API of CPython 3.11: one build serves every later version with a GIL. */
+
+#define PY_SSIZE_T_CLEAN
+#define Py_LIMITED_API 0x030B0000
+#include <Python.h>
+#include <stdint.h>
+#include <string.h>
+
+/* What `tftool.wire.native` expects; a build of another interface is not used. */
+#define INTERFACE 1
+
+#define SMALLEST 72              /* Bytes of a transform with empty names: stamp, two lengths, doubles. */
+#define LONGEST_NAME 4096        /* As in `rows`. */
+#define MOST_PAIRS (1 << 17)     /* Pairs of names that are known at once; others are left to the twin. */
+#define MOST_BYTES (16 << 20)    /* And bytes of all their names. */
+#define RECORD 64                /* Bytes of a record: a stamp, and seven doubles. */
+#define HEAD 31                  /* Bytes of an MCAP message's record before its payload. */
+#define MESSAGE 5                /* Its code. */
+
+static inline uint32_t u32_at(const uint8_t *bytes) {
+    uint32_t word;
+    memcpy(&word, bytes, sizeof word);
+    return word;
+}
+
+static inline uint64_t u64_at(const uint8_t *bytes) {
+    uint64_t word;
+    memcpy(&word, bytes, sizeof word);
+    return word;
+}
+
+static inline int64_t i64_at(const char *words, Py_ssize_t index) {
+    int64_t word;
+    memcpy(&word, words + 8 * index, sizeof word);
+    return word;
+}
+
+/* Pairs of frame names --------------------------------------------------- */
+
+/* A pair: both names as they were sent, one behind the other. */
+typedef struct {
+    uint32_t hash, place, parent, child; /* Where its bytes begin in `bytes`, and how many each has. */
+    uint32_t next;                       /* The pair that came behind it last. */
+} Pair;
+
+typedef struct {
+    PyObject_HEAD
+    Pair *pairs;
+    uint32_t *slots; /* Of a hash: the number of a pair, plus one; 0 where there is none. */
+    uint8_t *bytes;
+    uint32_t count, room, mask, used, size;
+} Pairs;
+
+/* Where a transform was found. */
+typedef struct {
+    uint32_t pair, message, stamp, numbers; /* The bytes where they begin, in the buffer. */
+} Found;
+
+/* How many transforms a pair has, and the first of them. */
+typedef struct { uint32_t count, first; } Told;
+
+static uint32_t hash_of(const uint8_t *bytes, uint32_t size, uint64_t hash) {
+    while (size >= 8) {
+        hash = (hash ^ u64_at(bytes)) * 0x9e3779b97f4a7c15ULL;
+        hash ^= hash >> 29;
+        bytes += 8, size -= 8;
+    }
+    uint64_t rest = size;
+    for (uint32_t i = 0; i < size; i++)
+        rest = rest << 8 | bytes[i];
+    hash = (hash ^ rest) * 0x9e3779b97f4a7c15ULL;
+    return (uint32_t)(hash ^ hash >> 32);
+}
+
+static inline int is_pair(const Pairs *self, const Pair *pair, const uint8_t *parent,
+                          uint32_t parent_size, const uint8_t *child, uint32_t child_size) {
+    const uint8_t *bytes = self->bytes + pair->place;
+    return pair->parent == parent_size && pair->child == child_size
+        && memcmp(bytes, parent, parent_size) == 0
+        && memcmp(bytes + parent_size, child, child_size) == 0;
+}
+
+/* Twice as much room in one of the arrays; returns whether there is. */
+static int grow(void **array, uint64_t bytes) {
+    void *larger = PyMem_Realloc(*array, (size_t)bytes);
+    if (larger != NULL)
+        *array = larger;
+    return larger != NULL;
+}
+
+static int make_room(Pairs *self, uint32_t more) {
+    if (self->bytes == NULL || self->used + more > self->size) {
+        uint32_t size = self->size ? self->size : 1 << 12;
+        while (size < self->used + more)
+            size *= 2;
+        if (!grow((void **)&self->bytes, size))
+            return 0;
+        self->size = size;
+    }
+    if (self->count < self->room)
+        return 1;
+    const uint32_t room = self->room ? 2 * self->room : 64;
+    if (!grow((void **)&self->pairs, (uint64_t)room * sizeof *self->pairs)
+        || !grow((void **)&self->slots, (uint64_t)room * 2 * sizeof *self->slots))
+        return 0;
+    self->room = room;
+    self->mask = 2 * room - 1;
+    memset(self->slots, 0, (size_t)room * 2 * sizeof *self->slots);
+    for (uint32_t number = 0; number < self->count; number++) {
+        uint32_t slot = self->pairs[number].hash & self->mask;
+        while (self->slots[slot])
+            slot = (slot + 1) & self->mask;
+        self->slots[slot] = number + 1;
+    }
+    return 1;
+}
+
+/* The number of a pair, which may be new; -1 where there are too many. */
+static int64_t number_of(Pairs *self, const uint8_t *parent, uint32_t parent_size,
+                         const uint8_t *child, uint32_t child_size) {
+    const uint32_t hash = hash_of(child, child_size, hash_of(parent, parent_size, parent_size));
+    if (self->room) {
+        for (uint32_t slot = hash & self->mask; self->slots[slot]; slot = (slot + 1) & self->mask) {
+            const uint32_t number = self->slots[slot] - 1;
+            if (self->pairs[number].hash == hash
+                && is_pair(self, &self->pairs[number], parent, parent_size, child, child_size))
+                return number;
+        }
+    }
+    if (self->count >= MOST_PAIRS || self->used + parent_size + child_size > MOST_BYTES
+        || !make_room(self, parent_size + child_size))
+        return -1;
+    const uint32_t number = self->count++;
+    self->pairs[number] = (Pair){hash, self->used, parent_size, child_size, number};
+    memcpy(self->bytes + self->used, parent, parent_size);
+    memcpy(self->bytes + self->used + parent_size, child, child_size);
+    self->used += parent_size + child_size;
+    uint32_t slot = hash & self->mask;
+    while (self->slots[slot])
+        slot = (slot + 1) & self->mask;
+    self->slots[slot] = number + 1;
+    return number;
+}
+
+/* Messages --------------------------------------------------------------- */
+
+/* Walk through a message: `rows.walk`. Returns how many transforms it has, or -1 if it is odd.
+
+   buffer   the bytes, which it lies in from `start` on, `size` of them
+   last     the pair that came last; is changed
+   found    where to write what is found: room for as many as fit the message */
+static int64_t walk(Pairs *self, const uint8_t *buffer, uint64_t start, uint64_t size, int is_cdr,
+                    uint32_t message, uint32_t *last, Found *found) {
+    const uint8_t *bytes = buffer + start;
+    uint64_t position = is_cdr ? 4 : 0;
+    if (size < position + 4 || (is_cdr && (bytes[0] != 0 || bytes[1] != 1)))
+        return -1;
+    const uint64_t count = u32_at(bytes + position);
+    position += 4;
+    if (count * SMALLEST > size - position)
+        return -1;
+    for (uint64_t row = 0; row < count; row++) {
+        const uint64_t stamp = is_cdr ? position : position + 4;
+        const uint8_t *names[2];
+        uint32_t sizes[2];
+        position = stamp + 8;
+        for (int k = 0; k < 2; k++) {
+            if (is_cdr)
+                position = (position + 3) & ~3ULL;
+            if (position + 4 > size)
+                return -1;
+            const uint32_t length = u32_at(bytes + position);
+            if (length > LONGEST_NAME || position + 4 + length > size)
+                return -1;
+            names[k] = bytes + position + 4;
+            sizes[k] = length;
+            position += 4 + length;
+        }
+        if (is_cdr)
+            position = ((position + 3) & ~7ULL) + 4;
+        if (position + 56 > size)
+            return -1;
+        int64_t pair = -1;
+        if (*last < self->count) {
+            /* As a rule what came behind it the last time comes again. */
+            pair = self->pairs[*last].next;
+            if (!is_pair(self, &self->pairs[pair], names[0], sizes[0], names[1], sizes[1]))
+                pair = -1;
+        }
+        if (pair < 0) {
+            pair = number_of(self, names[0], sizes[0], names[1], sizes[1]);
+            if (pair < 0)
+                return -1;
+            if (*last < self->count)
+                self->pairs[*last].next = (uint32_t)pair;
+        }
+        *last = (uint32_t)pair;
+        found[row] = (Found){(uint32_t)pair, message, (uint32_t)(start + stamp), (uint32_t)(start + position)};
+        position += 56;
+    }
+    return size - position > (is_cdr ? 7 : 0) ? -1 : (int64_t)count;
+}
+
+/* Buffers of arguments, released at the end. */
+static int read_all(PyObject *const *arguments, Py_buffer *views, const int *flags, int count) {
+    for (int k = 0; k < count; k++) {
+        if (PyObject_GetBuffer(arguments[k], &views[k], flags[k]) < 0) {
+            while (k > 0)
+                PyBuffer_Release(&views[--k]);
+            return 0;
+        }
+    }
+    return 1;
+}
+
+static void release_all(Py_buffer *views, int count) {
+    while (count > 0)
+        PyBuffer_Release(&views[--count]);
+}
+
+PyDoc_STRVAR(scan_doc, "Find the transforms of messages; see `_scan.pyi`.");
+
+static PyObject *scan(PyObject *object, PyObject *const *arguments, Py_ssize_t count) {
+    Pairs *self = (Pairs *)object;
+    static const int flags[] = {PyBUF_SIMPLE, PyBUF_SIMPLE, PyBUF_SIMPLE};
+    Py_buffer views[3];
+    if (count != 4) {
+        PyErr_SetString(PyExc_TypeError, "scan takes a buffer, starts, lengths, and whether it is CDR");
+        return NULL;
+    }
+    const int is_cdr = PyObject_IsTrue(arguments[3]);
+    if (is_cdr < 0 || !read_all(arguments, views, flags, 3))
+        return NULL;
+    const uint64_t size = (uint64_t)views[0].len;
+    const char *starts = views[1].buf, *lengths = views[2].buf;
+    const Py_ssize_t messages = views[1].len / 8;
+    PyObject *result = NULL, *found = NULL, *odd = NULL, *told = NULL;
+    uint64_t room = 0;
+    int fits = views[2].len / 8 == messages && size <= UINT32_MAX && messages <= INT32_MAX;
+    for (Py_ssize_t k = 0; k < messages && fits; k++) {
+        const int64_t start = i64_at(starts, k), length = i64_at(lengths, k);
+        fits = start >= 0 && length >= 0 && (uint64_t)start <= size && (uint64_t)length <= size - (uint64_t)start;
+        room += (uint64_t)length / SMALLEST;
+    }
+    if (!fits || room > (uint64_t)PY_SSIZE_T_MAX / sizeof(Found)) {
+        PyErr_SetString(PyExc_ValueError, "a message lies outside of the buffer");
+        goto done;
+    }
+    found = PyByteArray_FromStringAndSize(NULL, (Py_ssize_t)(room * sizeof(Found)));
+    odd = PyByteArray_FromStringAndSize(NULL, 0);
+    if (found == NULL || odd == NULL)
+        goto done;
+    Found *rows = (Found *)PyByteArray_AsString(found), *row = rows;
+    uint32_t last = UINT32_MAX;
+    Py_ssize_t odds = 0, odd_room = 0;
+    for (Py_ssize_t k = 0; k < messages; k++) {
+        const int64_t transforms = walk(self, views[0].buf, (uint64_t)i64_at(starts, k),
+                                        (uint64_t)i64_at(lengths, k), is_cdr, (uint32_t)k, &last, row);
+        if (transforms >= 0) {
+            row += transforms;
+            continue;
+        }
+        if (odds == odd_room) {
+            odd_room = odd_room ? 2 * odd_room : 64;
+            if (PyByteArray_Resize(odd, odd_room * 4) < 0)
+                goto done;
+        }
+        const uint32_t number = (uint32_t)k;
+        memcpy(PyByteArray_AsString(odd) + 4 * odds++, &number, 4);
+    }
+    told = PyByteArray_FromStringAndSize(NULL, (Py_ssize_t)self->count * (Py_ssize_t)sizeof(Told));
+    if (told == NULL || PyByteArray_Resize(odd, odds * 4) < 0)
+        goto done;
+    Told *of_pair = (Told *)PyByteArray_AsString(told);
+    memset(of_pair, 0, self->count * sizeof *of_pair);
+    for (const Found *one = rows; one < row; one++) {
+        if (of_pair[one->pair].count++ == 0)
+            of_pair[one->pair].first = (uint32_t)(one - rows);
+    }
+    if (PyByteArray_Resize(found, (row - rows) * (Py_ssize_t)sizeof(Found)) == 0)
+        result = PyTuple_Pack(3, found, told, odd);
+done:
+    Py_XDECREF(found);
+    Py_XDECREF(odd);
+    Py_XDECREF(told);
+    release_all(views, 3);
+    return result;
+}
+
+PyDoc_STRVAR(names_doc, "Both names of a pair; see `_scan.pyi`.");
+
+static PyObject *names(PyObject *object, PyObject *argument) {
+    const Pairs *self = (Pairs *)object;
+    const long long number = PyLong_AsLongLong(argument);
+    if (number == -1 && PyErr_Occurred())
+        return NULL;
+    if (number < 0 || number >= self->count) {
+        PyErr_SetString(PyExc_IndexError, "there is no such pair");
+        return NULL;
+    }
+    const Pair *pair = &self->pairs[number];
+    const char *bytes = (const char *)self->bytes + pair->place;
+    return Py_BuildValue("(y#y#)", bytes, (Py_ssize_t)pair->parent, bytes + pair->parent, (Py_ssize_t)pair->child);
+}
+
+static void pairs_dealloc(PyObject *object) {
+    Pairs *self = (Pairs *)object;
+    PyTypeObject *type = Py_TYPE(object);
+    PyMem_Free(self->pairs);
+    PyMem_Free(self->slots);
+    PyMem_Free(self->bytes);
+    freefunc release = PyType_GetSlot(type, Py_tp_free);
+    release(object);
+    Py_DECREF(type);
+}
+
+static PyMethodDef pairs_methods[] = {
+    {"scan", (PyCFunction)(void (*)(void))scan, METH_FASTCALL, scan_doc},
+    {"names", names, METH_O, names_doc},
+    {NULL, NULL, 0, NULL},
+};
+
+static PyType_Slot pairs_slots[] = {
+    {Py_tp_doc, "Pairs of frame names by number; see `_scan.pyi`."},
+    {Py_tp_methods, pairs_methods},
+    {Py_tp_dealloc, pairs_dealloc},
+    {0, NULL},
+};
+
+static PyType_Spec pairs_spec = {
+    "tftool.wire._scan.Pairs", sizeof(Pairs), 0, Py_TPFLAGS_DEFAULT, pairs_slots,
+};
+
+/* Columns ---------------------------------------------------------------- */
+
+typedef struct {
+    Py_buffer records, messages;
+    Py_ssize_t count, room;
+    Py_ssize_t owner; /* Into which target it really goes; -1 for none. */
+} Target;
+
+PyDoc_STRVAR(fill_doc, "Write what was found into columns; see `_scan.pyi`.");
+
+static PyObject *fill(PyObject *module, PyObject *const *arguments, Py_ssize_t count) {
+    (void)module;
+    static const int flags[] = {PyBUF_SIMPLE, PyBUF_SIMPLE, PyBUF_SIMPLE};
+    Py_buffer views[3];
+    if (count != 4 || !PyList_Check(arguments[3])) {
+        PyErr_SetString(PyExc_TypeError, "fill takes a buffer, what was found, numbers, and a list");
+        return NULL;
+    }
+    PyObject *list = arguments[3], *result = NULL;
+    const Py_ssize_t pairs = PyList_Size(list);
+    if (!read_all(arguments, views, flags, 3))
+        return NULL;
+    Target *targets = PyMem_Calloc((size_t)pairs + 1, sizeof *targets);
+    Py_ssize_t held = 0;
+    if (targets == NULL) {
+        PyErr_NoMemory();
+        goto done;
+    }
+    for (; held < pairs; held++) {
+        Target *target = &targets[held];
+        PyObject *both = PyList_GetItem(list, held);
+        target->room = target->owner = -1;
+        if (both == Py_None)
+            continue;
+        if (PyLong_Check(both)) {
+            target->owner = PyLong_AsSsize_t(both);
+            if (target->owner == -1 && PyErr_Occurred())
+                goto done;
+            if (target->owner < 0 || target->owner >= held || targets[target->owner].room < 0) {
+                PyErr_SetString(PyExc_ValueError, "there is no such earlier target");
+                goto done;
+            }
+            continue;
+        }
+        if (!PyTuple_Check(both) || PyTuple_Size(both) != 2) {
+            PyErr_SetString(PyExc_TypeError, "a target is a tuple of two arrays");
+            goto done;
+        }
+        if (PyObject_GetBuffer(PyTuple_GetItem(both, 0), &target->records, PyBUF_WRITABLE) < 0)
+            goto done;
+        if (PyObject_GetBuffer(PyTuple_GetItem(both, 1), &target->messages, PyBUF_WRITABLE) < 0) {
+            PyBuffer_Release(&target->records);
+            goto done;
+        }
+        target->owner = held;
+        target->room = target->records.len / RECORD;
+        if (target->messages.len / 4 < target->room)
+            target->room = target->messages.len / 4;
+    }
+    const uint8_t *buffer = views[0].buf;
+    const uint64_t size = (uint64_t)views[0].len;
+    const Py_ssize_t rows = views[1].len / (Py_ssize_t)sizeof(Found), messages = views[2].len / 4;
+    for (Py_ssize_t k = 0; k < rows; k++) {
+        Found found;
+        memcpy(&found, (const char *)views[1].buf + k * (Py_ssize_t)sizeof found, sizeof found);
+        if (found.pair >= (uint64_t)pairs || found.message >= (uint64_t)messages
+            || (uint64_t)found.stamp + 8 > size || (uint64_t)found.numbers + 56 > size) {
+            PyErr_SetString(PyExc_ValueError, "it was found in another buffer");
+            goto done;
+        }
+        if (targets[found.pair].owner < 0)
+            continue;
+        Target *target = &targets[targets[found.pair].owner];
+        if (target->count == target->room) {
+            PyErr_SetString(PyExc_ValueError, "a target is too short");
+            goto done;
+        }
+        char *record = (char *)target->records.buf + RECORD * target->count;
+        const int64_t stamp = (int64_t)(int32_t)u32_at(buffer + found.stamp) * 1000000000
+                            + u32_at(buffer + found.stamp + 4);
+        memcpy(record, &stamp, 8);
+        memcpy(record + 8, buffer + found.numbers, 56);
+        memcpy((char *)target->messages.buf + 4 * target->count++, (const char *)views[2].buf + 4 * (size_t)found.message, 4);
+    }
+    result = Py_NewRef(Py_None);
+done:
+    while (held > 0) {
+        if (targets[--held].room >= 0) {
+            PyBuffer_Release(&targets[held].records);
+            PyBuffer_Release(&targets[held].messages);
+        }
+    }
+    PyMem_Free(targets);
+    release_all(views, 3);
+    return result;
+}
+
+PyDoc_STRVAR(indexed_doc, "Where the messages of an MCAP message index lie; see `_scan.pyi`.");
+
+static PyObject *indexed(PyObject *module, PyObject *const *arguments, Py_ssize_t count) {
+    (void)module;
+    static const int flags[] = {PyBUF_SIMPLE, PyBUF_SIMPLE, PyBUF_WRITABLE, PyBUF_WRITABLE, PyBUF_WRITABLE};
+    Py_buffer views[5];
+    if (count != 6) {
+        PyErr_SetString(PyExc_TypeError, "indexed takes a chunk, an index, three arrays, and a channel");
+        return NULL;
+    }
+    const long channel = PyLong_AsLong(arguments[5]);
+    if ((channel == -1 && PyErr_Occurred()) || !read_all(arguments, views, flags, 5))
+        return NULL;
+    const uint8_t *data = views[0].buf;
+    const uint64_t size = (uint64_t)views[0].len;
+    const Py_ssize_t messages = views[1].len / 16;
+    int fits = views[2].len / 8 >= messages && views[3].len / 8 >= messages && views[4].len / 8 >= messages;
+    for (Py_ssize_t k = 0; k < messages && fits; k++) {
+        const int64_t log_time = i64_at(views[1].buf, 2 * k);
+        const uint64_t place = (uint64_t)i64_at(views[1].buf, 2 * k + 1);
+        fits = 0;
+        if (size < HEAD || place > size - HEAD)
+            break;
+        const uint8_t *head = data + place;
+        const uint64_t length = u64_at(head + 1);
+        if (head[0] != MESSAGE || (head[9] | head[10] << 8) != channel || length < HEAD - 9
+            || length > size - place - 9)
+            break;
+        const int64_t start = (int64_t)(place + HEAD), bytes = (int64_t)(length - (HEAD - 9));
+        memcpy((char *)views[2].buf + 8 * k, &start, 8);
+        memcpy((char *)views[3].buf + 8 * k, &bytes, 8);
+        memcpy((char *)views[4].buf + 8 * k, &log_time, 8);
+        fits = 1;
+    }
+    release_all(views, 5);
+    return PyBool_FromLong(fits);
+}
+
+/* The module ------------------------------------------------------------- */
+
+static PyMethodDef methods[] = {
+    {"fill", (PyCFunction)(void (*)(void))fill, METH_FASTCALL, fill_doc},
+    {"indexed", (PyCFunction)(void (*)(void))indexed, METH_FASTCALL, indexed_doc},
+    {NULL, NULL, 0, NULL},
+};
+
+static int module_exec(PyObject *module) {
+    PyObject *type = PyType_FromSpec(&pairs_spec);
+    const int failed = type == NULL || PyModule_AddType(module, (PyTypeObject *)type) < 0
+                    || PyModule_AddIntConstant(module, "INTERFACE", INTERFACE) < 0;
+    Py_XDECREF(type);
+    return failed ? -1 : 0;
+}
+
+static PyModuleDef_Slot module_slots[] = {{Py_mod_exec, module_exec}, {0, NULL}};
+
+static PyModuleDef definition = {
+    PyModuleDef_HEAD_INIT, "tftool.wire._scan", "The native scan; see `_scan.pyi`.",
+    0, methods, module_slots, NULL, NULL, NULL,
+};
+
+PyMODINIT_FUNC
+PyInit__scan(void) {
+    return PyModuleDef_Init(&definition);
+}

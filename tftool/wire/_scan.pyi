@@ -1,0 +1,60 @@
+"""What the native scan offers; each function says what it is the twin of."""
+
+INTERFACE: int
+
+class Pairs:
+    """Pairs of frame names as they were sent, by number, in the order they first came up."""
+
+    def scan(
+        self, buffer: object, starts: object, lengths: object, is_cdr: bool, /
+    ) -> tuple[bytearray, bytearray, bytearray]:
+        """`rows.walk` of many messages, which begin at `starts` and have `lengths`, both int64.
+
+        Returns:
+            For each transform, as four uint32, its pair, its message, and where its stamp and its
+            numbers begin in the buffer; of each pair, as two uint32, how many it has, and which
+            is the first; which messages are odd, uint32: those are for `walk`, and nothing of
+            them is in the first two.
+
+        Raises:
+            ValueError: If a message lies outside of the buffer, or that has more than 4 GiB.
+        """
+
+    def names(self, number: int, /) -> tuple[bytes, bytes]:
+        """Parent and child of a pair, in the message's bytes."""
+
+def fill(
+    buffer: object,
+    found: object,
+    numbers: object,
+    targets: list[tuple[object, object] | int | None],
+    /,
+) -> None:
+    """`Template.cut` of what `Pairs.scan` found.
+
+    Args:
+        buffer: The same as there.
+        found: Its first result.
+        numbers: What to call each message, int32.
+        targets: For each pair its records and their messages, int64 of shape (n, 8) and int32 of
+            shape (n,), to be written; the number of an earlier pair to write there; None to
+            leave it out.
+
+    Raises:
+        ValueError: If a target is too short.
+    """
+
+def indexed(
+    chunk: object,
+    index: object,
+    starts: object,
+    lengths: object,
+    log_times: object,
+    channel: int,
+    /,
+) -> bool:
+    """Where the messages that an MCAP chunk's message index tells lie, into three int64 arrays.
+
+    Returns:
+        False, with anything in the arrays, where it points at what is no message of the channel.
+    """
