@@ -3,6 +3,7 @@
 Source: the MCAP format specification, version 0.
 """
 
+import itertools
 import struct
 from array import array
 from collections.abc import Collection, Iterator
@@ -14,7 +15,7 @@ import numpy as np
 
 from tftool.errors import InputError
 from tftool.sources.columns import Batch, words_at
-from tftool.sources.compressed import unpack, unpack_beginning
+from tftool.sources.compressed import Ahead, Packed, unpack, unpack_beginning
 from tftool.sources.container import (
     LATEST_STAMP,
     MOST_STREAMS,
@@ -25,7 +26,8 @@ from tftool.sources.container import (
 )
 from tftool.sources.contract import Indexes, Progress, Stamps
 from tftool.sources.find import MCAP_MAGIC
-from tftool.wire.rows import rows_of
+from tftool.wire.native import SCAN
+from tftool.wire.rows import Bytes, rows_of
 
 _FOOTER: Final = 0x02
 _SCHEMA: Final = 0x03
@@ -356,10 +358,29 @@ class Mcap:
             if number in wanted:
                 channels[channel] = number
         chosen = {channel for channel, number in self._numbers.items() if number in wanted}
-        for chunk in self._chunks:
-            if chunk.walked is not None or not chunk.indexes.keys().isdisjoint(chosen):
+        read = [
+            chunk.walked is not None or not chunk.indexes.keys().isdisjoint(chosen)
+            for chunk in self._chunks
+        ]
+        # Those that were walked are unpacked then and there; the others in order.
+        ahead = Ahead(itertools.compress(self._chunks, read), self._packed)
+        with ahead:
+            yield from self._chunk_batches(read, chosen, channels, ahead, progress, head)
+        yield from self._loose_batches(channels, progress, head)
+
+    def _chunk_batches(
+        self,
+        read: list[bool],
+        chosen: set[int],
+        channels: Indexes,
+        ahead: Ahead,
+        progress: Progress | None,
+        head: int | None,
+    ) -> Iterator[Batch]:
+        for chunk, is_read in zip(self._chunks, read, strict=True):
+            if is_read:
                 try:
-                    batch = self._batch(chunk, chosen, channels, head)
+                    batch = self._batch(chunk, chosen, channels, head, ahead)
                 except (InputError, struct.error) as error:
                     self._note(f"A chunk at byte {chunk.place} is damaged ({_reason(error)}).")
                     try:
@@ -371,13 +392,17 @@ class Mcap:
                     yield batch
             if progress is not None:
                 progress(chunk.place + chunk.packed, self.size)
-        yield from self._loose_batches(channels, progress, head)
 
     def _batch(
-        self, chunk: _Chunk, chosen: set[int], channels: Indexes, head: int | None
+        self,
+        chunk: _Chunk,
+        chosen: set[int],
+        channels: Indexes,
+        head: int | None,
+        ahead: Ahead,
     ) -> Batch | None:
         if chunk.walked is not None:
-            return self._rest_of(chunk, channels)
+            return self._rest_of(chunk, channels, ahead)
         parts = []
         for channel, place in chunk.indexes.items():
             if channel in chosen:
@@ -386,36 +411,27 @@ class Mcap:
                     parts.append((pairs, channel))
         if not parts:
             return None
-        pairs = np.concatenate([one for one, _ in parts]) if len(parts) > 1 else parts[0][0]
-        places, log_times = pairs[:, 1], pairs[:, 0]
-        # As a rule it is one channel: then nothing is made for each message.
-        owners: Indexes | int = parts[0][1]
-        if len(parts) > 1:
-            owners = np.concatenate([np.full(len(one), channel) for one, channel in parts])
-            order = np.argsort(places, kind="stable")
-            places, log_times, owners = places[order], log_times[order], owners[order]
-        if chunk.method in ("", "none") and len(places) * _SPARSE < chunk.packed:
+        count = sum(len(pairs) for pairs, _ in parts)
+        if chunk.method in ("", "none") and count * _SPARSE < chunk.packed:
+            places = np.sort(np.concatenate([pairs[:, 1] for pairs, _ in parts]))
             return self._sparse(chunk.place + places, channels, head, chunk.place + chunk.packed)
-        data = np.frombuffer(self._unpacked(chunk), dtype=np.uint8)
-        if len(data) < _IN_CHUNK or places.min() < 0 or places.max() > len(data) - _IN_CHUNK:
-            raise InputError("its message index points outside of it")
-        # Of every record the code, the length in 8 bytes and the channel in 2, all at once.
-        heads = rows_of(data, places, 16)
-        lengths = (heads[:, 0] >> np.uint64(8)).view(np.int64)
-        lengths -= 22
-        told = heads[:, 1] & np.uint64(0xFFFFFF)
-        starts = places + _IN_CHUNK
-        if (
-            ((heads[:, 0] & np.uint64(0xFF)) != _MESSAGE).any()
-            or (told != np.asarray(owners, dtype=np.uint64) << np.uint64(8)).any()
-            or int(lengths.min()) < 0
-            or int((starts + lengths).max()) > len(data)
-        ):
-            raise InputError("its message index points at something else")
-        senders = channels[owners] if len(parts) > 1 else np.full(len(places), channels[owners])
-        return Batch(data, starts, lengths, log_times, senders)
+        data = np.frombuffer(self._unpacked(chunk, ahead), dtype=np.uint8)
+        found = [
+            Batch(data, *_indexed(data, pairs, channel), np.full(len(pairs), channels[channel]))
+            for pairs, channel in parts
+        ]
+        if len(found) == 1:
+            return found[0]
+        starts, lengths, log_times, senders = (
+            np.concatenate([getattr(one, name) for one in found])
+            for name in ("starts", "lengths", "log_times", "senders")
+        )
+        order = np.argsort(starts, kind="stable")
+        return Batch(data, starts, lengths, log_times, senders).chosen(order)
 
-    def _rest_of(self, chunk: _Chunk, channels: Indexes) -> Batch | None:
+    def _rest_of(
+        self, chunk: _Chunk, channels: Indexes, ahead: Ahead | None = None
+    ) -> Batch | None:
         """What walking finds in a chunk, whatever its index says."""
         if chunk.walked is None:
             counts = list(self.counts)
@@ -429,7 +445,7 @@ class Mcap:
         which = np.flatnonzero(channels[owners] >= 0)
         if not len(which):
             return None
-        data = np.frombuffer(self._unpacked(chunk), dtype=np.uint8)
+        data = np.frombuffer(self._unpacked(chunk, ahead), dtype=np.uint8)
         places = np.frombuffer(walked.places, dtype=np.int64)[which]
         return Batch(
             data,
@@ -489,19 +505,66 @@ class Mcap:
             raise InputError(f"no message index of its is at byte {place}")
         return np.frombuffer(self._file.at(place + 15, count), dtype=np.int64).reshape(-1, 2)
 
-    def _unpacked(self, chunk: _Chunk) -> bytes:
-        packed = self._file.at(chunk.place, chunk.packed)
-        if chunk.cut:
-            return unpack_beginning(chunk.method, packed, chunk.size)
+    def _packed(self, chunk: _Chunk) -> Packed | None:
+        """What of a chunk is unpacked ahead; nothing of one that is read in another way."""
+        if chunk.cut or chunk.method in ("", "none"):
+            return None
         try:
+            return chunk.method, self._file.at(chunk.place, chunk.packed), chunk.size
+        except InputError:
+            return None
+
+    def _unpacked(self, chunk: _Chunk, ahead: Ahead | None = None) -> bytes:
+        coming = None if ahead is None else ahead.take(chunk)
+        try:
+            if coming is not None:
+                return coming.result()
+            packed = self._file.at(chunk.place, chunk.packed)
+            if chunk.cut:
+                return unpack_beginning(chunk.method, packed, chunk.size)
             return unpack(chunk.method, packed, chunk.size)
         except InputError as error:
+            packed = self._file.at(chunk.place, chunk.packed)
             self._note(f"A chunk at byte {chunk.place} is damaged: {error}.")
             return unpack_beginning(chunk.method, packed, chunk.size)
 
     def _note(self, damage: str) -> None:
         if damage not in self.damage and len(self.damage) < 20:
             self.damage.append(damage)
+
+
+def _indexed(data: Bytes, pairs: Stamps, channel: int) -> tuple[Stamps, Stamps, Stamps]:
+    """Where the payloads of a channel's messages begin, their lengths, and their log times.
+
+    Args:
+        data: A chunk's records.
+        pairs: Log time and place of each message, as its message index tells them.
+        channel: The channel.
+
+    Raises:
+        InputError: If the index points at something else.
+    """
+    if SCAN is not None:
+        found = tuple(np.empty(len(pairs), dtype=np.int64) for _ in range(3))
+        if SCAN.indexed(data, np.ascontiguousarray(pairs), *found, channel):
+            starts, lengths, log_times = found
+            return starts, lengths, log_times
+    places = pairs[:, 1]
+    if len(data) < _IN_CHUNK or places.min() < 0 or places.max() > len(data) - _IN_CHUNK:
+        raise InputError("its message index points outside of it")
+    # Of every record the code, the length in 8 bytes and the channel in 2, all at once.
+    heads = rows_of(data, places, 16)
+    lengths = (heads[:, 0] >> np.uint64(8)).view(np.int64)
+    lengths -= 22
+    starts = places + _IN_CHUNK
+    if (
+        ((heads[:, 0] & np.uint64(0xFF)) != _MESSAGE).any()
+        or ((heads[:, 1] & np.uint64(0xFFFFFF)) != np.uint64(channel << 8)).any()
+        or int(lengths.min()) < 0
+        or int((starts + lengths).max()) > len(data)
+    ):
+        raise InputError("its message index points at something else")
+    return starts, lengths, pairs[:, 0]
 
 
 def _records(data: bytes) -> Iterator[tuple[int, int, int]]:

@@ -3,6 +3,7 @@
 Source: wiki.ros.org/Bags/Format/2.0.
 """
 
+import itertools
 import struct
 from array import array
 from collections.abc import Collection, Iterator
@@ -14,7 +15,7 @@ import numpy as np
 
 from tftool.errors import InputError
 from tftool.sources.columns import Batch, words_at
-from tftool.sources.compressed import unpack, unpack_beginning
+from tftool.sources.compressed import Ahead, Packed, unpack, unpack_beginning
 from tftool.sources.container import (
     MOST_STREAMS,
     TRANSIENT_LOCAL,
@@ -265,10 +266,20 @@ class Rosbag1:
         chosen = {
             connection: number for connection, number in self._numbers.items() if number in wanted
         }
-        for chunk in self._chunks:
-            if chunk.walked is not None or not chunk.counts.keys().isdisjoint(chosen):
+        read = [
+            chunk.walked is not None or not chunk.counts.keys().isdisjoint(chosen)
+            for chunk in self._chunks
+        ]
+        with Ahead(itertools.compress(self._chunks, read), self._packed) as ahead:
+            yield from self._chunk_batches(read, chosen, ahead, progress)
+
+    def _chunk_batches(
+        self, read: list[bool], chosen: dict[int, int], ahead: Ahead, progress: Progress | None
+    ) -> Iterator[Batch]:
+        for chunk, is_read in zip(self._chunks, read, strict=True):
+            if is_read:
                 try:
-                    batch = self._batch(chunk, chosen)
+                    batch = self._batch(chunk, chosen, ahead)
                 except (InputError, struct.error, KeyError) as error:
                     self._note(f"A chunk at byte {chunk.position} is damaged ({_reason(error)}).")
                     batch = self._rest_of(chunk, chosen)
@@ -277,12 +288,10 @@ class Rosbag1:
             if progress is not None:
                 progress(chunk.position, self.size)
 
-    def _batch(self, chunk: _Chunk, chosen: dict[int, int]) -> Batch | None:
+    def _batch(self, chunk: _Chunk, chosen: dict[int, int], ahead: Ahead) -> Batch | None:
         if chunk.walked is not None:
-            return self._rest_of(chunk, chosen)
-        if not chunk.place:
-            header, place, packed = self._record_head(chunk.position)
-            self._look_at(chunk, header, place, packed, False)
+            return self._rest_of(chunk, chosen, ahead)
+        self._locate(chunk)
         parts = self._indexes(chunk, chosen)
         if not parts:
             return None
@@ -295,7 +304,7 @@ class Rosbag1:
             order = np.argsort(places, kind="stable")
             entries, places, owners = entries[order], places[order], owners[order]
         log_times = entries[:, 0].astype(np.int64) * NANOSECONDS + entries[:, 1]
-        data = np.frombuffer(self._unpacked(chunk), dtype=np.uint8)
+        data = np.frombuffer(self._unpacked(chunk, ahead), dtype=np.uint8)
         if not len(places):
             return None
         size = len(data)
@@ -307,6 +316,12 @@ class Rosbag1:
             raise InputError("its index points outside of it")
         self._check_owners(data, places, heads, owners)
         return Batch(data, starts, lengths, log_times, owners)
+
+    def _locate(self, chunk: _Chunk) -> None:
+        """Find out where a chunk's data lies, if that is not known."""
+        if not chunk.place:
+            header, place, packed = self._record_head(chunk.position)
+            self._look_at(chunk, header, place, packed, False)
 
     def _within(self, places: Stamps, data: "np.ndarray", count: int) -> Stamps:
         if len(data) < count or int(places.max()) > len(data) - count:
@@ -349,7 +364,9 @@ class Rosbag1:
             raise InputError("its index is incomplete")
         return found
 
-    def _rest_of(self, chunk: _Chunk, chosen: dict[int, int]) -> Batch | None:
+    def _rest_of(
+        self, chunk: _Chunk, chosen: dict[int, int], ahead: Ahead | None = None
+    ) -> Batch | None:
         """What walking finds in a chunk, whatever its index says."""
         if chunk.walked is None:
             if not chunk.place:
@@ -362,7 +379,7 @@ class Rosbag1:
         which = [row for row, connection in enumerate(connections) if connection in chosen]
         if not which:
             return None
-        data = np.frombuffer(self._unpacked(chunk), dtype=np.uint8)
+        data = np.frombuffer(self._unpacked(chunk, ahead), dtype=np.uint8)
         starts = np.frombuffer(places, dtype=np.int64)[which]
         return Batch(
             data,
@@ -372,13 +389,27 @@ class Rosbag1:
             np.array([chosen[connections[row]] for row in which], dtype=np.int32),
         )
 
-    def _unpacked(self, chunk: _Chunk) -> bytes:
-        packed = self._file.at(chunk.place, chunk.packed)
-        if chunk.cut:
-            return unpack_beginning(chunk.method, packed, chunk.size)
+    def _packed(self, chunk: _Chunk) -> Packed | None:
+        """What of a chunk is unpacked ahead; nothing of one that is read in another way."""
         try:
+            self._locate(chunk)
+            if chunk.cut or chunk.method == "none":
+                return None
+            return chunk.method, self._file.at(chunk.place, chunk.packed), chunk.size
+        except (InputError, struct.error, KeyError):
+            return None
+
+    def _unpacked(self, chunk: _Chunk, ahead: Ahead | None = None) -> bytes:
+        coming = None if ahead is None else ahead.take(chunk)
+        try:
+            if coming is not None:
+                return coming.result()
+            packed = self._file.at(chunk.place, chunk.packed)
+            if chunk.cut:
+                return unpack_beginning(chunk.method, packed, chunk.size)
             return unpack(chunk.method, packed, chunk.size)
         except InputError as error:
+            packed = self._file.at(chunk.place, chunk.packed)
             self._note(f"A chunk at byte {chunk.position} is damaged: {error}.")
             return unpack_beginning(chunk.method, packed, chunk.size)
 
