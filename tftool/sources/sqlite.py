@@ -22,6 +22,9 @@ _MOST_COPIED: Final = 1 << 30
 _MOST_GAPS: Final = 40
 _LEAST_HEAD: Final = 4096
 
+# The second where what sqlite says of a damaged file quotes bytes that are no text.
+_FAULTS: Final = (sqlite3.Error, UnicodeDecodeError)
+
 
 class Sqlite:
     """One `.db3` file; see `Container`."""
@@ -45,7 +48,7 @@ class Sqlite:
         try:
             self._read_topics()
             self.start, self.end = self._span()
-        except sqlite3.Error as error:
+        except _FAULTS as error:
             self.close()
             raise InputError(f"'{path}' cannot be read as a rosbag2 recording: {error}.") from error
 
@@ -123,7 +126,7 @@ class Sqlite:
             found.update(
                 self._base.execute("select topic_id, count(*) from messages group by topic_id")
             )
-        except sqlite3.Error as error:
+        except _FAULTS as error:
             self._note(error)
         return [found.get(number, 0) for number in self._ids]
 
@@ -156,7 +159,7 @@ class Sqlite:
                     if progress is not None:
                         progress(self.size * last // max(top, 1), self.size)
                 return
-            except sqlite3.Error as error:
+            except _FAULTS as error:
                 # Behind a damaged page others may be sound: jump over it, farther each time.
                 self._note(error)
                 gaps += 1
@@ -171,10 +174,10 @@ class Sqlite:
     def _last_row(self) -> int:
         try:
             return int(self._base.execute("select max(id) from messages").fetchone()[0] or 0)
-        except sqlite3.Error:
+        except _FAULTS:
             return 0
 
-    def _note(self, error: sqlite3.Error) -> None:
+    def _note(self, error: Exception) -> None:
         damage = f"A part of its messages cannot be read ({error})."
         if damage not in self.damage:
             self.damage.append(damage)
@@ -183,7 +186,7 @@ class Sqlite:
 def _connected(uri: str) -> sqlite3.Connection:
     try:
         base = sqlite3.connect(uri, uri=True, check_same_thread=False)
-    except sqlite3.Error as error:
+    except _FAULTS as error:
         raise InputError(f"The database cannot be opened: {error}.") from error
     # Texts may be anything.
     base.text_factory = lambda raw: raw.decode("utf-8", "backslashreplace")
