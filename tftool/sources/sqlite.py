@@ -15,12 +15,21 @@ from tftool.errors import InputError
 from tftool.sources.columns import Batch
 from tftool.sources.container import MOST_STREAMS, MessageStream, offers_of
 from tftool.sources.contract import Progress
+from tftool.sources.sqlite_pages import read_pages
+from tftool.wire.native import SCAN
 
 _ROWS: Final = 2048  # fetched at a time
 _ROOM: Final = bytes(8)
 _MOST_COPIED: Final = 1 << 30
 _MOST_GAPS: Final = 40
 _LEAST_HEAD: Final = 4096
+
+_COLUMNS: Final = [
+    ("id", "INTEGER"),
+    ("topic_id", "INTEGER"),
+    ("timestamp", "INTEGER"),
+    ("data", "BLOB"),
+]
 
 # The second where what sqlite says of a damaged file quotes bytes that are no text.
 _FAULTS: Final = (sqlite3.Error, UnicodeDecodeError)
@@ -149,6 +158,12 @@ class Sqlite:
         )
         last, gap, gaps = -(2**63), 1, 0
         top = self._last_row() if progress is not None else 0
+        if SCAN is not None and self._copy is None:
+            for batch, last in read_pages(self._path, self._table(), streams):
+                if len(batch):
+                    yield batch
+                if progress is not None:
+                    progress(self.size * last // max(top, 1), self.size)
         while True:
             rows: list[Any] = []
             try:
@@ -166,6 +181,17 @@ class Sqlite:
                 if gaps > _MOST_GAPS:
                     return
                 last, gap = max(last, 0) + gap, gap * 2
+
+    def _table(self) -> int:
+        """The page at which the tree of the messages begins; 0 where the table is another one."""
+        try:
+            columns = [tuple(row[1:3]) for row in self._base.execute("pragma table_info(messages)")]
+            asked = "select rootpage, sql from sqlite_master where name = 'messages'"
+            ((root, text),) = self._base.execute(asked).fetchall()
+        except (*_FAULTS, ValueError):
+            return 0
+        usual = columns == _COLUMNS and "without rowid" not in str(text).lower()
+        return int(root) if usual else 0
 
     def expected(self, wanted: Collection[int]) -> int:
         """About how many messages some streams have: to count them takes as long as to read."""

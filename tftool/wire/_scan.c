@@ -25,6 +25,7 @@
 #define RECORD 64                /* Bytes of a record: a stamp, and seven doubles. */
 #define HEAD 31                  /* Bytes of an MCAP message's record before its payload. */
 #define MESSAGE 5                /* Its code. */
+#define LEAF 0x0d                /* The first byte of a page of sqlite with rows of a table. */
 
 static inline uint32_t u32_at(const uint8_t *bytes) {
     uint32_t word;
@@ -475,10 +476,114 @@ static PyObject *indexed(PyObject *module, PyObject *const *arguments, Py_ssize_
     return PyBool_FromLong(fits);
 }
 
+/* sqlite's pages --------------------------------------------------------- */
+
+/* A number of up to nine bytes, seven bits in each; returns how many bytes it takes, 0 if it goes
+   on behind the end. */
+static int varint(const uint8_t *bytes, const uint8_t *end, uint64_t *number) {
+    uint64_t found = 0;
+    for (int k = 0; k < 9 && bytes + k < end; k++) {
+        found = k == 8 ? found << 8 | bytes[k] : found << 7 | (bytes[k] & 0x7f);
+        if (k == 8 || bytes[k] < 0x80) {
+            *number = found;
+            return k + 1;
+        }
+    }
+    return 0;
+}
+
+/* A column that is a whole number, by its serial type; returns its bytes, -1 if it is none. */
+static int whole(uint64_t type, const uint8_t *bytes, const uint8_t *end, int64_t *number) {
+    static const int sizes[] = {-1, 1, 2, 3, 4, 6, 8, -1, 0, 0};
+    if (type > 9 || sizes[type] < 0 || end - bytes < sizes[type])
+        return -1;
+    uint64_t found = sizes[type] && bytes[0] & 0x80 ? UINT64_MAX : 0;
+    for (int k = 0; k < sizes[type]; k++)
+        found = found << 8 | bytes[k];
+    *number = type >= 8 ? (int64_t)type - 8 : (int64_t)found;
+    return sizes[type];
+}
+
+PyDoc_STRVAR(rows_doc, "The rows of a table's leaf pages; see `_scan.pyi`.");
+
+static PyObject *rows(PyObject *module, PyObject *const *arguments, Py_ssize_t count) {
+    (void)module;
+    enum { PAGES, IDS, TOPICS, TIMES, STARTS, LENGTHS, VIEWS };
+    static const int flags[] = {PyBUF_SIMPLE, PyBUF_WRITABLE, PyBUF_WRITABLE, PyBUF_WRITABLE, PyBUF_WRITABLE, PyBUF_WRITABLE};
+    Py_buffer views[VIEWS];
+    if (count != VIEWS + 2) {
+        PyErr_SetString(PyExc_TypeError, "rows takes pages, five arrays, a page's size, and what is used of it");
+        return NULL;
+    }
+    const long size = PyLong_AsLong(arguments[VIEWS]), usable = PyLong_AsLong(arguments[VIEWS + 1]);
+    if (PyErr_Occurred() || !read_all(arguments, views, flags, VIEWS))
+        return NULL;
+    Py_ssize_t room = PY_SSIZE_T_MAX, found = 0;
+    for (int k = IDS; k < VIEWS; k++)
+        room = views[k].len / 8 < room ? views[k].len / 8 : room;
+    const uint8_t *pages = views[PAGES].buf;
+    if (usable < 480 || usable > size || views[PAGES].len % size)
+        found = -1;
+    for (Py_ssize_t place = 0; found >= 0 && place < views[PAGES].len; place += size) {
+        const uint8_t *page = pages + place, *end = page + usable;
+        const int cells = page[3] << 8 | page[4];
+        if (page[0] != LEAF || 8 + 2 * cells > usable || cells > room - found) {
+            found = -1;
+            break;
+        }
+        for (int k = 0; k < cells; k++) {
+            const uint8_t *cell = page + (page[8 + 2 * k] << 8 | page[9 + 2 * k]);
+            const uint8_t *start = cell;
+            uint64_t payload, head, types[4];
+            int64_t id, row[2];
+            int step;
+            if (cell >= end || !(step = varint(cell, end, &payload)))
+                goto odd;
+            cell += step;
+            if (!(step = varint(cell, end, (uint64_t *)&id)))
+                goto odd;
+            const uint8_t *record = cell + step, *type = record;
+            if (!(step = varint(type, end, &head)) || head > payload || head > (uint64_t)(end - record))
+                goto odd;
+            const uint8_t *body = record + head;
+            type += step;
+            for (int column = 0; column < 4; column++) {
+                if (!(step = varint(type, body, &types[column])))
+                    goto odd;
+                type += step;
+            }
+            if (type != body || types[0] != 0 || types[3] < 12 || types[3] % 2)
+                goto odd;
+            for (int column = 0; column < 2; column++) {
+                if ((step = whole(types[column + 1], body, end, &row[column])) < 0)
+                    goto odd;
+                body += step;
+            }
+            const uint64_t length = (types[3] - 12) / 2;
+            if (length > (uint64_t)INT32_MAX || payload != (uint64_t)(body - record) + length)
+                goto odd;
+            /* What is longer than this goes on on other pages. */
+            const int is_here = payload <= (uint64_t)usable - 35;
+            if (is_here && length > (uint64_t)(end - body))
+                goto odd;
+            const int64_t told[] = {id, row[0], row[1], is_here ? body - pages : -1 - (start - pages), (int64_t)length};
+            for (int column = 0; column < 5; column++)
+                memcpy((char *)views[IDS + column].buf + 8 * found, &told[column], 8);
+            found++;
+        }
+        continue;
+    odd:
+        found = -1;
+    }
+    release_all(views, VIEWS);
+    return PyLong_FromSsize_t(found);
+}
+
 /* The module ------------------------------------------------------------- */
 
 static PyMethodDef methods[] = {
     {"fill", (PyCFunction)(void (*)(void))fill, METH_FASTCALL, fill_doc},
+    {"rows", (PyCFunction)(void (*)(void))rows, METH_FASTCALL, rows_doc},
     {"indexed", (PyCFunction)(void (*)(void))indexed, METH_FASTCALL, indexed_doc},
     {NULL, NULL, 0, NULL},
 };

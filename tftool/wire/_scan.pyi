@@ -58,3 +58,32 @@ def indexed(
     Returns:
         False, with anything in the arrays, where it points at what is no message of the channel.
     """
+
+def rows(
+    pages: object,
+    ids: object,
+    topics: object,
+    times: object,
+    starts: object,
+    lengths: object,
+    size: int,
+    usable: int,
+    /,
+) -> int:
+    """What sqlite gives of rosbag2's table `messages`: id, topic, timestamp, and data.
+
+    Args:
+        pages: Leaf pages of the table, one behind the other.
+        ids: Where to write each row's id, int64, and likewise the next four.
+        topics: Its topic.
+        times: Its timestamp.
+        starts: The byte of the pages at which its data begins. Where it goes on on other pages,
+            that at which its cell begins, n, as -1 - n.
+        lengths: How many bytes its data has.
+        size: Bytes of a page.
+        usable: Bytes of it that sqlite uses.
+
+    Returns:
+        How many rows; -1, with anything in the arrays, where there is one that is no such row, or
+        more than there is room for.
+    """
