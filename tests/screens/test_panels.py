@@ -133,7 +133,7 @@ def test_the_cursor_stays_in_view(cursor):
 
 @pytest.mark.parametrize(
     ("age", "shown"),
-    [(0.0, "0.0 s"), (6.0, "stale 6.0 s"), (15.5, "dead 15.5 s"), (5000.0, "dead 5000 s")],
+    [(0.0, "0.0 s"), (6.0, "6.0 s ago"), (15.5, "15.5 s ago"), (5000.0, "5000 s ago")],
 )
 def test_an_old_link_says_so(age, shown):
     lines = tree(moment(WORLD, info("a", "world"), ages={"a": age}))
@@ -141,14 +141,16 @@ def test_an_old_link_says_so(age, shown):
     assert words(lines)[2].endswith(" " + shown)
 
 
-def test_an_old_link_fades():
-    def ink(age):
+def test_an_old_link_turns_amber_and_then_red():
+    def inks(age):
         lines = tree(moment(WORLD, info("a", "world"), ages={"a": age}))
-        return lines[2].spans[-1].style.color.triplet.hex
+        return {span.style.color.triplet.hex for span in lines[2].spans if span.style.color}
 
-    assert ink(0.0) == theme.hexadecimal(theme.DARK.text)
-    assert ink(10.0) == "#b2b2b2"
-    assert len({ink(age) for age in (0.0, 7.0, 10.0, 13.0, 16.0)}) == 5
+    amber, red = (theme.hexadecimal(one) for one in (theme.DARK.warning, theme.DARK.error))
+    assert theme.hexadecimal(theme.DARK.text) in inks(0.0)
+    assert amber in inks(10.0)
+    assert red in inks(19.9)
+    assert not {amber, red} & inks(4.9)
 
 
 def test_a_rate_of_one_sample_is_none():
@@ -197,40 +199,44 @@ def echo(sample, width=40, height=6, look=PLAIN):
 def test_a_pair_is_told_in_numbers_and_words():
     assert echo(found(yaw=math.pi / 2)) == [
         "turtle1 in turtle2",
-        "xyz  3.000 4.000 0.000",
-        "quat 0.000 0.000 0.707 0.707",
-        "rpy  0.0° 0.0° 90.0°",
-        "away 5.000 m, 53.1° left",
-        "time 1009.500",
+        "at    1009.500",
+        "xyz     3.000   4.000   0.000",
+        "quat    0.000   0.000   0.707   0.707",
+        "rpy       0.0     0.0    90.0°",
+        "away  5.000 m, 53.1° left",
     ]
 
 
 def test_a_pair_in_a_narrow_panel_is_told_shorter():
-    assert echo(found(-3.0, -4.0), width=24, look=ASCII) == [
+    assert echo(found(-3.0, -4.0), width=26, look=ASCII) == [
         "turtle1 in turtle2",
-        "xyz -3.00 -4.00 0.00",
-        "q 0.00 0.00 0.00 1.00",
-        "rpy 0.0d 0.0d 0.0d",
-        "5.000 m, 126.9d right",
-        "t 1009.500",
+        "t  1009.500",
+        "p   -3.00  -4.00   0.00",
+        "q   0.00  0.00  0.00  1.00",
+        "r     0.0    0.0    0.0",
+        "   5.000 m, 126.9d right",
     ]
 
 
-def test_with_room_a_pair_is_told_as_tf2_echo_does():
-    lines = echo(found(), width=62, height=12)
+@pytest.mark.parametrize("width", [26, 40, 60])
+def test_numbers_stand_where_they_stood_when_their_sign_changes(width):
+    def places(x, y, yaw):
+        lines = echo(found(x, y, yaw), width=width, height=12)[1:5]
+        return [[at for at, sign in enumerate(line) if sign == "."] for line in lines]
 
-    assert lines[0] == "turtle1 in turtle2"
-    assert lines[1] == "At time 1009.500000000"
-    assert lines[2] == "- Translation: [3.000, 4.000, 0.000]"
-    assert lines[-1] == "- Away: 5.000 m, 53.1° left"
-    assert len(lines) <= 12
+    assert places(3.0, 4.0, 0.5) == places(-3.0, -4.0, -0.5) == places(-12.0, 4.0, 3.0)
 
 
-def test_the_time_in_a_panel_reads_as_a_decimal():
-    stamp = seconds(1009) + 55_000_549
+def test_with_room_a_pair_is_told_in_every_notation():
+    lines = echo(found(yaw=math.pi / 2), width=62, height=12)
 
-    assert echo(found(stamp=stamp), width=62, height=12)[1] == "At time 1009.055000549"
-    assert echo(found(stamp=stamp))[-1] == "time 1009.055"
+    assert lines[6:] == [
+        "rad     0.000   0.000   1.571",
+        "mat     0.000  -1.000   0.000   3.000",
+        "        1.000   0.000   0.000   4.000",
+        "        0.000   0.000   1.000   0.000",
+        "        0.000   0.000   0.000   1.000",
+    ]
 
 
 @pytest.mark.parametrize(
@@ -238,12 +244,12 @@ def test_the_time_in_a_panel_reads_as_a_decimal():
     [(2.0, 0.0, "2.000 m, ahead"), (0.0, -2.0, "2.000 m, 90.0° right"), (0.0, 0.0, "0.000 m")],
 )
 def test_where_the_source_is_in_words(x, y, said):
-    assert f"away {said}" in echo(found(x, y, stamp=0))
-    assert not any(line.startswith("time") for line in echo(found(x, y, stamp=0)))
+    assert f"away  {said}" in echo(found(x, y, stamp=0))
+    assert "at    at all times" in echo(found(x, y, stamp=0))
 
 
 def test_nothing_is_never_less_than_nothing():
-    assert "xyz  0.000 0.000 0.000" in echo(found(-0.0001, -0.0))
+    assert "xyz     0.000   0.000   0.000" in echo(found(-0.0001, -0.0))
 
 
 def test_a_refusal_is_told_in_full():
@@ -291,6 +297,32 @@ def test_what_is_fatal_is_as_red_as_an_error_and_counted_as_one():
 
     assert words(lines) == ["   2.0 sim: engine 2 is gone ×3"]
     assert PLAIN.ink(PLAIN.palette.error) in [span.style for span in lines[0].spans]
+
+
+def test_the_log_is_in_order_when_a_line_of_before_is_said_again():
+    journal = Journal([record(1, "hit"), record(2, "spawned"), record(3, "hit")])
+
+    assert log(journal) == ["   2.0 sim: spawned", "   3.0 sim: hit ×2"]
+    assert log(journal, until=2) == ["   1.0 sim: hit", "   2.0 sim: spawned"]
+
+
+def test_the_strip_is_the_newest_line_and_says_how_to_see_more():
+    journal = Journal([record(1, "early"), record(5, "late " * 20)])
+
+    def strip(until):
+        return journal.strip(seconds(1000 + until), seconds(1000), 40, PLAIN).plain
+
+    assert strip(3) == f"    1.0 sim: early{'':14}  L log "
+    assert strip(9) == "    5.0 sim: late late late lat…  L log "
+    assert strip(0).startswith(" Nothing was said yet.")
+
+
+def test_the_scenarios_are_listed_round_the_cursor():
+    offered = [(f"s{n}", f"about {n}") for n in range(9)]
+
+    lines = words(panels.scenarios(offered, 6, 20, 3, PLAIN))
+
+    assert lines == ["  s5  about 5", "▸ s6  about 6", "  s7  about 7"]
 
 
 def test_two_turtles_that_spawn_are_two_lines():

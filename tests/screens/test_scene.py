@@ -327,7 +327,9 @@ async def _pass(clock, second):
 def test_in_the_past_age_counts_from_the_stamp(danced):
     at = danced.world.clock.now() - seconds(1)
 
-    assert danced.moment(at, "", "").ages["turtle1"] == 0.0
+    stamps = danced.world.buffer.samples("turtle1").stamps.tolist()
+    newest = max(stamp for stamp in stamps if stamp <= at)
+    assert danced.moment(at, "", "").ages["turtle1"] == (at - newest) / 1e9
 
 
 def test_the_background_is_the_simulators(turtles):

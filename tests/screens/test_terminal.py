@@ -8,6 +8,7 @@ from tests.nodes.vectors import VECTORS
 from tftool.errors import NodeFailed, TftoolError, UsageError
 from tftool.frames.sample import TransformStamped
 from tftool.geometry.rigid import Transform
+from tftool.nodes.idle_drawing import IdleDrawing
 from tftool.runtime.clock import WallClock, run
 from tftool.runtime.node import Node
 from tftool.runtime.supervisor import live
@@ -73,7 +74,8 @@ def test_everything_is_on_the_screen_at_any_usual_size(danced, size):
         "Frames in world",
         "Tree",
         "Echo",
-        "Log",
+        "Plot",
+        "L log",
         "live",
         "turtle1 in turtle2",
         "62.6",
@@ -161,7 +163,7 @@ def test_one_zooms_in_and_out_and_back_to_all_there_is(danced):
     whole = scale_of(plain)
 
     assert near[-1] - near[0] < whole[-1] - whole[0] < far[-1] - far[0]
-    assert shown(danced, keys=("plus", "shift+left", "minus", "0")) == plain
+    assert scale_of(shown(danced, keys=("plus", "shift+left", "minus", "0"))) == whole
 
 
 def test_the_picture_is_moved(danced):
@@ -228,7 +230,7 @@ def test_a_key_that_is_refused_is_told_in_the_log(turtles):
 def test_the_echo_says_what_a_lookup_says(danced):
     x, y, z = danced.world.buffer.lookup_transform("turtle2", "turtle1").transform.translation
 
-    assert f"xyz  {x:.3f} {y:.3f} {z:.3f}" in "\n".join(shown(danced))
+    assert f"xyz   {x:7.3f} {y:7.3f} {z:7.3f}" in "\n".join(shown(danced))
 
 
 def test_tab_picks_the_panel(danced):
@@ -296,18 +298,129 @@ def test_time_travel_shows_everything_at_that_moment(danced):
     text = "\n".join(shown(danced, keys=("{", "{", "[", "[")))
 
     assert "11.8 s  ◀◀ 2.2 s ago" in text
-    assert f"xyz  {x:.3f} {y:.3f} {z:.3f}" in text
-    assert "time 1011.800" in text
+    assert f"xyz   {x:7.3f} {y:7.3f} {z:7.3f}" in text
+    assert "at    1011.800" in text
     assert "l live" in text
 
 
-def test_one_comes_back_from_the_past(danced):
-    live_screen = shown(danced)
+def told(lines):
+    """The top line, and what stands beside the picture."""
+    return [lines[0], *(line.rpartition("││")[2] for line in lines[1:-2])]
 
-    assert shown(danced, keys=("[", "[", "]", "]")) == live_screen
-    assert shown(danced, keys=("{", "l")) == live_screen
-    assert shown(danced, keys=("]", "}")) == live_screen
-    assert shown(danced, keys=("[",)) != live_screen
+
+def test_one_comes_back_from_the_past(danced):
+    live_screen = told(shown(danced))
+
+    assert told(shown(danced, keys=("[", "[", "]", "]"))) == live_screen
+    assert told(shown(danced, keys=("{", "l"))) == live_screen
+    assert told(shown(danced, keys=("]", "}"))) == live_screen
+    assert told(shown(danced, keys=("[",))) != live_screen
+
+
+def test_an_earlier_moment_is_marked_in_the_plots(danced):
+    def cursor(*keys):
+        lines = shown(danced, (100, 40), keys=keys)
+        return {line.index("┃") for line in lines if "┃" in line}
+
+    assert cursor() == set()
+    (early,), (late,) = cursor("{", "{", "{", "{"), cursor("{")
+    assert early < late
+
+
+def test_scrubbed_to_a_moment_the_tree_shows_the_rates_of_that_moment(turtles):
+    """Of a link that begins at 2 s, 100 ms later: six samples in 80 ms, as tf2 counts."""
+    scene = turtles(9.0, (), followed=True)
+    spawned = scene.world.buffer.samples("turtle2").stamps[0]
+
+    at = int(spawned) + seconds(0.1)
+    info = scene.moment(at, "turtle2", "turtle1").snapshot.frame("turtle2")
+
+    early = [one for one in scene.world.buffer.samples("turtle2").stamps.tolist() if one <= at]
+    assert (info.samples, info.oldest, info.newest) == (len(early), early[0], early[-1])
+    assert info.rate == pytest.approx(len(early) / ((early[-1] - early[0]) / 1e9))
+    assert info.rate > 70
+
+
+def test_the_log_is_a_strip_that_opens_and_closes(danced):
+    first = "turtlesim: Starting turtlesim"
+    strip = shown(danced)
+    opened = "\n".join(shown(danced, keys=("L",)))
+
+    assert "follower: Successfully spawned turtle2" in strip[-2]
+    assert first not in "\n".join(strip)
+    assert first in opened
+    assert "Log ─" in opened
+    assert first not in "\n".join(shown(danced, keys=("L", "L")))
+    assert first not in "\n".join(shown(danced, keys=("L", "escape")))
+
+
+@pytest.mark.parametrize("size", [(60, 60), (80, 24), (120, 40), (60, 20)])
+def test_names_are_whole_at_every_usual_size(danced, size):
+    text = "\n".join(shown(danced, size))
+
+    assert text.count("turtle1") >= 3
+    assert "tur…" not in text
+    assert "turt…" not in text
+
+
+OFFERED = (("carrot", "turtle2 follows carrot1."), ("robot", "A robot."))
+
+
+def test_another_scenario_is_chosen_from_a_list(danced):
+    async def steps(app, pilot):
+        await pilot.press("o")
+        await settled(pilot)
+        assert "A robot." in "\n".join(screen(app))
+        await pilot.press("down")
+        await pilot.press("enter")
+        await pilot.pause()
+
+    app = visit(danced, (100, 30), steps, scenarios=lambda: OFFERED)
+
+    assert app.chosen == "robot"
+    assert app.return_code == 0
+
+
+def test_the_list_of_scenarios_goes_away_unused(danced):
+    pressed = []
+    plain = told(shown(danced, scenarios=lambda: OFFERED))
+
+    for keys in (("o", "o"), ("o", "down", "escape")):
+        assert told(shown(danced, keys=keys, press=pressed.append, scenarios=lambda: OFFERED)) == (
+            plain
+        )
+    assert "robot" not in "\n".join(shown(danced, keys=("o",)))
+    assert pressed == []
+
+
+def test_the_key_help_says_how_it_closes(danced):
+    assert "? or Esc closes them" in "\n".join(shown(danced, keys=("?",)))
+
+
+def test_a_turtle_that_draws_by_itself_is_said_and_a_key_stops_it(turtles):
+    drawing = []
+
+    def leave_alone(world):
+        drawing.append(IdleDrawing(world))
+
+    scene = turtles(9.0, (), followed=False, extra=leave_alone)
+    (idle,) = drawing
+    assert idle.is_drawing
+    app = TurtleApp(scene, lambda key: None, Setting(), idle)
+    shown_before, shown_after = [], []
+
+    async def main():
+        async with app.run_test(size=(100, 30)) as pilot:
+            await settled(pilot)
+            shown_before.extend(screen(app))
+            await pilot.press("j")
+            await settled(pilot)
+            shown_after.extend(screen(app))
+
+    asyncio.run(main())
+    assert "turtle1 draws by itself; a key stops it" in "\n".join(shown_before)
+    assert "by itself;" not in "\n".join(shown_after)
+    assert not idle.is_drawing
 
 
 def test_one_cannot_go_further_back_than_the_buffer(danced):
@@ -323,15 +436,15 @@ def test_in_the_past_another_pair_can_be_picked(danced):
     text = "\n".join(shown(danced, keys=("{", "x")))
 
     assert "turtle2 in turtle1" in text
-    assert f"xyz  {x:.3f} {y:.3f} {z:.3f}" in text
+    assert f"xyz   {x:7.3f} {y:7.3f} {z:7.3f}" in text
 
 
 def test_the_key_help_comes_and_goes(danced):
     plain = shown(danced)
 
     assert "swap the two frames" in "\n".join(shown(danced, keys=("?",)))
-    assert shown(danced, keys=("?", "?")) == plain
-    assert shown(danced, keys=("?", "escape")) == plain
+    assert told(shown(danced, keys=("?", "?"))) == told(plain)
+    assert told(shown(danced, keys=("?", "escape"))) == told(plain)
 
 
 @pytest.mark.parametrize("case", VECTORS["teleop_keys"], ids=lambda case: case["key"])
@@ -387,7 +500,7 @@ def test_for_teleop_there_is_the_banner_and_the_field(danced):
 
     assert "Reading from keyboard" in text
     assert "'q' to quit." in text
-    assert "Log" in text
+    assert "L log" in text
     assert "Tree" not in text
     assert "Reading" not in "\n".join(shown(danced, (60, 20), drive_only=True, banner=BANNER))
 
@@ -476,7 +589,7 @@ def test_only_lines_that_changed_are_painted(turtles, monkeypatch):
 
     visit(scene, (100, 30), steps)
 
-    assert painted == list(range(3, 26))
+    assert painted == list(range(3, 25))
 
 
 def test_q_ends_it(danced):

@@ -38,7 +38,7 @@ def terminal(tmp_path):
         one.tmux("kill-server")
 
 
-DEMO = ("-m", "tftool", "demo")
+DEMO = ("-m", "tftool", "demo", "--still")
 
 
 def apart(screen):

@@ -9,6 +9,7 @@ from tftool.errors import UsageError
 from tftool.stamps import seconds
 
 if TYPE_CHECKING:
+    from tftool.nodes.idle_drawing import IdleDrawing
     from tftool.nodes.teleop import Teleop
     from tftool.nodes.turtlesim import Turtlesim
     from tftool.runtime.world import World
@@ -57,7 +58,8 @@ def run_app(
     life: Coroutine[Any, Any, None],
     driver: "Teleop | None",
     setting: "Setting",
-) -> None:
+    idle: "IdleDrawing | None" = None,
+) -> str | None:
     """Show a world on the terminal while it lives.
 
     Args:
@@ -65,6 +67,10 @@ def run_app(
         life: Lives the world through; it is cancelled when the user quits.
         driver: Who takes the keys.
         setting: How to show it.
+        idle: Draws while no key is pressed, where something does.
+
+    Returns:
+        The scenario to show instead, where the user chose one.
 
     Raises:
         NodeFailed: If a node raised.
@@ -79,8 +85,9 @@ def run_app(
 
     setting = setting_from(os.environ, sys.stdout.encoding or "ascii", setting)
     scene = Scene(world, simulator_of(world) or FarTurtles(world))
-    app = TurtleApp(scene, None if driver is None else _press_of(scene, driver), setting)
+    app = TurtleApp(scene, None if driver is None else _press_of(scene, driver), setting, idle)
     run(world.clock, show(app, life))
+    return app.chosen
 
 
 def _press_of(scene: "Scene", driver: "Teleop") -> Callable[[str], object]:

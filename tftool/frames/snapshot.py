@@ -25,8 +25,12 @@ def snapshot(tree: FrameTree, now: Stamp, at: Stamp) -> Snapshot:
 
 def rate(link: Link) -> float:
     """Samples per second by tf2's formula, in hertz: 10000 for a single one and for constants."""
-    span = max(link.newest_stamp - link.oldest_stamp, _SHORTEST)
-    return len(link) * 1e9 / span
+    return rate_of(len(link), link.newest_stamp - link.oldest_stamp)
+
+
+def rate_of(samples: int, span: Duration) -> float:
+    """Samples per second by tf2's formula, in hertz, of some samples from first to last."""
+    return samples * 1e9 / max(span, _SHORTEST)
 
 
 class _Sweep:

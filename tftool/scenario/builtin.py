@@ -38,6 +38,13 @@ def names() -> list[str]:
     return sorted(path.stem for path in folder().glob("*.yaml"))
 
 
+def abouts() -> list[tuple[str, str]]:
+    """Every built-in scenario by its name, and what it is about."""
+    from tftool.scenario.load import load
+
+    return [(path.stem, load(path, {}).about) for path in sorted(folder().glob("*.yaml"))]
+
+
 def path_of(name: str) -> Path | None:
     """The file of a built-in scenario; None where none has that name.
 

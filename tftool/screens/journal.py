@@ -14,16 +14,28 @@ from tftool.stamps import Stamp, as_seconds
 
 @dataclass(slots=True)
 class _Entry:
-    first: LogRecord
-    last: LogRecord
+    """A line, and when it was said: of many times only the newest, and how many there were."""
+
+    record: LogRecord
     kind: str
-    times: int = 1
+    stamps: deque[Stamp]
+    forgotten: int = 0
+
+    def times(self, until: Stamp) -> int:
+        """How often it had been said by a moment."""
+        later = sum(1 for stamp in self.stamps if stamp > until)
+        return 0 if later == len(self.stamps) else self.forgotten + len(self.stamps) - later
+
+    def last(self, until: Stamp) -> Stamp:
+        """When it had been said last by a moment."""
+        return max((stamp for stamp in self.stamps if stamp <= until), default=0)
 
 
 class Journal:
     """The log as a person wants it: what repeats is one line with a count."""
 
     KEPT = 300
+    STAMPS = 400
     # What a node warns of again and again differs in its numbers.
     _NUMBERS = re.compile(r"-?\d+(\.\d+)?")
 
@@ -42,10 +54,13 @@ class Journal:
         # Those that repeat themselves take turns: the last few lines are looked at.
         for entry in list(self._entries)[-4:]:
             if entry.kind == kind:
-                entry.last = record
-                entry.times += 1
+                entry.record = record
+                if len(entry.stamps) == self.STAMPS:
+                    entry.stamps.popleft()
+                    entry.forgotten += 1
+                entry.stamps.append(record.stamp)
                 return
-        self._entries.append(_Entry(record, record, kind))
+        self._entries.append(_Entry(record, kind, deque([record.stamp])))
 
     def lines(
         self, until: Stamp, start: Stamp, width: int, height: int, look: Look, *, back: int = 0
@@ -60,27 +75,59 @@ class Journal:
             look: How to paint.
             back: How many of the newest lines to leave out.
         """
-        told = [entry for entry in self._entries if entry.first.stamp <= until]
+        told = self._told(until)
         told = told[: max(len(told) - back, 1)]
         if not told:
             return [Text("Nothing was said yet.", look.ink(look.palette.dim))]
         shown: list[Text] = []
         for entry in reversed(told):
-            lines = self._entry(entry, start, width, look)
+            lines = self._entry(entry, until, start, width, look)
             shown[:0] = lines[: max(0, height - len(shown))]
             if len(shown) >= height:
                 break
         return shown
 
-    def _entry(self, entry: _Entry, start: Stamp, width: int, look: Look) -> list[Text]:
-        palette = look.palette
+    def strip(self, until: Stamp, start: Stamp, width: int, look: Look) -> Text:
+        """The newest line up to a moment in one row, and how to see more.
+
+        Args:
+            until: The moment shown.
+            start: The moment that counts as 0.
+            width: Cells across.
+            look: How to paint.
+        """
+        told = self._told(until)
+        dim = look.ink(look.palette.dim)
+        more = Text.assemble(("  L", look.ink(look.palette.accent, bold=True)), (" log ", dim))
+        line = Text(" Nothing was said yet.", dim)
+        if told:
+            line = Text.assemble(" ", *self._entry(told[-1], until, start, 10_000, look)[:1])
+        room = max(0, width - more.cell_len)
+        if line.cell_len > room:
+            line.truncate(max(0, room - 1))
+            line.append(look.more)
+        line.append(" " * max(0, room - line.cell_len))
+        line.append_text(more)
+        line.truncate(width)
+        return line
+
+    def _told(self, until: Stamp) -> list[_Entry]:
+        """What had been said by a moment, in the order in which each was said last."""
+        told = [entry for entry in self._entries if entry.times(until)]
+        return sorted(told, key=lambda entry: entry.last(until))
+
+    def _entry(
+        self, entry: _Entry, until: Stamp, start: Stamp, width: int, look: Look
+    ) -> list[Text]:
+        palette, record = look.palette, entry.record
         colors = {"WARN": palette.warning, "ERROR": palette.error, "FATAL": palette.error}
-        color = colors.get(entry.last.level, palette.text)
-        when = f"{as_seconds(entry.last.stamp - start):.1f} "
+        color = colors.get(record.level, palette.text)
+        when = f"{as_seconds(entry.last(until) - start):.1f} "
         indent = 2 if width < 40 else 7
         when = when.rjust(indent)
-        times = f" {'x' if look.ascii_only else '×'}{entry.times}" if entry.times > 1 else ""
-        words = f"{entry.last.node}: {entry.last.text}"
+        count = entry.times(until)
+        times = f" {'x' if look.ascii_only else '×'}{count}" if count > 1 else ""
+        words = f"{record.node}: {record.text}"
         # The first line shares its place with the time, the others stand a little in.
         lines = wrapped(
             words, max(8, width - indent), look.ink(color), first=max(8, width - len(when))

@@ -23,12 +23,17 @@ KEYS = """\
  { }          by a second
  l            back to live
 
+ L            open the log, or close it (Esc closes it too)
+ o            another scenario
  m            light or dark
+ ? or Esc     close these keys
  q            quit
 """
 
 
-def hints(panel: str, *, drives: bool, past: bool, ascii_only: bool) -> Sequence[Hint]:
+def hints(
+    panel: str, *, drives: bool, past: bool, ascii_only: bool, chooses: bool = False
+) -> Sequence[Hint]:
     """List the keys that matter now, in the order in which a narrow line keeps them.
 
     Args:
@@ -36,10 +41,18 @@ def hints(panel: str, *, drives: bool, past: bool, ascii_only: bool) -> Sequence
         drives: Whether something can be driven.
         past: Whether an earlier moment is shown.
         ascii_only: Whether keys are written in ASCII.
+        chooses: Whether another scenario can be chosen.
     """
     arrows, updown = ("arrows", "up/down") if ascii_only else ("↑↓←→", "↑↓")
     travel = [Hint("l", "live"), Hint("[ ]", "time")] if past else [Hint("[ ]", "past")]
     always = [*travel, Hint("Tab", "panel"), Hint("?", "keys")]
+    if panel == "scenarios":
+        return [
+            Hint(updown, "choose"),
+            Hint("Enter", "show it"),
+            Hint("Esc", "back"),
+            Hint("q", "quit"),
+        ]
     end = Hint("q", "quit")
     if panel == "tree":
         pick = [Hint(updown, "pick"), Hint("Enter", "measure from"), Hint("x", "swap")]
@@ -48,6 +61,9 @@ def hints(panel: str, *, drives: bool, past: bool, ascii_only: bool) -> Sequence
         return [Hint(updown, "source"), Hint("x", "swap"), *always, end]
     if panel == "log":
         return [Hint(updown, "scroll"), *always, end]
+    look = [Hint("F", "fix frame"), Hint("+ - 0", "zoom")]
+    other = [Hint("o", "scenarios")] if chooses else []
     if not drives:
-        return [*always, end]
-    return [Hint(arrows, "drive"), *always, Hint("gbvcdert", "turn, f cancel"), end]
+        return [*always, *look, *other, end]
+    turn = [Hint("gbvcdert", "turn, f cancel")]
+    return [Hint(arrows, "drive"), *always, *look, *other, *turn, end]

@@ -11,8 +11,14 @@ WITH_PANELS = 56
 PAIR_LINES = 6
 """Lines the echo needs to say everything shortly."""
 
-BLOCK_LINES, BLOCK_WIDTH = 12, 62
-"""Lines and columns from which it says everything as tf2_echo does."""
+BLOCK_LINES = 11
+"""Lines in which it says the rotation as radians and as a matrix, too."""
+
+LEAST_PLOT = 6
+"""Lines of the plots, with their border."""
+
+SCALE = 5
+"""Columns left of the picture for its metres."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -21,11 +27,12 @@ class ScreenLayout:
 
     Attributes:
         small: Whether there is room for nothing.
-        alone: Whether the field has no panels beside it.
+        alone: Whether the picture has no panels beside it.
         portrait: Whether they stand under it.
-        field: The field's width and height.
+        field: The picture's width and height.
         tree: The tree's height.
         pair: The echo's height.
+        log: The log's height when it is open.
     """
 
     small: bool = False
@@ -34,6 +41,7 @@ class ScreenLayout:
     field: tuple[int, int] = (0, 0)
     tree: int = 0
     pair: int = 0
+    log: int = 0
 
 
 def arranged(width: int, height: int, banner: int, frames: int) -> ScreenLayout:
@@ -47,15 +55,24 @@ def arranged(width: int, height: int, banner: int, frames: int) -> ScreenLayout:
     """
     if width < SMALLEST[0] or height < SMALLEST[1]:
         return ScreenLayout(small=True)
+    # A top line, the log's strip and a line of keys; and every panel has a border.
+    room = height - 3 - banner
+    log = max(4, min(12, room // 3))
     if width < WITH_PANELS:
-        return ScreenLayout(alone=True)
-    # A top line and a line of keys; and every panel has a border.
-    room = height - 2 - banner
+        return ScreenLayout(alone=True, log=log)
     beside = min(room - 2, (width - (28 if width < 84 else 38)) // 2)
-    under = min((width - 2) // 2, room - 12)
+    pair = PAIR_LINES + 2
+    tree = max(4, frames + 3)
+    under = min((width - 2) // 2, room - 2 - pair - LEAST_PLOT - min(tree, 7))
     if under > 1.15 * beside:
-        return ScreenLayout(portrait=True, field=(0, under + 2))
-    pair = (BLOCK_LINES if room >= 40 else PAIR_LINES) + 2
-    least_log = max(3, room // 4)
-    tree = min(max(4, frames + 3), max(5, room - pair - least_log))
-    return ScreenLayout(field=(2 * beside + 2, 0), tree=tree, pair=pair)
+        left = room - under - 2 - pair - LEAST_PLOT
+        return ScreenLayout(
+            portrait=True, field=(0, under + 2), tree=min(tree, left), pair=pair, log=log
+        )
+    if room >= 36:
+        pair = BLOCK_LINES + 2
+    tree = min(tree, max(5, room - pair - max(LEAST_PLOT, room // 4)))
+    across = 2 * beside + 2
+    if width - across - SCALE >= 38:
+        across += SCALE
+    return ScreenLayout(field=(across, 0), tree=tree, pair=pair, log=log)

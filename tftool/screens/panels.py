@@ -7,13 +7,13 @@ from typing import NamedTuple
 from rich.cells import cell_len
 from rich.text import Text
 
-from tftool.frames.sample import FrameInfo, Snapshot
+from tftool.frames.sample import FrameInfo, Snapshot, TransformStamped
 from tftool.geometry.conversions import rpy_from_quaternion
-from tftool.screens.layout import BLOCK_LINES, BLOCK_WIDTH
+from tftool.screens.layout import BLOCK_LINES
 from tftool.screens.look import Look, wrapped
 from tftool.screens.scene import SceneMoment
 from tftool.stamps import as_seconds
-from tftool.views import echo, theme
+from tftool.views import theme
 from tftool.views.fixed_width import fitted, padded, plain
 
 
@@ -59,7 +59,7 @@ def in_view(listed: Sequence[Row], cursor: str, height: int) -> Sequence[Row]:
 def tree(
     moment: SceneMoment, listed: Sequence[Row], cursor: str, width: int, height: int, look: Look
 ) -> list[Text]:
-    """Show every link with its rate and age, fading when it goes stale.
+    """Show every link with its rate and age: amber when it is stale, then red.
 
     Args:
         moment: What to show.
@@ -82,11 +82,9 @@ def tree(
     for row in visible:
         info = row.info
         age = moment.ages.get(info.frame, 0.0)
-        ink = theme.faded(look.palette.text, age, look.palette.panel)
-        # A dead frame keeps its line, hardly to be seen: where else could one read that it is dead?
-        style = look.ink(ink or theme.blend(look.palette.panel, look.palette.dim, 0.5))
+        style = look.ink(theme.of_age(look.palette.text, age, look.palette))
         picked = info.frame == cursor
-        fresh = info.parent is not None and age <= theme.FRAME_TIMEOUT / 3
+        fresh = not theme.is_stale(age)
         mark = (">" if look.ascii_only else "▸") if picked else " "
         mark += ("*" if look.ascii_only else "◎") if info.frame == moment.pair.target else " "
         guide = fitted(row.guide[:: 3 if tight else 1], max(0, room - 6), more=look.more)
@@ -140,15 +138,17 @@ def _facts(info: FrameInfo, age: float, columns: _Columns, look: Look) -> str:
     none = "-" if look.ascii_only else "–"
     rate = f"{info.rate:.1f}" if info.samples > 1 and info.rate < 9999.0 else none
     shown = f"{age:.1f} s" if age < 100.0 else f"{age:.0f} s"
-    if columns.age > 10 and age > theme.FRAME_TIMEOUT / 3:
-        shown = ("dead " if age > theme.FRAME_TIMEOUT else "stale ") + shown
+    if columns.age > 10 and theme.is_stale(age):
+        shown += " ago"
     return f"{rate:>{columns.rate}}{shown:>{columns.age}}"
 
 
 def pair(moment: SceneMoment, width: int, height: int, look: Look) -> list[Text]:
-    """Say where the source is in the target: shortly, or with room as tf2_echo does."""
+    """Say where the source is in the target: shortly, or with room in every notation.
+
+    Columns are as wide for a number above nothing as for one below: nothing shifts.
+    """
     asked, dim = moment.pair, look.ink(look.palette.dim)
-    text = look.ink(look.palette.text)
     half = max(1, (width - 4) // 2)
     source, target = (
         (fitted(name, half, more=look.more), look.ink(look.of_name(name), bold=True))
@@ -157,27 +157,45 @@ def pair(moment: SceneMoment, width: int, height: int, look: Look) -> list[Text]
     lines = [Text.assemble(source, (" in ", dim), target)]
     if asked.found is None:
         return lines + wrapped(asked.refusal, width, look.ink(look.palette.warning))
-    away = _away(*asked.found.transform.translation, look)
-    if width >= BLOCK_WIDTH and height >= BLOCK_LINES:
-        block = echo.block(asked.found, pads_time=True).splitlines()
-        return [*lines, *(Text(line, text) for line in [*block, f"- Away: {away}"])]
-    (x, y, z), rotation = asked.found.transform
-    degrees = (math.degrees(angle) for angle in rpy_from_quaternion(rotation))
-    narrow = width < 30
-    digits = 2 if narrow else 3
-    facts = [
-        ("xyz", _numbers((x, y, z), digits)),
-        ("q" if narrow else "quat", _numbers(rotation, digits)),
-        ("rpy", " ".join(_number(value, 1) + _degree(look) for value in degrees)),
-        ("" if narrow else "away", away),
-    ]
-    if asked.found.stamp:
-        facts.append(("t" if narrow else "time", f"{as_seconds(asked.found.stamp):.3f}"))
+    narrow = width < 36
+    facts = _facts_of(asked.found, narrow=narrow, look=look)
+    if height >= BLOCK_LINES and not narrow:
+        facts += _more_facts(asked.found)
     for name, value in facts:
-        label = f"{name} " if narrow and name else "" if narrow else f"{name:5}"
-        shown = fitted(value, width - len(label), more=look.more)
-        lines.append(Text.assemble((label, dim), (shown, text)))
+        label = f"{name:{2 if narrow else 5}}"
+        shown = fitted(value, max(0, width - len(label)), more=look.more)
+        lines.append(Text.assemble((label, dim), (shown, look.ink(look.palette.text))))
     return lines
+
+
+def _facts_of(found: TransformStamped, *, narrow: bool, look: Look) -> list[tuple[str, str]]:
+    translation, rotation = found.transform
+    degrees = [math.degrees(angle) for angle in rpy_from_quaternion(rotation)]
+    stamp = f"{as_seconds(found.stamp):.3f}" if found.stamp else "at all times"
+    away = _away(*translation, look)
+    if narrow:
+        return [
+            ("t", f" {stamp}"),
+            ("p", _numbers(translation, 2, 7)),
+            ("q", _numbers(rotation, 2, 6)),
+            ("r", _numbers(degrees, 1, 7)),
+            ("", f" {away}"),
+        ]
+    return [
+        ("at", f" {stamp}"),
+        ("xyz", _numbers(translation, 3, 8)),
+        ("quat", _numbers(rotation, 3, 8)),
+        ("rpy", _numbers(degrees, 1, 8) + _degree(look)),
+        ("away", f" {away}"),
+    ]
+
+
+def _more_facts(found: TransformStamped) -> list[tuple[str, str]]:
+    """The angles in radians, and the rows of the matrix."""
+    radians = rpy_from_quaternion(found.transform.rotation)
+    matrix = found.transform.matrix()
+    rows = [("mat" if not place else "", _numbers(row, 3, 8)) for place, row in enumerate(matrix)]
+    return [("rad", _numbers(radians, 3, 8)), *rows]
 
 
 def _away(x: float, y: float, z: float, look: Look) -> str:
@@ -197,12 +215,35 @@ def _number(value: float, digits: int) -> str:
     return shown.lstrip("-") if not shown.strip("-0.") else shown
 
 
-def _numbers(values: Iterable[float], digits: int) -> str:
-    return " ".join(_number(value, digits) for value in values)
+def _numbers(values: Iterable[float], digits: int, width: int) -> str:
+    """Numbers in columns of `width`, a blank in front of each; a long one takes what it needs."""
+    return "".join(f" {_number(value, digits):>{width - 1}}" for value in values)
 
 
 def _degree(look: Look) -> str:
     return "d" if look.ascii_only else "°"
+
+
+def scenarios(
+    offered: Sequence[tuple[str, str]], cursor: int, width: int, height: int, look: Look
+) -> list[Text]:
+    """List what can be shown: a name and what it is about, the cursor on one of them."""
+    first = max(0, min(cursor - height // 2, len(offered) - height))
+    wide = max((cell_len(name) for name, _ in offered), default=0) + 2
+    dim, accent = look.ink(look.palette.dim), look.ink(look.palette.accent, bold=True)
+    lines = []
+    for place in range(first, min(len(offered), first + height)):
+        name, about = offered[place]
+        picked = place == cursor
+        mark = (">" if look.ascii_only else "▸") if picked else " "
+        lines.append(
+            Text.assemble(
+                (f"{mark} ", accent),
+                (padded(name, wide), accent if picked else look.ink(look.palette.text)),
+                (fitted(about, max(0, width - wide - 2), more=look.more), dim),
+            )
+        )
+    return lines
 
 
 def header(title: str, moment: SceneMoment, rate: float, width: int, look: Look) -> Text:

@@ -99,5 +99,6 @@ class SceneQuestion:
         soon = simulator is not None and bool(simulator.turtles) and moment.elapsed < PATIENCE
         if self._picked or soon or not names or all(name in snapshot for name in asked):
             return asked
-        source = self.source if self.source in snapshot else names[-1]
+        last = "base_link" if "base_link" in names else names[-1]
+        source = self.source if self.source in snapshot else last
         return snapshot.frame(source).root or names[0], source

@@ -6,7 +6,8 @@ from dataclasses import dataclass, replace
 from typing import NamedTuple, Protocol
 
 from tftool.errors import TransformException
-from tftool.frames.sample import Snapshot, TransformStamped
+from tftool.frames.sample import FrameInfo, Snapshot, TransformStamped
+from tftool.frames.snapshot import rate_of
 from tftool.geometry.planar import heading, transform_from_pose
 from tftool.geometry.rigid import Transform
 from tftool.messages import Color, Pose2D
@@ -182,6 +183,9 @@ class Scene:
         now = self.world.clock.now()
         stamp = now if at is None else at
         snapshot = self.world.buffer.snapshot(stamp, LATEST if at is None else at)
+        if at is not None:
+            frames = tuple(self._as_of(info, at) for info in snapshot.frames)
+            snapshot = Snapshot(snapshot.now, snapshot.at, frames)
         ages = self._ages(snapshot, now, at)
         return SceneMoment(
             stamp=stamp,
@@ -192,6 +196,13 @@ class Scene:
             picture=self._picture(snapshot, ages, at, (target, source), fixed),
             pair=self._pair(target, source, LATEST if at is None else at),
         )
+
+    def newest(self, target: str, source: str) -> Stamp | None:
+        """The newest moment at which a pair can be told; None where it never can, or always."""
+        try:
+            return self.world.buffer.get_latest_common_time(target, source) or None
+        except TransformException:
+            return None
 
     def again(self, moment: SceneMoment, target: str, source: str, fixed: str = "") -> SceneMoment:
         """The same moment with another pair; it need not be in the buffer any more."""
@@ -222,6 +233,24 @@ class Scene:
         except TransformException as refusal:
             return Pair(target, source, refusal=str(refusal))
         return Pair(target, source, found)
+
+    def _as_of(self, info: FrameInfo, at: Stamp) -> FrameInfo:
+        """A link as it was known at an earlier moment: no sample of later counts."""
+        if info.parent is None or info.is_static or info.newest <= at:
+            return info
+        stamps = self.world.buffer.samples(info.frame).stamps
+        held = stamps[stamps <= at]
+        if not len(held):
+            return info._replace(samples=0, rate=0.0, buffer_length=0, age=0)
+        oldest, newest = int(held[0]), int(held[-1])
+        return info._replace(
+            samples=len(held),
+            rate=rate_of(len(held), newest - oldest),
+            oldest=oldest,
+            newest=newest,
+            buffer_length=newest - oldest,
+            age=at - newest,
+        )
 
     def _ages(self, snapshot: Snapshot, now: Stamp, at: Stamp | None) -> dict[str, float]:
         """Give the age of every frame as rviz counts it: since its stamp last changed.

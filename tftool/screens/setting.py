@@ -1,6 +1,6 @@
 """What a screen is asked to be, and what its terminal can show."""
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
 
 from tftool.stamps import Stamp
@@ -20,6 +20,8 @@ class Setting:
         drive_only: Whether the field has the screen to itself, as in teleop.
         banner: Lines to show above the field.
         at: The moment to begin with, at rest; the present if None.
+        scenarios: Gives what can be shown instead, name and what it is about; None where
+            something else is no choice.
     """
 
     title: str = "tftool"
@@ -30,6 +32,7 @@ class Setting:
     drive_only: bool = False
     banner: tuple[str, ...] = ()
     at: Stamp | None = None
+    scenarios: Callable[[], Sequence[tuple[str, str]]] | None = None
 
 
 def setting_from(environment: Mapping[str, str], encoding: str, wanted: Setting) -> Setting:

@@ -6,7 +6,7 @@ Time in it is the world's; how often it looks is real time, so that a world at
 """
 
 import asyncio
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from typing import ClassVar
 
 from rich.text import Text
@@ -18,12 +18,14 @@ from textual.content import Content
 from textual.driver import Driver
 
 from tftool.errors import TftoolError
+from tftool.nodes.idle_drawing import IdleDrawing
 from tftool.runtime.world import World
 from tftool.screens import keys, panels
 from tftool.screens.journal import Journal
 from tftool.screens.keyboard import tolerant
 from tftool.screens.layout import SMALLEST, arranged
 from tftool.screens.look import Look, wrapped
+from tftool.screens.pair_history import PairPlot
 from tftool.screens.panel import Panel, themes
 from tftool.screens.plane_view import PlaneView
 from tftool.screens.question import SceneQuestion
@@ -51,6 +53,10 @@ class TurtleApp(App[None]):
         scene: Where to look.
         press: Takes a key that drives: "up", "g", ...; None where nothing can be driven.
         setting: How to show it.
+        idle: Draws while no key is pressed, where something does.
+
+    Attributes:
+        chosen: The scenario to show instead, once one was chosen.
     """
 
     CSS = """
@@ -65,11 +71,17 @@ class TurtleApp(App[None]):
     #banner { border: none; display: none; background: $background; }
     #body { height: 1fr; layout: horizontal; overflow: hidden; }
     #side { width: 1fr; height: 1fr; layout: vertical; overflow: hidden; }
+    #scenarios { layer: above; dock: top; display: none; border: round $accent; }
+    .ascii #scenarios { border: ascii $accent; }
     #keys { layer: above; dock: top; width: 76; display: none; border: round $accent; }
     .ascii #keys { border: ascii $accent; }
     Screen { layers: default above; }
     .portrait #body { layout: vertical; }
-    .portrait #side { layout: horizontal; }
+    #log { border: none; height: 1; background: $background; }
+    #log:focus { border: round $accent; background: $surface; }
+    .mono #log:focus { border: heavy $accent; }
+    .ascii #log { border: none; }
+    .ascii #log:focus { border: ascii $accent; }
     """
     ENABLE_COMMAND_PALETTE = False
     ALLOW_SELECT = False
@@ -100,6 +112,8 @@ class TurtleApp(App[None]):
         Binding("k", "pick(-1)", show=False),
         Binding("enter,space", "measure", show=False),
         Binding("x", "swap", show=False),
+        Binding("L", "log", show=False),
+        Binding("o,O", "scenarios", show=False),
         Binding("left_square_bracket", f"travel({-STEP})", show=False),
         Binding("right_square_bracket", f"travel({STEP})", show=False),
         Binding("left_curly_bracket", f"travel({-LEAP})", show=False),
@@ -110,7 +124,11 @@ class TurtleApp(App[None]):
     ]
 
     def __init__(
-        self, scene: Scene, press: Press | None = None, setting: Setting | None = None
+        self,
+        scene: Scene,
+        press: Press | None = None,
+        setting: Setting | None = None,
+        idle: IdleDrawing | None = None,
     ) -> None:
         self.setting = setting or Setting()
         # Without this, textual shows greys where NO_COLOR asks for none.
@@ -120,7 +138,11 @@ class TurtleApp(App[None]):
         self.interrupted = False
         self.title = self.setting.title
         self.ready = asyncio.Event()
+        self.chosen: str | None = None
         self._press = press
+        self._idle = idle
+        self._offered: Sequence[tuple[str, str]] = ()
+        self._offer = 0
         self._light = self.setting.light
         self._question = SceneQuestion(scene, self.setting.pair)
         self._question.at = self.setting.at
@@ -130,6 +152,7 @@ class TurtleApp(App[None]):
         self._back = 0
         self._rest_until = 0.0
         self._plane = PlaneView()
+        self._plot = PairPlot()
         self._dragged: tuple[int, int] | None = None
         self._rows_shown: tuple[str, ...] = ()
         self._journal = Journal(scene.world.log.records)
@@ -160,10 +183,12 @@ class TurtleApp(App[None]):
             with Container(id="side"):
                 yield Panel("tree", "Tree")
                 yield Panel("pair", "Echo")
-                yield Panel("log", "Log")
+                yield Panel("plot", "Plot", can_focus=False)
+        yield Panel("log", "Log")
         yield Panel("footer", can_focus=False)
         yield Panel("small", can_focus=False)
-        yield Panel("keys", "Keys", can_focus=False)
+        yield Panel("scenarios", "Scenarios", can_focus=False)
+        yield Panel("keys", "Keys: ? or Esc closes them", can_focus=False)
 
     def on_mount(self) -> None:
         """Start looking."""
@@ -210,13 +235,17 @@ class TurtleApp(App[None]):
         self.query_one("#body").display = not layout.small
         self.query_one("#side").display = not layout.alone
         self.screen.set_class(layout.portrait, "portrait")
-        field, tree, pair, log = (self.panel(name) for name in ("field", "tree", "pair", "log"))
+        field, tree, pair, plot = (self.panel(name) for name in ("field", "tree", "pair", "plot"))
         field.styles.width = layout.field[0] or "1fr"
         field.styles.height = layout.field[1] or "1fr"
-        for panel, lines in ((tree, layout.tree), (pair, layout.pair), (log, 0)):
-            panel.styles.width = "1fr" if layout.portrait else "100%"
+        for panel, lines in ((tree, layout.tree), (pair, layout.pair), (plot, 0)):
             panel.styles.height = lines or "1fr"
-        tree.display = pair.display = not self.setting.drive_only
+        if self.setting.drive_only:
+            self.query_one("#side").display = False
+            field.styles.width = field.styles.height = "1fr"
+        log = self.panel("log")
+        log.display = not layout.small
+        log.styles.height = layout.log if log.has_focus else 1
 
     def _banner(self, width: int) -> list[Text]:
         return [line for text in self.setting.banner for line in wrapped(text, width)]
@@ -230,6 +259,9 @@ class TurtleApp(App[None]):
         began = loop.time()
         try:
             self._count += 1
+            if self._idle is not None and (self._question.at is not None or self._is_over()):
+                # A person reads: nothing moves meanwhile.
+                self._idle.touch()
             self.scene.look()
             self._draw(panels_too=self._count % PANELS_EVERY == 0 or self._stale)
         except Exception as error:
@@ -284,6 +316,11 @@ class TurtleApp(App[None]):
         field.border_title = Content(
             panels.field_title(moment, is_chosen=bool(self._question.fixed))
         )
+        is_idle = self._idle is not None and self._idle.is_drawing
+        told = (
+            f"{self._idle.turtle} draws by itself; a key stops it" if is_idle and self._idle else ""
+        )
+        field.border_subtitle = Content(told)
         field.show(
             self._plane.lines(moment.picture, width, height, self.look, colors=self.setting.colors)
         )
@@ -293,24 +330,35 @@ class TurtleApp(App[None]):
         width = self.size.width
         self.panel("header").show([panels.header(self.title, moment, clock.rate, width, look)])
         hints = keys.hints(
-            (self.focused.id or "") if self.focused else "",
+            self._keys_go_to(),
             drives=self._press is not None,
             past=self._question.at is not None,
             ascii_only=look.ascii_only,
+            chooses=self.setting.scenarios is not None,
         )
         self.panel("footer").show([panels.footer(hints, width, look)])
         self.panel("banner").show(self._banner(width))
+        self._draw_log(moment)
         if not self.query_one("#side").display:
             return
-        tree, pair, log = (self.panel(name) for name in ("tree", "pair", "log"))
+        tree, pair, plot = (self.panel(name) for name in ("tree", "pair", "plot"))
         listed = panels.rows(moment.snapshot, ascii_only=look.ascii_only)
         shown = panels.in_view(listed, self._question.source, tree.size.height)
         self._rows_shown = tuple(row.info.frame for row in shown)
         tree.show(panels.tree(moment, listed, self._question.source, *tree.size, look))
         pair.show(panels.pair(moment, *pair.size, look))
-        log.show(
-            self._journal.lines(moment.stamp, self.scene.start, *log.size, look, back=self._back)
-        )
+        plot.show(self._plot.lines(moment, self.scene, *plot.size, look))
+
+    def _draw_log(self, moment: SceneMoment) -> None:
+        """The newest line in a strip; where the log has the keys, all there is room for."""
+        log, look = self.panel("log"), self.look
+        if log.has_focus:
+            lines = self._journal.lines(
+                moment.stamp, self.scene.start, *log.size, look, back=self._back
+            )
+        else:
+            lines = [self._journal.strip(moment.stamp, self.scene.start, log.size.width, look)]
+        log.show(lines)
 
     # The mouse
 
@@ -375,6 +423,21 @@ class TurtleApp(App[None]):
 
     # Keys
 
+    async def on_event(self, event: events.Event) -> None:
+        """Note that somebody is there."""
+        if isinstance(event, events.Key | events.MouseDown) and self._idle is not None:
+            self._idle.touch()
+        await super().on_event(event)
+
+    def _is_over(self) -> bool:
+        """Whether keys or scenarios lie over the picture."""
+        return bool(self.panel("keys").display or self.panel("scenarios").display)
+
+    def _keys_go_to(self) -> str:
+        if self.panel("scenarios").display:
+            return "scenarios"
+        return (self.focused.id or "") if self.focused else ""
+
     def action_drive(self, key: str) -> None:
         """Hand a key to the teleop node."""
         if self._press is not None:
@@ -385,9 +448,12 @@ class TurtleApp(App[None]):
 
     def action_steer(self, key: str) -> None:
         """Drive; or, in a panel of text, move there."""
-        focused = self.focused.id if self.focused else ""
+        focused = self._keys_go_to()
         step = {"up": -1, "down": 1}.get(key, 0)
-        if focused in {"tree", "pair"}:
+        if focused == "scenarios":
+            self._offer = max(0, min(len(self._offered) - 1, self._offer + step))
+            self._show_offered()
+        elif focused in {"tree", "pair"}:
             if step:
                 self.action_pick(step)
         elif focused == "log":
@@ -408,6 +474,20 @@ class TurtleApp(App[None]):
             self.screen.focus_previous()
         self.call_after_refresh(self.redraw)
 
+    def action_log(self) -> None:
+        """Open the log, or close it."""
+        log = self.panel("log")
+        (self.panel("field") if log.has_focus else log).focus()
+
+    def on_descendant_focus(self) -> None:
+        """Fit the panels: the log is open while it has the keys."""
+        self._fit_panels()
+
+    def _fit_panels(self) -> None:
+        self._back = 0
+        self._arrange(*self.size)
+        self.call_after_refresh(self.redraw)
+
     def action_pick(self, step: int) -> None:
         """Move through the tree: the frame under the cursor is the pair's source."""
         if self._question.pick(step):
@@ -415,6 +495,10 @@ class TurtleApp(App[None]):
 
     def action_measure(self) -> None:
         """Make the frame under the cursor the one that is measured in."""
+        if self.panel("scenarios").display:
+            self.chosen = self._offered[self._offer][0]
+            self.exit()
+            return
         self._question.measure()
         self.redraw()
 
@@ -454,7 +538,12 @@ class TurtleApp(App[None]):
 
     def action_live(self) -> None:
         """Show the present again, and hide the key help."""
-        self.panel("keys").display = False
+        if self._is_over():
+            self.panel("keys").display = self.panel("scenarios").display = False
+            self.redraw()
+            return
+        if self.panel("log").has_focus:
+            self.panel("field").focus()
         self._question.at = None
         self._back = 0
         self.redraw()
@@ -477,6 +566,26 @@ class TurtleApp(App[None]):
         panel.styles.height = len(lines) + 2
         panel.styles.offset = max(0, (width - 76) // 2), max(0, (height - len(lines) - 2) // 2)
         self.call_after_refresh(lambda: panel.show([Text(line) for line in lines]))
+
+    def action_scenarios(self) -> None:
+        """Show what else there is to be seen, or hide it."""
+        if self.setting.scenarios is None:
+            return
+        panel = self.panel("scenarios")
+        panel.display = not panel.display
+        self.panel("keys").display = False
+        if panel.display:
+            self._offered = self._offered or self.setting.scenarios()
+            width, height = self.size
+            wide, high = min(width - 2, 96), min(height - 2, len(self._offered) + 2)
+            panel.styles.width, panel.styles.height = wide, high
+            panel.styles.offset = max(0, (width - wide) // 2), max(0, (height - high) // 2)
+            self.call_after_refresh(self._show_offered)
+        self.redraw()
+
+    def _show_offered(self) -> None:
+        panel = self.panel("scenarios")
+        panel.show(panels.scenarios(self._offered, self._offer, *panel.size, self.look))
 
     def action_leave(self) -> None:
         """End."""

@@ -127,7 +127,7 @@ def from_above(found: Sequence[Trajectory], look: PlotLook) -> Text:
     left, bottom = middle_x - 0.5 * wide, middle_y - 0.5 * high
     ink = Ink(columns, rows, 0.0, 0.0, 1.0)
     for place, (_, x, y) in enumerate(curves):
-        _line(ink, (x - left) / wide, (y - bottom) / high, colors[place % len(colors)])
+        draw_curve(ink, (x - left) / wide, (y - bottom) / high, colors[place % len(colors)])
     text = Text(no_wrap=True, overflow="crop")
     for place, (label, x, y) in enumerate(curves):
         holds = np.flatnonzero(np.isfinite(x))
@@ -179,7 +179,7 @@ def _drawn(
     ink = Ink(columns, rows, 0.0, 0.0, 1.0)
     for place, one in enumerate(panel.curves):
         times, values = thinned(one.times, one.values, 16 * columns)
-        _line(
+        draw_curve(
             ink,
             (times - first) / (last - first),
             (values - low) / (high - low),
@@ -216,7 +216,7 @@ def _append_row(
     text.append("\n")
 
 
-def _line(ink: Ink, across: Floats, up: Floats, color: Color) -> None:
+def draw_curve(ink: Ink, across: Floats, up: Floats, color: Color) -> None:
     """Draw a curve of the unit square; a single point where its neighbours are missing."""
     points = list(zip(across.tolist(), up.tolist(), strict=True))
     for here, there in pairwise(points):

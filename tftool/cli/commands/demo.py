@@ -1,6 +1,7 @@
 """`tftool demo`: a scenario on the screen, or, without a terminal, played and summed up."""
 
 from contextlib import nullcontext
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
@@ -21,7 +22,7 @@ from tftool.errors import UsageError
 from tftool.stamps import Duration
 
 if TYPE_CHECKING:
-    from tftool.nodes.teleop import Teleop
+    from tftool.scenario.schema import Scenario
 
 
 def demo(
@@ -64,14 +65,26 @@ def demo(
             "--record", metavar="FILE", help="Record the world of the demo to an .mcap file."
         ),
     ] = None,
+    still: Annotated[
+        bool,
+        typer.Option(
+            "--still",
+            help="Leave turtle1 alone: it does not draw by itself where no key is pressed.",
+        ),
+    ] = False,
+    listing: Annotated[
+        bool, typer.Option("--list", help="List the built-in scenarios, and end.")
+    ] = False,
     ascii_only: Ascii = False,
     light: Light = False,
     for_programs: Json = False,
 ) -> ExitStatus:
     """Show turtle2 following turtle1 (ros2 launch turtle_tf2_py turtle_tf2_demo.launch.py).
 
-    On a terminal: the field, the tree and a pair of frames; the arrow keys drive
-    turtle1, [ and ] go back in time, q quits. Without one: plays the scenario on
+    On a terminal: a picture of the frames, their tree, and a pair of them over time; the
+    arrow keys drive turtle1, [ and ] go back in time, F looks from another frame, o shows
+    another scenario, q quits. Left alone for 5 s, turtle1 draws by itself until a key is
+    pressed or another terminal joins. Without a terminal: plays the scenario on
     simulated time, its own script at the keys, prints what came of it, and exits with 1
     if it did not turn out as the scenario expects.
 
@@ -79,17 +92,12 @@ def demo(
     tftool demo carrot --source-frame carrot1
     tftool demo time_travel --rate 2 --set delay=3
     """
-    from tftool.cli.hosting import (
-        HOME,
-        left_to_a_person,
-        look_around,
-        named,
-        scenario_named,
-        shared,
-    )
-    from tftool.cli.onscreen import driver_of, has_terminal, run_app, simulator_of
-    from tftool.scenario.play import Watch, build
+    from tftool.cli.hosting import HOME, named, scenario_named
+    from tftool.cli.onscreen import has_terminal
 
+    if listing:
+        _list(for_programs=for_programs)
+        return ExitStatus.DONE
     if recording is not None and recording.exists():
         # Said before the screen comes up.
         raise UsageError(f"'{recording}' exists: --record takes a name that is free.")
@@ -125,26 +133,58 @@ def demo(
         typer.echo(as_json(played) if for_programs else written(played))
         return ExitStatus.DONE if played.verdict.ok else ExitStatus.FAILED
 
-    from tftool.screens.setting import Setting
-
+    show = _Showing(connection, rate, lasting, recording, still, ascii_only, light)
     # Without a wish of the user's, what runs here already is shown.
     wanted = scenario or (HOME if arguments or rate != 1.0 else None)
-    found = look_around(connection, wanted, needs_turtles=True)
-    joined = found.session
-    if recording is not None and joined is not None:
-        raise UsageError(
-            "A session runs here, which 'tftool record' records: --record is for a world of "
-            "the demo's own (--host)."
-        )
-    if joined is not None:
-        world, live = joined.world, joined.live
+    other = show.scenario(chosen, wanted)
+    while other is not None:
+        other = show.scenario(scenario_named(other), other)
+    return ExitStatus.DONE
 
-        async def life() -> None:
-            await live(None if lasting is None else world.clock.now() + lasting)
 
-        driver: Teleop | None = None if connection.read_only else driver_of(world, "turtle1")
-        title = f"tftool demo, in {joined.name}"
-    else:
+@dataclass(frozen=True, slots=True)
+class _Showing:
+    """Puts scenarios on the terminal, one after the other, as the options say."""
+
+    connection: Connection
+    rate: float
+    lasting: Duration | None
+    recording: Path | None
+    still: bool
+    ascii_only: bool
+    light: bool
+
+    def scenario(self, chosen: "Scenario", wanted: str | None) -> str | None:
+        """Show one, or the session that runs; give what the user chose to see instead.
+
+        Args:
+            chosen: The scenario.
+            wanted: Its name, where it was asked for; None to show what runs here, if it does.
+        """
+        from tftool.cli.hosting import left_to_a_person, look_around, shared
+        from tftool.cli.onscreen import driver_of, run_app, simulator_of
+        from tftool.scenario import builtin
+        from tftool.scenario.play import Watch, build
+        from tftool.screens.setting import Setting
+
+        connection, lasting, recording = self.connection, self.lasting, self.recording
+        found = look_around(connection, wanted, needs_turtles=True)
+        joined = found.session
+        if recording is not None and joined is not None:
+            raise UsageError(
+                "A session runs here, which 'tftool record' records: --record is for a world of "
+                "the demo's own (--host)."
+            )
+        setting = Setting(ascii_only=self.ascii_only, light=self.light)
+        if joined is not None:
+            world, live = joined.world, joined.live
+
+            async def joined_life() -> None:
+                await live(None if lasting is None else world.clock.now() + lasting)
+
+            teleop = None if connection.read_only else driver_of(world, "turtle1")
+            title = f"tftool demo, in {joined.name}"
+            return run_app(world, joined_life(), teleop, replace(setting, title=title))
         around: Watch = nullcontext
         if recording is not None:
             from functools import partial
@@ -152,8 +192,8 @@ def demo(
             from tftool.cli.recording import recorded
 
             around = partial(recorded, path=recording)
-        play = build(left_to_a_person(chosen), connection.providers.wall_clock(rate))
-        world = play.world
+        play = build(left_to_a_person(chosen), connection.providers.wall_clock(self.rate))
+        world, link = play.world, found.link
         if found.alone:
             # What was said before the screen came up is hidden behind it.
             world.log.warn("session", found.alone)
@@ -161,13 +201,38 @@ def demo(
         async def life() -> None:
             # Counted from here: the screen takes a while to come up.
             until = None if lasting is None else world.clock.now() + lasting
-            with around(world), shared(found.link, world):
+            with around(world), shared(link, world):
                 await play.live(until, endless=until is None)
 
         driver = None if simulator_of(world) is None else driver_of(world, "turtle1")
-        title = f"tftool demo {chosen.name}"
-    run_app(world, life(), driver, Setting(title=title, ascii_only=ascii_only, light=light))
-    return ExitStatus.DONE
+        idle = None
+        if driver is not None and not self.still:
+            from tftool.nodes.idle_drawing import IdleDrawing
+
+            # Whatever joins sees the turtle at rest, and has it to itself.
+            idle = IdleDrawing(world, is_alone=lambda: link is None or not link.graph.processes())
+        setting = replace(
+            setting,
+            title=f"tftool demo {chosen.name}",
+            pair=("turtle2", dict(chosen.arguments).get("source_frame", "turtle1")),
+            scenarios=None if recording is not None else builtin.abouts,
+        )
+        return run_app(world, life(), driver, setting, idle)
+
+
+def _list(*, for_programs: bool) -> None:
+    """Print the built-in scenarios."""
+    import json
+
+    from tftool.scenario import builtin
+
+    listed = builtin.abouts()
+    if for_programs:
+        typer.echo(json.dumps([{"name": name, "about": about} for name, about in listed]))
+        return
+    wide = max(len(name) for name, _ in listed) + 2
+    for name, about in listed:
+        typer.echo(f"{name:{wide}}{about}")
 
 
 def _show_recording(connection: Connection, word: str, *, ascii_only: bool, light: bool) -> None:
