@@ -1,6 +1,9 @@
+import os
+import sys
+
 import pytest
 
-from tftool.cli.notices import tell_record, wants_color
+from tftool.cli.notices import notice, tell_record, wants_color
 from tftool.runtime.log import LogRecord
 from tftool.stamps import seconds
 
@@ -49,3 +52,22 @@ def test_levels_have_ros_2s_colors_and_texts_bring_none(capsys, monkeypatch, lev
 )
 def test_colors_are_for_terminals_unless_told_otherwise(environment, is_terminal, wanted):
     assert wants_color(environment, is_terminal=is_terminal) is wanted
+
+
+@pytest.mark.skipif(sys.platform == "win32", reason="needs a pseudo-terminal")
+def test_on_a_terminal_a_sentence_is_broken_between_its_words(monkeypatch):
+    import pty
+    import termios
+
+    reading, writing = pty.openpty()
+    termios.tcsetwinsize(writing, (24, 30))
+    sentence = "No session is running here: hosting scenario 'turtles'."
+    with os.fdopen(writing, "w") as terminal:
+        monkeypatch.setattr("sys.stderr", terminal)
+        notice(sentence)
+        shown = os.read(reading, 1000).decode().splitlines()
+    os.close(reading)
+
+    assert max(map(len, shown)) <= 30
+    assert len(shown) == 2
+    assert " ".join(shown) == sentence

@@ -60,6 +60,7 @@ def test_several_trees_are_all_shown(tftool):
         ("dot", "gv", b"digraph G {"),
         ("mermaid", "mmd", b""),
         ("svg", "svg", b"<"),
+        ("html", "html", b"<!doctype html>"),
         ("pdf", "pdf", b"%PDF"),
     ],
 )

@@ -416,3 +416,82 @@ def test_a_pdf_page_never_grows_beyond_what_readers_take():
 
 def test_every_suffix_names_a_format():
     assert set(drawing.SUFFIXES.values()) == set(drawing.FORMATS)
+
+
+# Frames that are not sent any more, letters a font lacks, and the page
+
+
+STALE = {"base": ("edge-stopped",)}
+
+
+def old():
+    return base()._replace(age=seconds(9.5))
+
+
+def test_a_card_of_a_frame_that_is_sent_no_more_is_marked_and_says_how_old_it_is():
+    frames = snapshot(root("world"), old())
+
+    marked, plain = draw(frames, "svg", STALE).content, draw(frames, "svg").content
+
+    assert '<rect class="stale"' in marked
+    assert ">Most recent transform: 3.0 s, 9.5 s old</text>" in marked
+    assert '<rect class="stale"' not in plain
+    # An amber edge, 0.851 0.451 0.102, around it.
+    assert "0.85 0.45 0.10 RG" in unpacked(draw(frames, "pdf", STALE).content)
+    assert "0.85 0.45 0.10 RG" not in unpacked(draw(frames, "pdf").content)
+
+
+def unpacked(file):
+    return zlib.decompress(re.search(rb"stream\n(.*?)\nendstream", file, re.DOTALL)[1]).decode(
+        "latin-1"
+    )
+
+
+def test_a_pdf_says_which_letters_it_cannot_show():
+    frames = snapshot(root("world"), link("車輪", "world", static=True))
+
+    note = draw(frames, "pdf").note
+
+    assert "no letter for 車 輪:" in note
+    assert "<U+8ECA>" in note
+    assert draw(frames, "svg").note == ""
+    assert draw(snapshot(root("world"), base()), "pdf").note == ""
+
+
+def test_of_many_letters_that_are_missing_some_are_named_and_the_rest_counted():
+    frames = snapshot(root("".join(chr(0x4E00 + n) for n in range(15))))
+
+    assert "and 3 more: each" in draw(frames, "pdf").note
+
+
+def test_the_page_is_one_file_with_the_picture_and_every_fact():
+    frames = snapshot(root("world"), old(), link("sensor", "base", static=True, authority="tf"))
+
+    page = draw(frames, "html", STALE).content
+
+    assert page.startswith("<!doctype html>")
+    assert not re.search(r"<script|https?://(?!www\.w3\.org/2000/svg)|@import|url\(", page)
+    assert page.count("<svg ") == 1
+    rows = re.findall(r"<tr.*?</tr>", page)
+    cells = [re.findall(r"<t[hd][^>]*>(.*?)</t[hd]>", row) for row in rows]
+    assert cells == [
+        ["frame", "parent", "link", "broadcaster", "rate", "buffer length", "oldest", "newest",
+         "age", "wrong"],
+        ["world", *[""] * 9],
+        ["base", "world", "dynamic", "default_authority", "-", "2.000 s", "1.000000", "3.000000",
+         "9.500 s", "edge-stopped"],
+        ["sensor", "base", "static", "tf", *["-"] * 5, ""],
+    ]  # fmt: skip
+
+
+def test_names_are_nothing_but_names_in_the_page():
+    page = draw(hostile(), "html").content
+
+    assert "<script" not in page
+    assert "&lt;script&gt;alert(1)&lt;/script&gt;" in page
+    assert "\x1b" not in page
+    assert "\u202e" not in page
+
+
+def test_the_page_of_nothing_says_so():
+    assert "No tf data received" in draw(snapshot(), "html").content

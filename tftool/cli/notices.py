@@ -19,9 +19,26 @@ _NUMBER = re.compile(r"-?\d+(?:\.\d+)?(?:e[+-]?\d+)?")
 
 
 def notice(sentence: str) -> None:
-    """Tell the user something that is no result."""
-    sys.stderr.write(sentence + "\n")
+    """Tell the user something that is no result; a terminal gets it broken between words."""
+    _write(_fitting(sentence))
+
+
+def _write(text: str) -> None:
+    sys.stderr.write(text + "\n")
     sys.stderr.flush()
+
+
+def _fitting(sentence: str) -> str:
+    try:
+        width = os.get_terminal_size(sys.stderr.fileno()).columns
+    except (OSError, ValueError):
+        # No terminal, or one that does not say how wide it is.
+        return sentence
+    if width < 20 or len(sentence) < width // 2:
+        return sentence
+    from tftool.views.fixed_width import wrap_words
+
+    return "\n".join(piece for line in sentence.split("\n") for piece in wrap_words(line, width))
 
 
 def is_news(record: "LogRecord") -> bool:
@@ -46,7 +63,7 @@ def tell_record(record: "LogRecord", *, label: str = "") -> None:
     color = _COLORS.get(record.level)
     if color is not None and wants_color(os.environ, is_terminal=sys.stderr.isatty()):
         line = f"\033[{color}m{line}\033[0m"
-    notice(f"[{label}] {line}" if label else line)
+    _write(f"[{label}] {line}" if label else line)
 
 
 class FoldedLog:

@@ -1,4 +1,4 @@
-"""Pictures of the tree: dot, mermaid, SVG and PDF, without Graphviz.
+"""Pictures of the tree: dot, mermaid, SVG, HTML and PDF, without Graphviz.
 
 dot is view_frames' own text, so that whatever reads frames.gv reads this too. The
 others are ours. A name is a name in all of them, whatever it is made of.
@@ -9,10 +9,12 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 
 from tftool.frames.sample import Snapshot
+from tftool.views import page as page_writer
 from tftool.views import pdf as pdf_writer
 from tftool.views import svg as svg_writer
 from tftool.views.escaping import distinct, shorten, visible
 from tftool.views.forest import Forest, grow
+from tftool.views.frame_tree import NO_MARKS, Marks
 from tftool.views.link_facts import facts, recorded_at
 from tftool.views.picture import MOST_DRAWN, lay_out
 
@@ -32,16 +34,21 @@ class Drawing:
     note: str = ""
 
 
-def draw(snapshot: Snapshot, form: str) -> Drawing:
+def draw(snapshot: Snapshot, form: str, marks: Marks = NO_MARKS) -> Drawing:
     """Draw a snapshot in one of `FORMATS`.
+
+    Args:
+        snapshot: What to draw.
+        form: The format.
+        marks: What is wrong with frames: ids of the doctor's checks.
 
     Raises:
         KeyError: If there is no such format.
     """
-    return FORMATS[form](snapshot)
+    return FORMATS[form](snapshot, marks)
 
 
-def dot(snapshot: Snapshot) -> Drawing:
+def dot(snapshot: Snapshot, marks: Marks = NO_MARKS) -> Drawing:
     """Write what view_frames writes, byte for byte while no link is static.
 
     Static links are dashed. Where view_frames ties its legend to one of several trees, or
@@ -100,7 +107,7 @@ _MERMAID_TEXT = 49_000
 _MERMAID_NAME = 60
 
 
-def mermaid(snapshot: Snapshot) -> Drawing:
+def mermaid(snapshot: Snapshot, marks: Marks = NO_MARKS) -> Drawing:
     """Write a Mermaid flowchart, as GitHub and many wikis draw it.
 
     Mermaid refuses large charts. Links then carry their rate alone, and if that is not
@@ -157,19 +164,46 @@ _ACTIVE = re.compile(r"[^\w\s,:/.\-\u0080-\U0010ffff]|(?<![^\W_])[_.-]|[_.-](?![
 """Signs that may act; those that names and numbers are full of only where they could."""
 
 
-def svg(snapshot: Snapshot) -> Drawing:
+def svg(snapshot: Snapshot, marks: Marks = NO_MARKS) -> Drawing:
     """Draw the trees as SVG, laid out by ourselves; at most `MOST_DRAWN` frames."""
-    picture = lay_out(snapshot)
+    picture = lay_out(snapshot, stale=_stale(marks))
     return Drawing(svg_writer.render(picture), picture.left_out, _picture_note(picture.left_out))
 
 
-def pdf(snapshot: Snapshot) -> Drawing:
+def page(snapshot: Snapshot, marks: Marks = NO_MARKS) -> Drawing:
+    """Draw the trees as one file of HTML: the SVG, and below it every frame in a table."""
+    picture = lay_out(snapshot, stale=_stale(marks))
+    content = page_writer.render(snapshot, svg_writer.render(picture), marks)
+    return Drawing(content, picture.left_out, _picture_note(picture.left_out))
+
+
+def pdf(snapshot: Snapshot, marks: Marks = NO_MARKS) -> Drawing:
     """Draw the trees as a PDF page; at most `MOST_DRAWN` frames.
 
     Letters Helvetica has not are written as their numbers.
     """
-    picture = lay_out(snapshot)
-    return Drawing(pdf_writer.render(picture), picture.left_out, _picture_note(picture.left_out))
+    picture = lay_out(snapshot, stale=_stale(marks))
+    notes = [_picture_note(picture.left_out), _letters_note(pdf_writer.missing_letters(picture))]
+    note = "; ".join(filter(None, notes))
+    return Drawing(pdf_writer.render(picture), picture.left_out, note)
+
+
+def _stale(marks: Marks) -> frozenset[str]:
+    return frozenset(frame for frame, ids in marks.items() if "edge-stopped" in ids)
+
+
+_LETTERS_NAMED = 12
+
+
+def _letters_note(missing: str) -> str:
+    if not missing:
+        return ""
+    named = " ".join(missing[:_LETTERS_NAMED])
+    more = f" and {len(missing) - _LETTERS_NAMED} more" if len(missing) > _LETTERS_NAMED else ""
+    return (
+        f"the PDF's font has no letter for {named}{more}: each is written as its number, "
+        f"<U+{ord(missing[0]):04X}>; svg and html show them"
+    )
 
 
 def _left_out(forest: Forest) -> str:
@@ -190,10 +224,11 @@ def _picture_note(left_out: int) -> str:
     )
 
 
-FORMATS: Mapping[str, Callable[[Snapshot], Drawing]] = {
+FORMATS: Mapping[str, Callable[[Snapshot, Marks], Drawing]] = {
     "dot": dot,
     "mermaid": mermaid,
     "svg": svg,
+    "html": page,
     "pdf": pdf,
 }
 """The formats by name."""
@@ -204,6 +239,8 @@ SUFFIXES: Mapping[str, str] = {
     ".mmd": "mermaid",
     ".mermaid": "mermaid",
     ".svg": "svg",
+    ".html": "html",
+    ".htm": "html",
     ".pdf": "pdf",
 }
 """The format a file's suffix asks for."""

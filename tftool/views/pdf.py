@@ -15,6 +15,7 @@ _LARGEST = 14_400.0
 _FILL = {
     "root": (0.86, 0.914, 1.0),
     "dynamic": (1.0, 1.0, 1.0),
+    "stale": (1.0, 0.945, 0.878),
     "static": (0.992, 0.969, 0.906),
     "group": None,
     "more": None,
@@ -22,6 +23,7 @@ _FILL = {
 _STROKE = {
     "root": (0.294, 0.498, 0.839),
     "dynamic": (0.561, 0.639, 0.741),
+    "stale": (0.851, 0.451, 0.102),
     "static": (0.725, 0.604, 0.271),
     "group": (0.776, 0.808, 0.851),
     "more": (0.541, 0.576, 0.627),
@@ -61,6 +63,13 @@ def render(picture: Picture) -> bytes:
             font.format("Helvetica-Bold").encode(),
             f"<< /Title {_string(_latin(picture.title))} /Producer (tftool) >>".encode("latin-1"),
         ]
+    )
+
+
+def missing_letters(picture: Picture) -> str:
+    """The letters of a picture that Helvetica has not, each once, in their order there."""
+    return "".join(
+        dict.fromkeys(char for text in picture.texts for char in text.text if not _has_letter(char))
     )
 
 

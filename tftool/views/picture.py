@@ -6,15 +6,18 @@ readable. What the shapes look like is the business of `svg` and `pdf`.
 """
 
 import math
+from collections.abc import Collection
 from dataclasses import dataclass, field, replace
 from typing import Literal
 
 from tftool.frames.sample import Snapshot
+from tftool.stamps import Duration
 from tftool.views.escaping import distinct, visible
 from tftool.views.font import fit, width
 from tftool.views.forest import Forest, grow
 from tftool.views.layout import Item, tidy
 from tftool.views.link_facts import facts, recorded_at
+from tftool.views.short_numbers import short_duration
 
 MOST_DRAWN = 1000
 """Frames in one picture; more could not be read."""
@@ -39,7 +42,7 @@ FACT_SIZE = 9.5
 WIDE_ENOUGH = 1800.0
 """A drawing that grows downwards is turned on its side when it would be wider than this."""
 
-Kind = Literal["root", "dynamic", "static", "group", "more"]
+Kind = Literal["root", "dynamic", "stale", "static", "group", "more"]
 
 
 @dataclass(frozen=True, slots=True)
@@ -91,17 +94,18 @@ class Picture:
     title: str
 
 
-def lay_out(snapshot: Snapshot, *, most: int = MOST_DRAWN) -> Picture:
+def lay_out(snapshot: Snapshot, *, most: int = MOST_DRAWN, stale: Collection[str] = ()) -> Picture:
     """Lay a snapshot out.
 
     Args:
         snapshot: The frames.
         most: Frames to draw; what lies deepest is left out, and counted in the picture.
+        stale: Those that are not sent any more; their cards are marked, and say how old they are.
     """
     forest = grow(snapshot, most=most)
-    sheet = _Sheet(forest, _cards(forest), down=True)
+    sheet = _Sheet(forest, _cards(forest, stale), down=True)
     if sheet.width > WIDE_ENOUGH:
-        across = _Sheet(forest, _cards(forest), down=False)
+        across = _Sheet(forest, _cards(forest, stale), down=False)
         if across.squareness() < sheet.squareness():
             sheet = across
     return sheet.finish(snapshot)
@@ -117,7 +121,7 @@ class _Card:
     title: str
 
 
-def _cards(forest: Forest) -> dict[str, _Card]:
+def _cards(forest: Forest, stale: Collection[str]) -> dict[str, _Card]:
     """One card per drawn frame; for what is left out below one, a card named with a newline."""
     cards = {}
     shown = distinct(forest.children)
@@ -127,9 +131,12 @@ def _cards(forest: Forest) -> dict[str, _Card]:
         root = frame.parent is None
         # What is static has no rate and no age: tf2 counts 10000 Hz and 0 s for it.
         told = () if root else facts(frame).lines(units=True)[: 1 if frame.is_static else None]
+        if name in stale:
+            told = tuple(_aged(line, frame.age) for line in told)
         lines = tuple(fit(visible(line), FACT_SIZE, room) for line in told)
         written = fit(shown[name], NAME_SIZE, room, bold=True)
         kind: Kind = "root" if root else "static" if frame.is_static else "dynamic"
+        kind = "stale" if kind == "dynamic" and name in stale else kind
         cards[name] = _card(kind, written, lines, shown[name])
     for name, missing in forest.hidden.items():
         plural = "" if missing == 1 else "s"
@@ -137,6 +144,12 @@ def _cards(forest: Forest) -> dict[str, _Card]:
         lines = (below, "left out of this picture")
         cards[_rest(name)] = _card("more", f"+ {missing}", lines, "")
     return cards
+
+
+def _aged(line: str, age: Duration) -> str:
+    """The line of the newest sample with how old it is; every other as it is."""
+    newest = line.startswith("Most recent transform")
+    return f"{line}, {short_duration(age)} old" if newest else line
 
 
 def _rest(name: str) -> str:

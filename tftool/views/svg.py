@@ -13,6 +13,7 @@ text { fill: #5a6472; white-space: pre; unicode-bidi: isolate; }
 rect { stroke-width: 1.2; }
 .root { fill: #dbe9ff; stroke: #4b7fd6; }
 .dynamic { fill: #ffffff; stroke: #8fa3bd; }
+.stale { fill: #fff1e0; stroke: #d9731a; stroke-width: 2; }
 .static { fill: #fdf7e7; stroke: #b99a45; stroke-dasharray: 5 3; }
 .group { fill: none; stroke: #c6ced9; }
 .more { fill: none; stroke: #8a93a0; stroke-dasharray: 1.5 3; }
@@ -25,6 +26,7 @@ text { fill: #a3aebd; }
 .note { fill: #d9b65c; }
 .root { fill: #1d3050; stroke: #6c9cf0; }
 .dynamic { fill: #1c2129; stroke: #55657c; }
+.stale { fill: #33230f; stroke: #f0953c; }
 .static { fill: #29241a; stroke: #a3873d; }
 .group { stroke: #333c49; }
 path { stroke: #7f96b6; }

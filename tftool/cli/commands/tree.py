@@ -37,6 +37,7 @@ class TreeFormat(StrEnum):
     dot = "dot"
     mermaid = "mermaid"
     svg = "svg"
+    html = "html"
     pdf = "pdf"
 
 
@@ -115,7 +116,9 @@ def tree(
     if run_for is not None:
         raise UsageError("--for goes with --watch; without it the tree is written once.")
     seen = observe(connection, place, at, cache_time=cache_time)
-    marks = seen.marks() if form in (TreeFormat.tree, TreeFormat.json) else {}
+    # dot, mermaid and YAML have no place for them.
+    silent = (TreeFormat.dot, TreeFormat.mermaid, TreeFormat.yaml)
+    marks = {} if form in silent else seen.marks()
     _write(seen.snapshot(), seen.moving, form, output, marks, wide=wide)
     for sentence in rivalries(seen.buffer, seen.buffer.frames()):
         notice(sentence)
@@ -183,7 +186,7 @@ def _content(
         return _drawn(snapshot, moving, marks, wide=wide)
     from tftool.views.drawing import draw
 
-    drawing = draw(snapshot, form.value)
+    drawing = draw(snapshot, form.value, marks)
     if drawing.note:
         notice(drawing.note)
     return drawing.content
