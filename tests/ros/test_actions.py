@@ -125,8 +125,8 @@ def test_goals_of_the_wrong_kind_and_servers_that_are_not_there(client):
     with pytest.raises(TypeError, match="Expected"):
         client.send_goal_async("ten")
     with pytest.raises(TypeError, match="execute_callback"):
-        ActionServer(client.seat.ros_node, client._type, "x", None)
-    nobody = ActionClient(client.seat.ros_node, client._type, "nobody")
+        ActionServer(client.seat.ros_node, client.type_, "x", None)
+    nobody = ActionClient(client.seat.ros_node, client.type_, "nobody")
     assert not nobody.wait_for_server(timeout_sec=0.5)
     import rclpy
 
@@ -278,3 +278,28 @@ def test_a_cancellation_that_is_never_decided_is_refused_when_its_server_leaves(
         finish(client, answer)
 
     assert finish(client, answer).return_code == 1
+
+
+def test_who_serves_an_action_and_who_asks_for_it_are_known(node):
+    import rclpy
+    from action_tutorials_interfaces.action import Fibonacci
+    from rclpy.action import (
+        ActionClient,
+        ActionServer,
+        get_action_client_names_and_types_by_node,
+        get_action_names_and_types,
+        get_action_server_names_and_types_by_node,
+    )
+    from rclpy.node import NodeNameNonExistentError
+
+    other = rclpy.create_node("other", namespace="/far")
+    ActionServer(node, Fibonacci, "count", lambda goal: Fibonacci.Result())
+    ActionClient(other, Fibonacci, "/count")
+    count = [("/count", ["action_tutorials_interfaces/action/Fibonacci"])]
+
+    assert get_action_names_and_types(other) == count
+    assert get_action_server_names_and_types_by_node(other, "probe", "/") == count
+    assert get_action_server_names_and_types_by_node(node, "other", "/far") == []
+    assert get_action_client_names_and_types_by_node(node, "other", "/far") == count
+    with pytest.raises(NodeNameNonExistentError, match="'/nobody'"):
+        get_action_client_names_and_types_by_node(node, "nobody", "/")

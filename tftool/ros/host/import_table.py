@@ -100,6 +100,12 @@ rclpy.qos: rclpy.qos: qos_profile_parameters qos_profile_parameter_events
 rclpy.qos: rclpy.qos: qos_profile_action_status_default
 rclpy.action: rclpy.action_client: ActionClient
 rclpy.action: rclpy.action_server: ActionServer GoalResponse CancelResponse
+rclpy.action: rclpy.node_graph: get_action_client_names_and_types_by_node
+rclpy.action: rclpy.node_graph: get_action_server_names_and_types_by_node
+rclpy.action: rclpy.node_graph: get_action_names_and_types
+rclpy.action.graph: rclpy.node_graph: get_action_client_names_and_types_by_node
+rclpy.action.graph: rclpy.node_graph: get_action_server_names_and_types_by_node
+rclpy.action.graph: rclpy.node_graph: get_action_names_and_types
 rclpy.action.client: rclpy.action_client: ActionClient ClientGoalHandle
 rclpy.action.client: rclpy.action_goals: GoalStatus
 rclpy.action.server: rclpy.action_server: ActionServer ServerGoalHandle GoalResponse

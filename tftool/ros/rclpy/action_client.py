@@ -79,7 +79,7 @@ class ActionClient(Requester):
     ) -> None:
         seat = seat_of(node)
         super().__init__(seat, callback_group or node.default_callback_group)
-        self._type = action_type
+        self.type_ = action_type
         self._name = action_name
         self.full = seat.full(action_name)
         seat.keep(lambda: self)
@@ -107,8 +107,8 @@ class ActionClient(Requester):
         Raises:
             TypeError: If the goal is of another type.
         """
-        if not isinstance(goal, self._type.Goal):
-            raise TypeError(f"Expected {self._type.Goal}, got {type(goal)}")
+        if not isinstance(goal, self.type_.Goal):
+            raise TypeError(f"Expected {self.type_.Goal}, got {type(goal)}")
         future = Future(executor=self.seat.executor)
         goal_id = goal_uuid or new_id()
         copy = duplicate(goal)
@@ -116,7 +116,7 @@ class ActionClient(Requester):
         def on_feedback(value: Any) -> None:
             if feedback_callback is None:
                 return
-            message = values.unpack(value, self._type.Feedback)
+            message = values.unpack(value, self.type_.Feedback)
             told = feedback_callback
             self.put(lambda: told(_Feedback(goal_id, message)))
 
@@ -154,7 +154,7 @@ class ActionClient(Requester):
                 return
             end = await goal.result()
             status = STATUS[end.status]
-            result = values.unpack(end.value, self._type.Result)
+            result = values.unpack(end.value, self.type_.Result)
 
             def arrive() -> None:
                 handle.status = int(status)

@@ -1,12 +1,13 @@
 """What a node can ask about the others."""
 
 from collections.abc import Callable, Iterable, Iterator
-from typing import TypeVar
+from typing import Any, TypeVar
 
 from tftool.interfaces.values import interface_name
 from tftool.ros.host.program import Program
+from tftool.ros.rclpy.action_client import ActionClient
 from tftool.ros.rclpy.endpoints import TopicEndpointInfo, endpoint_info
-from tftool.ros.rclpy.seat import NodeSeat
+from tftool.ros.rclpy.seat import NodeSeat, seat_of
 from tftool.ros.rclpy.services import Client
 from tftool.runtime.endpoints import PUBLISHER, SUBSCRIPTION, Role
 
@@ -25,9 +26,8 @@ class NodeGraph:
 
     _tftool: NodeSeat
 
-    def __look(self, ask: Callable[[], T]) -> T:
-        found: T = self._tftool.program.ask(ask)
-        return found
+    def __look(self, question: Callable[[], T]) -> T:
+        return _ask(self._tftool, question)
 
     # Nodes
 
@@ -50,8 +50,7 @@ class NodeGraph:
         return [(*one, "/") for one in self.get_node_names_and_namespaces()]
 
     def __nodes(self) -> list[str]:
-        world = self._tftool.world
-        return [*(one.name for one in world.nodes if one.is_shown), *world.far_nodes]
+        return _node_names(self._tftool)
 
     # Topics
 
@@ -132,10 +131,7 @@ class NodeGraph:
         )
 
     def __clients(self, of: Callable[[str], bool]) -> Iterator[Client]:
-        for program in self._tftool.world.nodes:
-            for seat in program.nodes if isinstance(program, Program) else ():
-                if of(seat.authority):
-                    yield from (one for one in seat.entities if isinstance(one, Client))
+        return (one for one in _entities(self._tftool, of) if isinstance(one, Client))
 
     # One node's
 
@@ -182,14 +178,89 @@ class NodeGraph:
     def __of(
         self, name: str, namespace: str, find: Callable[[str], Iterable[tuple[str, str]]]
     ) -> NamesAndTypes:
-        full = f"{namespace.strip('/')}/{name}".strip("/")
+        return _of_node(self._tftool, name, namespace, find)
 
-        def found() -> NamesAndTypes:
-            if full not in self.__nodes():
-                raise NodeNameNonExistentError(f"there is no node '/{full}'")
-            return _listed(find(full))
 
-        return self.__look(found)
+def get_action_names_and_types(node: Any) -> NamesAndTypes:
+    """Every action that is served, and its type."""
+    seat = seat_of(node)
+    return _ask(seat, lambda: _listed(_served_actions(seat, lambda server: True)))
+
+
+def get_action_server_names_and_types_by_node(
+    node: Any, remote_node_name: str, remote_node_namespace: str
+) -> NamesAndTypes:
+    """The actions that a node serves.
+
+    Raises:
+        NodeNameNonExistentError: If there is no such node.
+    """
+    seat = seat_of(node)
+    return _of_node(
+        seat,
+        remote_node_name,
+        remote_node_namespace,
+        lambda full: _served_actions(seat, lambda server: server == full),
+    )
+
+
+def get_action_client_names_and_types_by_node(
+    node: Any, remote_node_name: str, remote_node_namespace: str
+) -> NamesAndTypes:
+    """The actions that a ROS node of this process has clients of.
+
+    Raises:
+        NodeNameNonExistentError: If there is no such node.
+    """
+    seat = seat_of(node)
+
+    def asked(full: str) -> Iterator[tuple[str, str]]:
+        for one in _entities(seat, lambda authority: authority == full):
+            if isinstance(one, ActionClient):
+                yield one.full, one.type_.interface__
+
+    return _of_node(seat, remote_node_name, remote_node_namespace, asked)
+
+
+def _ask(seat: NodeSeat, question: Callable[[], T]) -> T:
+    """Ask on the loop's thread."""
+    found: T = seat.program.ask(question)
+    return found
+
+
+def _node_names(seat: NodeSeat) -> list[str]:
+    return [*(one.name for one in seat.world.nodes if one.is_shown), *seat.world.far_nodes]
+
+
+def _entities(seat: NodeSeat, of: Callable[[str], bool]) -> Iterator[Any]:
+    """What the ROS nodes of this process hold, of those whose full names `of` accepts."""
+    for program in seat.world.nodes:
+        for other in program.nodes if isinstance(program, Program) else ():
+            if of(other.authority):
+                yield from other.entities
+
+
+def _served_actions(seat: NodeSeat, by: Callable[[str], bool]) -> Iterator[tuple[str, str]]:
+    for name, offer in seat.world.actions().items():
+        if by(offer.node):
+            yield name, interface_name(offer.kind)
+
+
+def _of_node(
+    seat: NodeSeat,
+    name: str,
+    namespace: str,
+    find: Callable[[str], Iterable[tuple[str, str]]],
+) -> NamesAndTypes:
+    """What `find` finds of a node, by its full name."""
+    full = f"{namespace.strip('/')}/{name}".strip("/")
+
+    def found() -> NamesAndTypes:
+        if full not in _node_names(seat):
+            raise NodeNameNonExistentError(f"there is no node '/{full}'")
+        return _listed(find(full))
+
+    return _ask(seat, found)
 
 
 def _listed(pairs: Iterable[tuple[str, str]]) -> NamesAndTypes:
