@@ -60,6 +60,7 @@ if TYPE_CHECKING:
     from tftool.frames.sample import Snapshot
     from tftool.link.session import Link
     from tftool.scenario.schema import NodeEntry, Scenario
+    from tftool.sources.recording import Recording
     from tftool.sources.robot import Robot
 
 T = TypeVar("T")
@@ -176,6 +177,7 @@ class Session:
         is_recorded: Whether all of its frames are there from the beginning, and none come.
         robot: The robot in a recording, by its description.
         is_played: Whether a recording's messages arrive in it, which are over at its end.
+        recording: The recording whose frames these are.
     """
 
     world: World
@@ -188,6 +190,7 @@ class Session:
     is_recorded: bool = False
     robot: "Robot | None" = None
     is_played: bool = False
+    recording: "Recording | None" = None
 
     def first_look(self) -> Stamp | None:
         """Where to begin to look at what is recorded; None to look at the present."""
@@ -682,7 +685,24 @@ def _recorded(connection: Connection, found: Found, *, simulated: bool) -> Sessi
 
     name = f"{_kind_word(found)} '{visible(stored.name)}'"
     robot = getattr(stored, "robot", None)
-    return Session(world, True, name, alive, lasting, lasting, is_recorded=True, robot=robot)
+    return Session(
+        world,
+        True,
+        name,
+        alive,
+        lasting,
+        lasting,
+        is_recorded=True,
+        robot=robot,
+        recording=recording_of(stored) if found.kind.is_recording else None,
+    )
+
+
+def recording_of(stored: StoredFrames) -> "Recording | None":
+    """The recording that stored frames are; None where they are others."""
+    from tftool.sources.recording import Recording
+
+    return stored if isinstance(stored, Recording) else None
 
 
 def _played(connection: Connection, found: Found, cache_time: Duration | None) -> Session:

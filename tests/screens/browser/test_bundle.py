@@ -21,9 +21,10 @@ NPM = shutil.which("npm")
 def test_the_bundle_was_built_from_these_scripts():
     # page/build.mjs writes the same digest into the bundle's first line.
     digest = hashlib.sha256()
-    for source in sorted(PAGE.iterdir(), key=lambda path: path.name):
-        if re.search(r"\.(m?js|json)$", source.name):
-            digest.update(source.name.encode() + b"\0" + source.read_bytes() + b"\0")
+    found = [*PAGE.iterdir(), *(PAGE / "displays").iterdir()]
+    for name in sorted(source.relative_to(PAGE).as_posix() for source in found):
+        if re.search(r"\.(m?js|json)$", name):
+            digest.update(name.encode() + b"\0" + (PAGE / name).read_bytes() + b"\0")
 
     with (BUNDLE / "page.js").open(encoding="utf-8") as script:
         assert digest.hexdigest() in script.readline(), REBUILD
@@ -67,6 +68,6 @@ def test_the_page_asks_nobody_else_for_anything():
 
 
 def test_names_never_become_markup():
-    for source in PAGE.glob("*.js"):
+    for source in [*PAGE.glob("*.js"), *PAGE.glob("displays/*.js")]:
         text = source.read_text()
         assert not re.search(r"innerHTML|outerHTML|insertAdjacent|document\.write|eval\(", text)

@@ -1,6 +1,7 @@
 """`tftool view`: the frames in 3-D, in a browser."""
 
 import sys
+from functools import partial
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
 
@@ -111,6 +112,11 @@ def view(
             folders = MeshFolders(connection.robot.urdf, meshes or [])
             shown = ShownRobot(session.robot, folders)
     page = PageServer(session.world, port=port, rate=rate, tell=notice, name=session.name)
+    recording = session.recording
+    if recording is not None:
+        from tftool.screens.browser.tracks import tracks_named
+
+        page.show_tracks(partial(tracks_named, recording.name))
     if shown is not None:
         page.show_robot(shown)
         _tell_missing(shown)
@@ -130,12 +136,14 @@ def _write(
     open_browser: bool,
 ) -> ExitStatus:
     """Write the page with its data into one file."""
+    from tftool.cli.hosting import recording_of
     from tftool.cli.interrupting import interruptible
     from tftool.cli.notices import notice
     from tftool.cli.recorded import Bar
     from tftool.cli.stored import stored_frames
     from tftool.screens.beginning import first_moment
     from tftool.screens.browser.standalone import MOST_BYTES, StandaloneData, standalone_page
+    from tftool.screens.browser.tracks import IN_A_FILE, recorded_tracks
     from tftool.sinks.trajectory_files import whole_file
     from tftool.views.escaping import visible
 
@@ -155,7 +163,9 @@ def _write(
     now = max(epoch, stored.end)
     shown = _robot_of(connection, stored, meshes) or (published[-1] if published else None)
     begin = first_moment(stored.buffer, epoch, now)
-    data = StandaloneData(stored.name, stored.buffer, epoch, now, begin, shown)
+    recording = recording_of(stored)
+    tracks = [] if recording is None else recorded_tracks(recording, IN_A_FILE)
+    data = StandaloneData(stored.name, stored.buffer, epoch, now, begin, shown, tracks=tracks)
     bar = Bar("Packing")
     with interruptible(), whole_file(output, force=force) as file:
         try:

@@ -108,7 +108,12 @@ class PackedBlock:
         return known
 
     def deflated(
-        self, header: object, *, most: int | None = None, progress: Progress | None = None
+        self,
+        header: object,
+        *,
+        most: int | None = None,
+        progress: Progress | None = None,
+        level: int = 9,
     ) -> bytes:
         """The whole block, deflated as zlib does it.
 
@@ -116,6 +121,7 @@ class PackedBlock:
             header: What is written as JSON in front.
             most: How many bytes it may take.
             progress: Is told how far it has come.
+            level: How hard to try, from 1 to 9.
 
         Raises:
             TooLarge: If it takes more.
@@ -123,7 +129,7 @@ class PackedBlock:
         text = json.dumps(header, separators=(",", ":"), allow_nan=False).encode("ascii")
         text += b" " * (-(len(MAGIC) + 4 + len(text)) % 8)
         head = MAGIC + struct.pack("<I", len(text)) + text
-        squeeze = zlib.compressobj(9)
+        squeeze = zlib.compressobj(level)
         packed = []
         done = taken = 0
         for piece in _pieces([head, *self._sections]):

@@ -13,7 +13,7 @@ import errno
 import json
 import logging
 import math
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from http import HTTPStatus
 from types import TracebackType
 from typing import Any, Protocol
@@ -32,8 +32,10 @@ from tftool.screens.browser import assets, protocol
 from tftool.screens.browser.client import PageClient, Poses, SharedMoment, TreeMessage
 from tftool.screens.browser.marks import marks_of
 from tftool.screens.browser.meshes import MeshRefused
+from tftool.screens.browser.packing import PackedBlock
 from tftool.screens.browser.robots import ShownRobot
 from tftool.screens.browser.standalone import StandaloneData, standalone_page
+from tftool.screens.browser.tracks import DrawnTopic, pack_tracks
 from tftool.screens.sliders import slide_range
 from tftool.stamps import NANOSECONDS, Stamp
 
@@ -108,6 +110,8 @@ class PageServer:
         self._files = assets.load()
         self._robot: ShownRobot | None = None
         self._robot_text = ""
+        self._read_tracks: Callable[[], Sequence[DrawnTopic]] | None = None
+        self._tracks: asyncio.Future[bytes] | None = None
         self._trees: dict[object, TreeMessage] = {}
         self._revision = 0
         self._ticks = 0
@@ -117,6 +121,10 @@ class PageServer:
         self._robot = robot
         robot.place(frozenset(self.source.buffer.frames()))
         self._tell_robot()
+
+    def show_tracks(self, read: Callable[[], Sequence[DrawnTopic]]) -> None:
+        """Draw messages beside the frames, which are read when a page is first opened."""
+        self._read_tracks = read
 
     def _tell_robot(self) -> None:
         if self._robot is not None:
@@ -276,6 +284,8 @@ class PageServer:
             return None
         if path.startswith("/mesh/"):
             return self._mesh(path)
+        if path == "/tracks" and self._read_tracks is not None:
+            return _answer(HTTPStatus.OK, "application/octet-stream", await self._packed_tracks())
         if path == "/standalone.html":
             return await self._standalone(request.path.partition("?")[2])
         found = self._files.get(path)
@@ -291,6 +301,20 @@ class PageServer:
         except MeshRefused as refusal:
             return _refuse(HTTPStatus.NOT_FOUND, str(refusal))
         return _answer(HTTPStatus.OK, served.kind, served.content)
+
+    async def _packed_tracks(self) -> bytes:
+        """The messages that are drawn, packed once for all pages, beside the loop."""
+
+        def packed() -> bytes:
+            assert self._read_tracks is not None
+            block, buffer = PackedBlock(), self.source.buffer
+            epoch = self.source.clock.epoch
+            header = {"tracks": pack_tracks(block, self._read_tracks(), buffer, epoch)}
+            return block.deflated(header, level=1)
+
+        if self._tracks is None:
+            self._tracks = asyncio.get_running_loop().run_in_executor(None, packed)
+        return await asyncio.shield(self._tracks)
 
     async def _standalone(self, query: str) -> Response:
         """All that is remembered now as a file of its own, which begins with a view."""
@@ -310,6 +334,8 @@ class PageServer:
         if self._robot is not None:
             self._robot_text = self._robot_text or self._robot.as_text()
             client.show_robot(self._robot_text)
+        if self._read_tracks is not None:
+            await socket.send('{"type": "tracks"}')
         feeding = asyncio.ensure_future(client.feed())
         telling: asyncio.Future[None] | None = None
         judging: asyncio.Future[None] | None = None

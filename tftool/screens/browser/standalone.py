@@ -9,7 +9,7 @@ import base64
 import hashlib
 import json
 import re
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from html import escape
 from typing import Any, Final
@@ -24,6 +24,7 @@ from tftool.screens.browser.marks import marks_of
 from tftool.screens.browser.meshes import MeshRefused
 from tftool.screens.browser.packing import METRES, QUATERNION, PackedBlock, Progress, TooLarge
 from tftool.screens.browser.robots import ShownRobot
+from tftool.screens.browser.tracks import DrawnTopic, pack_tracks
 from tftool.stamps import Stamp
 
 MOST_BYTES: Final = 10_000_000
@@ -43,6 +44,7 @@ class StandaloneData:
         now: The last moment.
         begin: Where it begins to look; None for the latest of everything.
         robot: The robot among them, and where its meshes lie.
+        tracks: Messages that are drawn beside the frames.
         view: What is chosen at first, as an address of the page has it behind its #.
     """
 
@@ -53,6 +55,7 @@ class StandaloneData:
     begin: Stamp | None = None
     robot: ShownRobot | None = None
     view: str = ""
+    tracks: Sequence[DrawnTopic] = ()
 
 
 @dataclass(frozen=True, slots=True)
@@ -178,6 +181,7 @@ def _header(data: StandaloneData, block: PackedBlock) -> dict[str, Any]:
         "robot": robot,
         "files": meshes,
         "marks": marks_of(data.buffer, data.epoch),
+        "tracks": pack_tracks(block, data.tracks, data.buffer, data.epoch),
     }
 
 

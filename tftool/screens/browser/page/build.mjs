@@ -11,7 +11,9 @@ const out = join(here, "..", "bundle");
 
 // What the bundle was made from; a test compares it with the sources as they are.
 const hash = createHash("sha256");
-const sources = (await readdir(here)).filter((name) => /\.(m?js|json)$/.test(name)).sort();
+const sources = [...(await readdir(here)), ...(await readdir(join(here, "displays"))).map((name) => `displays/${name}`)]
+  .filter((name) => /\.(m?js|json)$/.test(name))
+  .sort();
 for (const name of sources) {
   hash.update(name).update("\0").update(await readFile(join(here, name))).update("\0");
 }

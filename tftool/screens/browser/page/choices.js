@@ -61,6 +61,7 @@ export class Choices {
     this.closed = new Set(given.closed);
     this.trailed = new Set(given.trailed);
     this.bare = new Set(given.bare); // frames whose link is not drawn
+    this.undrawn = new Set(given.undrawn); // topics that are not drawn
     this.only = "";
     this.not = "";
     /** @type {{ only: RegExp | null, not: RegExp | null }} */
@@ -117,7 +118,7 @@ export class Choices {
 
   /**
    * Put a name into one of the sets, or take it out.
-   * @param {"hidden" | "closed" | "trailed" | "bare"} set
+   * @param {"hidden" | "closed" | "trailed" | "bare" | "undrawn"} set
    * @param {string} name
    * @param {boolean} on
    */
@@ -138,6 +139,7 @@ export class Choices {
       closed: [...this.closed],
       trailed: [...this.trailed],
       bare: [...this.bare],
+      undrawn: [...this.undrawn],
       at: at ?? undefined,
       camera,
     };

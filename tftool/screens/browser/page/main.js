@@ -3,6 +3,7 @@
 import { Bounds, spread } from "./bounds.js";
 import { Choices, LIMITS } from "./choices.js";
 import { Course } from "./course.js";
+import { Displays } from "./displays.js";
 import { keepFiles } from "./files.js";
 import { chain, describe, retell, trails } from "./frames.js";
 import { freshness } from "./freshness.js";
@@ -19,6 +20,7 @@ import { FILE, linkTo, read, showAddress, told, write } from "./share.js";
 import { Sliders, showRobot } from "./sliders.js";
 import { Standalone, packed } from "./standalone.js";
 import { Timeline } from "./timeline.js";
+import { Tracks } from "./tracks.js";
 import { Tree } from "./tree.js";
 import { Wire } from "./wire.js";
 
@@ -40,6 +42,11 @@ const bounds = new Bounds();
 const stage = new Stage($("under"), $("main"), $("over"));
 stage.taken = given.camera !== undefined;
 const robot = new Robot(stage.scene, () => redraw.everything());
+const tracks = new Tracks();
+const displays = new Displays(stage.scene, tracks, (topic) => {
+  choices.mark("undrawn", topic, !choices.undrawn.has(topic));
+  changed();
+});
 
 /** @type {{ connection: "wait" | "open" | "ended" | "stored", pair: any, unacknowledged: number }} */
 const server = { connection: "wait", pair: null, unacknowledged: 0 };
@@ -125,6 +132,10 @@ const handlers = {
     robot.show(message);
     sliders.show(message.sliders);
     $("robot").hidden = false;
+    redraw.everything();
+  },
+  tracks(found, packed, whole) {
+    tracks.take(found, packed, whole);
     redraw.everything();
   },
   series(message) {
@@ -221,6 +232,7 @@ function paint() {
   const { drawn, lines } = shown;
   const { pair } = server;
   robot.place(shown.frames, choices);
+  displays.place(model.poses?.at ?? null, model, choices.undrawn);
   stage.draw(drawn, { ...choices, scale: 10 ** Number($("scale").value) });
   const special = new Set([choices.chosen, hovered, ...(pair?.found ? [pair.source, pair.target] : [])]);
   const labels = drawn
@@ -246,6 +258,7 @@ function words() {
   }
   showPair(server.pair);
   showRobot(robot);
+  displays.list(choices.undrawn);
   showTime(timeline);
 }
 
@@ -651,6 +664,7 @@ Object.assign(globalThis, {
     moment: () => model.poses?.at ?? null,
     pair: () => server.pair,
     reach: () => timeline.reach,
+    displays: () => displays.drawn(),
     course: () => ({
       gaps: course.gaps,
       findings: course.marks.findings.map(({ id, since }) => ({ id, since, pixel: course.scale.pixel(since) })),

@@ -7,7 +7,7 @@
  * @typedef {{ name: string, authority: string | null, count?: number, static?: boolean,
  *   parents?: Column, poses?: Column[], stamps?: Column }} PackedFrame
  * @typedef {{ name: string, epoch: string, now: number, begin: number | null, view: string,
- *   rounded: boolean, total: number, frames: PackedFrame[], robot: any, marks: any, script: Section,
+ *   rounded: boolean, total: number, frames: PackedFrame[], robot: any, marks: any, tracks?: import("./tracks.js").PackedTrack[], script: Section,
  *   files: { address: string, kind: string, content: Section }[] }} Header
  */
 
@@ -19,11 +19,26 @@ const MAGIC = 0x54465331; // "TFS1"
  */
 export function open(block) {
   const head = new DataView(block);
-  if (block.byteLength < 8 || head.getUint32(0) !== MAGIC) throw new Error("these are no packed frames");
+  if (!isBlock(block)) throw new Error("these are no packed frames");
   const length = head.getUint32(4, true);
   /** @type {Header} */
   const header = JSON.parse(new TextDecoder().decode(new Uint8Array(block, 8, length)));
   return { header, bytes: new Uint8Array(block, 8 + length) };
+}
+
+/**
+ * Whether bytes are a block, not deflated.
+ * @param {ArrayBuffer} block
+ */
+export const isBlock = (block) => block.byteLength >= 8 && new DataView(block).getUint32(0) === MAGIC;
+
+/**
+ * The block inflated from a deflated one.
+ * @param {Blob} blob
+ */
+export async function inflated(blob) {
+  const stream = blob.stream().pipeThrough(new DecompressionStream("deflate"));
+  return open(await new Response(stream).arrayBuffer());
 }
 
 export class Packed {
@@ -44,19 +59,28 @@ export class Packed {
   }
 
   /**
-   * The numbers of a column.
+   * The numbers of a column that is not looked at again.
+   * @param {Column} column
+   * @param {number} count
+   */
+  fresh(column, count) {
+    if ("value" in column) return new Float64Array(count).fill(column.value);
+    if ("bits" in column) return doubles(ordered(this.section(column.bits), count));
+    return wholes(ordered(this.section(column.whole), count), column.order, column.step);
+  }
+
+  /**
+   * The numbers of a column, which several links may share.
    * @param {Column} column
    * @param {number} count
    * @returns {Float64Array}
    */
   column(column, count) {
-    if ("value" in column) return new Float64Array(count).fill(column.value);
-    const section = "bits" in column ? column.bits : column.whole;
-    const key = `${section[0]}`;
+    if ("value" in column) return this.fresh(column, count);
+    const key = String(("bits" in column ? column.bits : column.whole)[0]);
     let numbers = this.known.get(key);
     if (!numbers) {
-      const words = ordered(this.section(section), count);
-      numbers = "bits" in column ? doubles(words) : wholes(words, column.order, column.step);
+      numbers = this.fresh(column, count);
       this.known.set(key, numbers);
     }
     return numbers;

@@ -4,7 +4,7 @@
 const NUMBERS = ["scale", "interval", "timeout", "length", "speed", "at", "opacity", "side"];
 const WORDS = ["fixed", "target", "source", "chosen", "only", "not", "view", "theme", "plot"];
 const SWITCHES = ["names", "axes", "arrows", "grid", "trails", "visuals", "collisions", "jointaxes"];
-const LISTS = ["hidden", "closed", "trailed", "bare"];
+const LISTS = ["hidden", "closed", "trailed", "bare", "undrawn"];
 
 /** Read the address; what is missing or makes no sense is left out. */
 export function read(hash) {

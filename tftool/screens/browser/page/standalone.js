@@ -29,6 +29,7 @@ export class Standalone {
     queueMicrotask(() => {
       handlers.open();
       if (this.robot) handlers.robot(this.robot);
+      handlers.tracks(packed.header.tracks ?? [], packed, true);
       this.later();
     });
   }

@@ -1,16 +1,15 @@
 // @ts-check
 // Begins a page that has no server: inflates what is packed into the file, then runs the page's script.
-import { open } from "./packed.js";
+import { inflated } from "./packed.js";
 
-async function inflated() {
+async function begin() {
   const text = atob(document.getElementById("packed")?.textContent ?? "");
   const bytes = new Uint8Array(text.length);
   for (let at = 0; at < text.length; at++) bytes[at] = text.charCodeAt(at);
-  const stream = new Blob([bytes]).stream().pipeThrough(new DecompressionStream("deflate"));
-  return open(await new Response(stream).arrayBuffer());
+  return inflated(new Blob([bytes]));
 }
 
-inflated().then(
+begin().then(
   (packed) => {
     Object.assign(globalThis, { tftoolPacked: packed });
     const [offset, length] = packed.header.script;

@@ -1,5 +1,6 @@
 // @ts-check
 // The connection to the server: decodes what comes, connects again when it ends.
+import { inflated, isBlock, open, Packed } from "./packed.js";
 
 const HEADER = 48;
 export const FIELDS = 11; // numbers of a frame
@@ -65,7 +66,7 @@ export class Wire {
   /**
    * Handlers: open(), ended(reason), names(message),
    *  pair(message), range(message), poses(Poses),
-   *  series(message), marks(message),
+   *  tracks(tracks, packed, whole), messages that are drawn; series(message), marks(message),
    *  robot(message), its shapes, joints and sliders;
    *  past(Poses), which are drawn nowhere but in trails.
    */
@@ -86,7 +87,13 @@ export class Wire {
       if (typeof data === "string") {
         const message = JSON.parse(data);
         const name = message.type === "frames" ? "names" : message.type;
-        this.handlers[name]?.(message);
+        if (name === "tracks") this.fetchTracks();
+        else this.handlers[name]?.(message);
+        return;
+      }
+      if (isBlock(data)) {
+        const { header, bytes } = open(data);
+        this.handlers.tracks(header.tracks ?? [], new Packed(header, bytes), false);
         return;
       }
       const packet = decode(data);
@@ -97,6 +104,14 @@ export class Wire {
       setTimeout(() => (this.socket = this.connect()), RETRY);
     };
     return socket;
+  }
+
+  /** Fetch the messages of a recording that are drawn. */
+  async fetchTracks() {
+    const answer = await fetch("tracks");
+    if (!answer.ok) return;
+    const { header, bytes } = await inflated(await answer.blob());
+    this.handlers.tracks(header.tracks ?? [], new Packed(header, bytes), true);
   }
 
   /** Say something now, and again whenever the connection is made anew. */

@@ -1,0 +1,30 @@
+import assert from "node:assert/strict";
+import { test } from "node:test";
+import { Tracks } from "../../../../tftool/screens/browser/page/tracks.js";
+
+/** What is packed: every column says its own numbers. */
+const packed = { fresh: (column, count) => Float64Array.from(column.numbers).subarray(0, count) };
+const message = (stamp) => ({
+  stamp, frame: "laser", root: "map", pose: [0, 0, 0, 0, 0, 0, 1], count: 2,
+  places: [{ numbers: [stamp, 1] }, { numbers: [2, 3] }, { numbers: [4, 5] }],
+});
+const track = (...stamps) => ({ topic: "/scan", type: "t", kind: "points", count: 9, faults: [], messages: stamps.map(message) });
+
+test("a moment shows the last message up to then, and the present the last of all", () => {
+  const tracks = new Tracks();
+  tracks.take([track(3, 1, 2)], packed, true);
+
+  assert.deepEqual([0.5, 1, 2.9, 99, null].map((at) => tracks.at("/scan", at)?.stamp), [undefined, 1, 2, 3, 3]);
+  assert.equal(tracks.at("/other", 1), null);
+  assert.deepEqual([...(tracks.at("/scan", 1)?.places() ?? [])], [1, 2, 4, 1, 3, 5]);
+});
+
+test("what goes on is added to, up to a limit; what is whole replaces", () => {
+  const tracks = new Tracks();
+  for (let stamp = 0; stamp < 300; stamp++) tracks.take([track(stamp)], packed, false);
+  assert.equal(tracks.topics.get("/scan")?.messages.length, 200);
+  assert.equal(tracks.at("/scan", 100), tracks.topics.get("/scan")?.messages[0] ?? null);
+
+  tracks.take([track(7)], packed, true);
+  assert.equal(tracks.topics.get("/scan")?.messages.length, 1);
+});

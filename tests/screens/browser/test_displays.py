@@ -1,0 +1,209 @@
+"""Points, paths, clouds and scans beside the frames, in a file and from a server."""
+
+import asyncio
+import importlib.util
+import shutil
+import struct
+import threading
+from types import SimpleNamespace
+
+import numpy as np
+import pytest
+
+import tftool
+from tftool.cli.app import main
+from tftool.frames.sample import TransformStamped
+from tftool.geometry.rigid import Transform
+from tftool.screens.browser.displays import cloud, path, point, scan
+from tftool.screens.browser.tracks import Limits, recorded_tracks
+from tftool.stamps import NANOSECONDS, seconds
+
+EPOCH = 1_700_000_000 * NANOSECONDS
+POINTS = np.array([[1.0, 2.0, 3.0], [np.nan, 0.0, 0.0], [-1.0, 0.5, 0.25]])
+
+
+def stamped(message, at=0.0, frame="sensor"):
+    message.header.stamp.sec, message.header.stamp.nanosec = divmod(
+        EPOCH + seconds(at), NANOSECONDS
+    )
+    message.header.frame_id = frame
+    return message
+
+
+def cloud_of(recording, points, at=0.0, frame="sensor"):
+    """A cloud with a field before, between and behind x, y and z."""
+    message = stamped(recording.new_message("sensor_msgs/msg/PointCloud2"), at, frame)
+    message.height, message.width = 1, len(points)
+    message.point_step = 24
+    message.row_step = 24 * len(points)
+    for name, offset in (("i", 0), ("x", 4), ("y", 12), ("z", 16)):
+        one = recording.new_message("sensor_msgs/msg/PointField")
+        one.name, one.offset, one.datatype, one.count = name, offset, 7, 1
+        message.fields.append(one)
+    message.data = b"".join(struct.pack("<ffxxxxffxxxx", 9.0, *point) for point in points)
+    return message
+
+
+def scan_of(recording, ranges, at=0.0):
+    message = stamped(recording.new_message("sensor_msgs/msg/LaserScan"), at)
+    message.angle_min, message.angle_increment = 0.0, np.pi / 2
+    message.range_min, message.range_max = 0.5, 10.0
+    message.ranges = ranges
+    return message
+
+
+def path_of(recording, places, at=0.0, frame="world"):
+    message = stamped(recording.new_message("nav_msgs/msg/Path"), at, frame)
+    for x, y in places:
+        pose = recording.new_message("geometry_msgs/msg/PoseStamped")
+        pose.pose.position.x, pose.pose.position.y = float(x), float(y)
+        message.poses.append(pose)
+    return message
+
+
+def point_of(recording, x, y, at=0.0, frame="sensor"):
+    message = stamped(recording.new_message("geometry_msgs/msg/PointStamped"), at, frame)
+    message.point.x, message.point.y = x, y
+    return message
+
+
+@pytest.fixture
+def run(tmp_path):
+    """A robot that drives along x at 1 m/s for 4 s, its sensor a metre above it, at 10 Hz."""
+    file = tmp_path / "run.mcap"
+    with tftool.write_recording(file) as recording:
+        mount = TransformStamped(0, "robot", "sensor", Transform((0.0, 0.0, 1.0)))
+        recording.static_transforms([mount], EPOCH)
+        for tick in range(41):
+            at = tick / 10
+            stamp = EPOCH + seconds(at)
+            pose = TransformStamped(stamp, "world", "robot", Transform((at, 0.0, 0.0)))
+            recording.transforms([pose], stamp)
+            if tick % 10 == 0:
+                for topic, message in (
+                    ("/cloud", cloud_of(recording, POINTS, at)),
+                    ("/scan", scan_of(recording, [1.0, 2.0, 99.0, 0.1], at)),
+                    ("/plan", path_of(recording, [(0, 0), (1, 0), (1, tick)], at)),
+                    ("/goal", point_of(recording, 0.5, -0.5, at)),
+                ):
+                    recording.message(topic, message, stamp)
+    return file
+
+
+def test_a_cloud_gives_its_finite_points_whatever_lies_between(run, tmp_path):
+    with tftool.write_recording(tmp_path / "other.mcap") as recording:
+        drawn = cloud.draw(cloud_of(recording, POINTS, 1.5), 200_000)
+        thinned = cloud.draw(cloud_of(recording, np.zeros((10_001, 3))), 1000)
+        short = cloud_of(recording, POINTS)
+        short.data = short.data[:-1]
+        nameless = cloud_of(recording, POINTS)
+        nameless.fields.pop()
+        with pytest.raises(tftool.InputError, match="fewer bytes"):
+            cloud.draw(short, 10)
+        with pytest.raises(tftool.InputError, match="no field 'z'"):
+            cloud.draw(nameless, 10)
+
+    assert drawn.places.tolist() == [[1.0, 2.0, 3.0], [-1.0, 0.5, 0.25]]
+    assert (drawn.stamp, drawn.frame) == (EPOCH + seconds(1.5), "sensor")
+    assert 500 < len(thinned.places) <= 1000
+
+
+def test_a_scan_gives_where_its_rays_hit_and_a_path_its_places_in_order(run, tmp_path):
+    with tftool.write_recording(tmp_path / "other.mcap") as recording:
+        hits = scan.draw(scan_of(recording, [1.0, 2.0, float("inf"), 0.1]), 10)
+        line = path.draw(path_of(recording, [(0, 0), (1, 0), (1, 2)]), 10)
+        ball = point.draw(point_of(recording, 4.0, 5.0), 10)
+
+    np.testing.assert_allclose(hits.places, [[1, 0, 0], [0, 2, 0]], atol=1e-6)
+    assert line.places.tolist() == [[0, 0, 0], [1, 0, 0], [1, 2, 0]]
+    assert ball.places.tolist() == [[4, 5, 0]]
+
+
+def test_of_many_messages_so_many_are_drawn_as_have_room(run):
+    with tftool.open_recording(run) as recording:
+        every = recorded_tracks(recording, Limits())
+        few = recorded_tracks(recording, Limits(points=1, all_points=3))
+
+    assert {one.topic: len(one.messages) for one in every} == {
+        "/cloud": 5, "/scan": 5, "/plan": 5, "/goal": 5,
+    }  # fmt: skip
+    assert {one.topic: len(one.messages) for one in few} == {
+        "/cloud": 3, "/scan": 3, "/plan": 3, "/goal": 3,
+    }  # fmt: skip
+
+
+def shown(page, topic, moment):
+    """Where a topic's first place is in the picture, once it shows that moment's message."""
+    found = page.until(
+        lambda: (
+            (one := page.said("tftool.displays()").get(topic)) and one["stamp"] == moment and one
+        )
+    )
+    return found["count"], [round(number, 3) for number in found["first"]]
+
+
+def check_displays(page):
+    page.until(lambda: len(page.said("tftool.displays()")) == 4)
+    page.scrub(2.5)
+    # The messages of 2 s, placed where the sensor was at 2 s, not where it is now.
+    assert shown(page, "/cloud", 2.0) == (2, [3.0, 2.0, 4.0])
+    assert shown(page, "/scan", 2.0) == (2, [3.0, 0.0, 1.0])
+    assert shown(page, "/goal", 2.0) == (1, [2.5, -0.5, 1.0])
+    assert shown(page, "/plan", 2.0) == (3, [0.0, 0.0, 0.0])
+    page.find("#topics button").click()
+    page.until(lambda: len(page.said("tftool.displays()")) == 3)
+    assert page.complaints() == []
+
+
+needs_browser = pytest.mark.skipif(
+    not (
+        shutil.which("chromium")
+        and shutil.which("chromedriver")
+        and importlib.util.find_spec("selenium")
+    ),
+    reason="no chromium and chromedriver: apt-get install chromium chromium-driver",
+)
+
+
+@needs_browser
+def test_a_file_shows_them_where_they_were(chromium, run, tmp_path):
+    from tests.screens.browser.test_file import opened
+
+    assert main(["view", str(run), "-o", str(tmp_path / "run.html")]) == 0
+
+    check_displays(opened(chromium, tmp_path / "run.html", "fixed=world"))
+
+
+@needs_browser
+def test_a_server_shows_them_where_they_were(chromium, run):
+    pytest.importorskip("websockets", reason="the extra `view` is not installed")
+    from tests.screens.browser.driving import Page
+    from tftool.cli.connection import Connection
+    from tftool.cli.hosting import open_session
+    from tftool.screens.browser.server import PageServer
+    from tftool.screens.browser.tracks import tracks_named
+
+    connection = Connection()
+    session = open_session(connection, str(run))
+    found = SimpleNamespace()
+    ready = threading.Event()
+
+    async def serve():
+        async with PageServer(session.world, port=0) as page:
+            page.show_tracks(lambda: tracks_named(str(run)))
+            found.url, found.over = page.url, asyncio.Event()
+            found.loop = asyncio.get_running_loop()
+            running = asyncio.ensure_future(page.run())
+            ready.set()
+            await found.over.wait()
+            running.cancel()
+
+    thread = threading.Thread(target=lambda: session.run(serve()))
+    thread.start()
+    assert ready.wait(60)
+    try:
+        check_displays(Page(chromium, found, "fixed=world&at=0.5"))
+    finally:
+        found.loop.call_soon_threadsafe(found.over.set)
+        thread.join(60)
+        connection.__exit__()

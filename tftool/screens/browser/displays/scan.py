@@ -1,0 +1,20 @@
+"""`sensor_msgs/LaserScan`: where its rays ended, in the plane of the sensor."""
+
+from typing import Any, Final
+
+import numpy as np
+
+from tftool.screens.browser.displays.shapes import DrawnMessage, drawn
+
+TYPE: Final = "sensor_msgs/msg/LaserScan"
+KIND: Final = "points"
+
+
+def draw(message: Any, most: int) -> DrawnMessage:
+    """The ends of the rays that hit something: ranges from its least to its most."""
+    ranges = np.asarray(message.ranges, dtype=np.float64)
+    angles = message.angle_min + message.angle_increment * np.arange(len(ranges))
+    hit = (ranges >= message.range_min) & (ranges <= message.range_max)
+    ranges, angles = ranges[hit], angles[hit]
+    places = np.stack((ranges * np.cos(angles), ranges * np.sin(angles), 0.0 * ranges), axis=1)
+    return drawn(message.header, places, most)

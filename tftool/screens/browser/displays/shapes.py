@@ -1,0 +1,40 @@
+"""What every display gives: places in one frame at one moment."""
+
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+import numpy.typing as npt
+
+from tftool.stamps import NANOSECONDS, Stamp
+
+Places = npt.NDArray[np.float32]
+"""Metres in the frame of the message, shape (n, 3)."""
+
+MOST_POINTS = 200_000
+"""Points of one message that are drawn; of more, every second one, or every third."""
+
+
+@dataclass(frozen=True, slots=True, eq=False)
+class DrawnMessage:
+    """One message as it is drawn.
+
+    Attributes:
+        stamp: Its moment, nanoseconds.
+        frame: What its places are given in.
+        places: Where they are; none that is not finite.
+    """
+
+    stamp: Stamp
+    frame: str
+    places: Places
+
+
+def drawn(header: Any, places: npt.NDArray[Any], most: int = MOST_POINTS) -> DrawnMessage:
+    """Take the finite ones of some places, thinned out to at most so many."""
+    places = np.asarray(places, dtype=np.float32).reshape(-1, 3)
+    places = places[np.isfinite(places).all(axis=1)]
+    if len(places) > most:
+        places = places[:: -(-len(places) // most)]
+    stamp = header.stamp.sec * NANOSECONDS + header.stamp.nanosec
+    return DrawnMessage(stamp, header.frame_id.removeprefix("/"), places)

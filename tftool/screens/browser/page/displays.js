@@ -1,0 +1,112 @@
+// @ts-check
+// Points, paths, clouds and scans in the picture, and the switches for them.
+import { Group, Quaternion, Vector3 } from "three";
+import { ball } from "./displays/ball.js";
+import { line } from "./displays/line.js";
+import { points } from "./displays/points.js";
+import { compose } from "./maths.js";
+import { $ } from "./panels.js";
+
+const SHAPES = { ball, line, points };
+const COLORS = ["#00a2c7", "#d6409f", "#f76b15", "#8e4ec6", "#46a758", "#c2a400"];
+
+export class Displays {
+  /**
+   * @param {import("three").Scene} scene
+   * @param {import("./tracks.js").Tracks} tracks
+   * @param {(topic: string) => void} toggle
+   */
+  constructor(scene, tracks, toggle) {
+    this.tracks = tracks;
+    this.toggle = toggle;
+    this.group = new Group();
+    scene.add(this.group);
+    /** @type {Map<string, { message: import("./tracks.js").Message, shape: any, trouble: string }>} */
+    this.shown = new Map();
+    /** @type {Map<string, HTMLElement>} */
+    this.switches = new Map();
+  }
+
+  /**
+   * Put every topic's message where it was.
+   * @param {number | null} moment
+   * @param {import("./model.js").Model} model solved for the fixed frame
+   * @param {Set<string>} undrawn topics that are switched off
+   */
+  place(moment, model, undrawn) {
+    let color = 0;
+    for (const { topic, kind } of this.tracks.topics.values()) {
+      const message = this.tracks.at(topic, moment);
+      const tint = COLORS[color++ % COLORS.length];
+      let one = this.shown.get(topic);
+      if (one && one.message !== message) {
+        this.group.remove(one.shape);
+        one.shape.geometry.dispose();
+        one.shape.material.dispose();
+        this.shown.delete(topic);
+        one = undefined;
+      }
+      if (!message) continue;
+      if (!one) {
+        const shape = SHAPES[kind](message.places(), tint);
+        shape.matrixAutoUpdate = false;
+        shape.frustumCulled = false;
+        this.group.add(shape);
+        one = { message, shape, trouble: "" };
+        this.shown.set(topic, one);
+      }
+      const pose = whereIs(message, model);
+      one.trouble = pose ? "" : `no transform from [${message.frame}] to the fixed frame`;
+      one.shape.visible = pose !== null && !undrawn.has(topic);
+      if (pose) {
+        const [place, turn] = [new Vector3().fromArray(pose, 0), new Quaternion().fromArray(pose, 3)];
+        one.shape.matrix.compose(place, turn, new Vector3(1, 1, 1));
+        one.shape.matrixWorldNeedsUpdate = true;
+      }
+    }
+  }
+
+  /** What is in the picture, by topic: how many places, and its message's stamp. */
+  drawn() {
+    const found = {};
+    for (const [topic, { message, shape }] of this.shown) {
+      if (!shape.visible) continue;
+      const first = new Vector3().fromArray(message.places(), 0).applyMatrix4(shape.matrix).toArray();
+      found[topic] = { count: message.places().length / 3, stamp: message.stamp, kind: shape.type, first };
+    }
+    return found;
+  }
+
+  /** The switches, and what is wrong with a topic. */
+  list(undrawn) {
+    const topics = [...this.tracks.topics.values()];
+    $("displays").hidden = topics.length === 0;
+    for (const { topic, type, faults } of topics) {
+      let row = this.switches.get(topic);
+      if (!row) {
+        row = document.createElement("button");
+        row.className = "switch";
+        row.textContent = topic;
+        row.onclick = () => this.toggle(topic);
+        $("topics").append(row);
+        this.switches.set(topic, row);
+      }
+      const trouble = [...faults, this.shown.get(topic)?.trouble ?? ""].filter(Boolean).join("\n");
+      row.title = trouble ? `${type}\n${trouble}` : type;
+      row.classList.toggle("warn", trouble !== "");
+      row.setAttribute("aria-pressed", String(!undrawn.has(topic)));
+    }
+  }
+}
+
+/**
+ * Where a message's frame was in the fixed frame, at its own stamp where that is known.
+ * @param {import("./tracks.js").Message} message
+ * @param {import("./model.js").Model} model
+ */
+function whereIs({ frame, root, pose }, model) {
+  const of = (name) => model.absolute[model.index.get(name) ?? -1] ?? null;
+  if (root === null || pose === null) return of(frame);
+  const above = of(root);
+  return above ? compose(above, pose) : null;
+}
