@@ -789,13 +789,11 @@ INLINE void fetch(Edge *edge, const int64_t *times, int n, Room *room, unsigned 
             passed = 0;
         room->passed[i] = (double)passed;
         room->length[i] = length ? (double)length : 1.0;
-        Pose first, second;
-        pose_of(records, here, &first);
-        pose_of(records, next, &second);
-        for (int k = 0; k < 7; k++) {
-            room->first[k][i] = first.n[k];
-            room->second[k][i] = second.n[k];
-        }
+        const char *first = records + RECORD * here, *second = records + RECORD * next;
+        for (int k = 0; k < 7; k++)
+            memcpy(&room->first[k][i], first + WORD + WORD * k, WORD);
+        for (int k = 0; k < 7; k++)
+            memcpy(&room->second[k][i], second + WORD + WORD * k, WORD);
     }
     edge->here = here;
 }
@@ -898,13 +896,16 @@ solve_block(Edge *up, Py_ssize_t ups, Edge *down, Py_ssize_t downs, const int64_
         for (int k = 0; k < 7; k++)
             room->up[k][i] = second.n[k];
     }
+    double(*pose)[BLOCK] = room->up, *place = room->keep, *turn = room->take;
     for (int i = 0; i < n; i++) {
-        Pose pose;
-        for (int k = 0; k < 7; k++)
-            pose.n[k] = valid[i] ? room->up[k][i] : NAN;
-        canonical(pose.n + 3);
-        memcpy(places + 3 * i, pose.n, 3 * sizeof(double));
-        memcpy(turns + 4 * i, pose.n + 3, 4 * sizeof(double));
+        place[i] = valid[i] ? 1.0 : NAN;
+        turn[i] = place[i] * (leading(pose[3][i], pose[4][i], pose[5][i], pose[6][i]) < 0.0 ? -1.0 : 1.0);
+    }
+    for (int i = 0; i < n; i++) {
+        for (int k = 0; k < 3; k++)
+            places[3 * i + k] = pose[k][i] * place[i];
+        for (int k = 0; k < 4; k++)
+            turns[4 * i + k] = pose[3 + k][i] * turn[i];
     }
 }
 
