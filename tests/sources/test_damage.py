@@ -9,8 +9,11 @@ pytest.importorskip("mcap", reason="writes the test files")
 pytest.importorskip("zstandard", reason="the extra 'recordings' is not installed")
 pytest.importorskip("lz4", reason="the extra 'recordings' is not installed")
 
+import zstandard
+
 from tests.sources.writers import CONTAINERS, content, write_mcap, write_rosbag1, write_rosbag2
 from tftool import InputError, open_recording
+from tftool.sources import compressed
 
 SENT = content()
 SINGLE = [name for name in CONTAINERS if "split" not in name]
@@ -139,3 +142,12 @@ def test_a_chunk_that_announces_too_much_is_not_unpacked(tmp_path, size):
         recording.buffer.frames()
 
         assert any("are announced" in one or "announce" in one for one in recording.damage)
+
+
+def test_of_a_damaged_piece_that_unpacks_to_much_only_a_part_is_held(monkeypatch):
+    monkeypatch.setattr(compressed, "_LARGEST_DAMAGED", 10_000)
+    packed = zstandard.ZstdCompressor().compress(random.Random(1).randbytes(500) * 100)
+
+    found = compressed.unpack_beginning("zstd", packed, 60_000)
+
+    assert found == (random.Random(1).randbytes(500) * 100)[:10_000]

@@ -19,6 +19,8 @@ MOST_GAIN: Final = 1100
 
 _SLACK: Final = 1 << 20
 
+_LARGEST_DAMAGED: Final = 1 << 28  # bytes that are unpacked of a damaged piece: it is held twice
+
 _LARGEST_AHEAD: Final = 16 << 20
 _MOST_WORKERS: Final = 4
 
@@ -119,6 +121,7 @@ def unpack_beginning(method: str, packed: bytes, size: int) -> bytes:
         stream = _stream(method)
     except InputError:
         return b""
+    size = min(size, _LARGEST_DAMAGED)
     found = bytearray()
     # In small steps: of the step in which it breaks, nothing comes out.
     step = 4096
@@ -129,7 +132,7 @@ def unpack_beginning(method: str, packed: bytes, size: int) -> bytes:
             break
         if len(found) >= size or getattr(stream, "eof", False):
             break
-    return bytes(found[:size])
+    return bytes(memoryview(found)[:size])
 
 
 def check_size(packed: int, size: int) -> None:

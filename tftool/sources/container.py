@@ -163,6 +163,22 @@ class File:
         self.read += count
         return found
 
+    def into(self, place: int, room: memoryview) -> None:
+        """The bytes from a place on, as many as there is room for, to be written there.
+
+        Raises:
+            InputError: If the file does not have them.
+        """
+        if hasattr(os, "preadv") and 0 <= place <= self.size - len(room):
+            self.read += len(room)
+            while room:
+                found = os.preadv(self._file.fileno(), [room], place)
+                if not found:
+                    raise InputError(f"the file ends at byte {place}: it was shortened")
+                room, place = room[found:], place + found
+        else:
+            room[:] = self.at(place, len(room))
+
     def fileno(self) -> int:
         """The number by which the operating system knows it."""
         return self._file.fileno()

@@ -6,6 +6,7 @@ sqlite itself goes on behind the last row that was read.
 Source: the SQLite database file format, sections 1.3 to 1.6 and 2.1.
 """
 
+import itertools
 import struct
 from collections.abc import Iterator
 from pathlib import Path
@@ -18,6 +19,7 @@ from tftool.errors import InputError
 from tftool.sources.columns import Batch, words_at
 from tftool.sources.container import File
 from tftool.wire.native import SCAN
+from tftool.wire.rows import Bytes
 
 Pages: TypeAlias = npt.NDArray[np.int64]
 """Numbers of pages, the first of a file is 1, shape (n,)."""
@@ -86,12 +88,15 @@ class _Table:
             for begin in range(0, len(pages), _AT_ONCE):
                 yield self._batch(self._read(pages[begin : begin + _AT_ONCE]), streams)
 
-    def _read(self, pages: Pages) -> bytes:
+    def _read(self, pages: Pages) -> Bytes:
         """Some pages; those that lie one behind the other are read at once."""
-        runs = np.split(pages, np.flatnonzero(np.diff(pages) != 1) + 1)
-        return b"".join(
-            self._file.at((int(run[0]) - 1) * self._size, len(run) * self._size) for run in runs
-        )
+        found = np.empty(len(pages) * self._size, dtype=np.uint8)
+        # Where a run begins, and the next one.
+        runs = np.flatnonzero(np.diff(pages, prepend=-1) != 1).tolist()
+        for run, end in itertools.pairwise([*runs, len(pages)]):
+            room = found.data[run * self._size : end * self._size]
+            self._file.into((int(pages[run]) - 1) * self._size, room)
+        return found
 
     def _leaves(self, root: int) -> Iterator[Pages]:
         """The numbers of the pages with rows, in the order of the rows, in pieces."""
@@ -127,9 +132,8 @@ class _Table:
             raise _Odd
         return found
 
-    def _batch(self, raw: bytes, streams: dict[int, int]) -> tuple[Batch, int]:
+    def _batch(self, pages: Bytes, streams: dict[int, int]) -> tuple[Batch, int]:
         """The messages of some leaf pages, and the id of their last row."""
-        pages = np.frombuffer(raw, dtype=np.uint8)
         rows = SCAN.rows(pages, *self._columns, self._size, self._usable)
         if rows < 0:
             raise _Odd
@@ -147,8 +151,8 @@ class _Table:
         if len(apart):
             if int(lengths[apart].sum()) > _MOST_BYTES:
                 raise _Odd
-            pieces = [raw]
-            end = len(raw)
+            raw = pages.tobytes()
+            pieces, end = [raw], len(raw)
             for row in apart.tolist():
                 pieces.append(self._joined(raw, -1 - int(starts[row]), int(lengths[row])))
                 starts[row] = end

@@ -196,13 +196,12 @@ def adopt(
         return False
     if there is not None and tree.frames[there].link is not None:
         return False
-    stamps = records[:, 0]
-    if not (stamps[1:] > stamps[:-1]).all():
-        return False
     lent = words = _lent(records)
     for begin in range(0, len(records), _BLOCK):
+        # With the one before: what lies in the cache is looked at only once.
+        stamps = records[max(begin - 1, 0) : begin + _BLOCK, 0]
         samples = records[begin : begin + _BLOCK].view(np.float64)[:, 1:]
-        if not np.isfinite(samples).all():
+        if not (stamps[1:] > stamps[:-1]).all() or not np.isfinite(samples).all():
             return False
         if _is_canonical(samples[:, 3:]):
             continue
