@@ -1,12 +1,11 @@
 """Robots: joint states to frames, and a robot of 130 links in a browser without a graphics card."""
 
-import asyncio
-import shutil
-import threading
 import time
+from collections.abc import Awaitable
 
 import numpy as np
 
+from tests.benchmarks import page
 from tftool.nodes.joints import MovingRobot
 from tftool.runtime.world import World
 from tftool.sources.joint_states import JointStates
@@ -17,10 +16,7 @@ from tftool.stamps import seconds
 LINKS = 130
 ARMS = 10
 STATES, JOINTS = 200_000, 6
-WANTED_TRANSFORMS, WANTED_PICTURES = 3e6, 30.0
-LASTING = 10.0
-
-pause = threading.Event().wait
+WANTED_TRANSFORMS = 3e6
 
 
 def arms(links: int, count: int) -> str:
@@ -58,34 +54,17 @@ def transforms_a_second() -> float:
     return STATES * JOINTS / sorted(times)[len(times) // 2]
 
 
-def _moving(world: World, robot: Robot) -> MovingRobot:
-    return MovingRobot(world, file=robot, motion="sine", period=seconds(1 / 30))
-
-
 def pictures_a_second() -> float | None:
     """How many pictures a second a headless browser draws of the robot; None without one."""
-    chromium, chromedriver = shutil.which("chromium"), shutil.which("chromedriver")
-    if not (chromium and chromedriver):
-        return None
-    from tests.screens.browser.driving import start_chromium
-    from tests.screens.browser.stage import Stage
     from tftool.screens.browser.robots import ShownRobot
 
     robot = Robot(parse_description(arms(LINKS, ARMS)))
-    with Stage() as stage:
-        stage.do(lambda world: asyncio.ensure_future(_moving(world, robot).run()))
-        stage.show(ShownRobot(robot))
-        driver = start_chromium()
-        try:
-            driver.get(f"{stage.url}#view=orbit&names=0")
-            while len(driver.execute_script("return tftool.robot().links")) < LINKS:
-                pause(0.1)
-            pause(2.0)
-            before, began = stage.pictures(), time.perf_counter()
-            pause(LASTING)
-            return (stage.pictures() - before) / (time.perf_counter() - began)
-        finally:
-            driver.quit()
+
+    def move(world: World) -> Awaitable[None]:
+        return MovingRobot(world, file=robot, motion="sine", period=seconds(1 / 30)).run()
+
+    ready = f"Object.keys(globalThis.tftool?.robot().links ?? {{}}).length >= {LINKS}"
+    return page.pictures_a_second(move, "view=orbit&names=0", ready, ShownRobot(robot))
 
 
 def report() -> str:
@@ -95,13 +74,7 @@ def report() -> str:
         f"joint states to frames: {rate / 1e6:.1f} M transforms/s "
         f"(wanted: {WANTED_TRANSFORMS / 1e6:.0f} M or more)"
     ]
-    pictures = pictures_a_second()
-    lines.append(
-        "a robot in the browser: no chromium here"
-        if pictures is None
-        else f"a robot of {LINKS} links in headless Chromium: {pictures:.1f} pictures/s "
-        f"(wanted: {WANTED_PICTURES:.0f})"
-    )
+    lines.append(page.told(f"a robot of {LINKS} links", pictures_a_second()))
     return "\n".join(lines)
 
 

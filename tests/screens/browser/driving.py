@@ -56,6 +56,9 @@ class Page:
         driver.get("about:blank")
         # What an earlier page complained of is not this one's.
         driver.get_log("browser")
+        if "timeout=" not in state:
+            # On a busy machine a test may last longer than frames without data are shown.
+            state = f"{state}&timeout=1000".lstrip("&")
         driver.get(f"{stage.url}#{state}")
 
     def said(self, expression):

@@ -13,8 +13,9 @@ pytest.importorskip("selenium.webdriver", reason="selenium is not installed")
 from selenium.webdriver.common.by import By
 from selenium.webdriver.support.ui import Select
 
-from tests.screens.browser.driving import CHROMEDRIVER, CHROMIUM, Page
+from tests.screens.browser.driving import CHROMEDRIVER, CHROMIUM, Page, Resized
 from tests.screens.browser.mesh_files import write_package
+from tests.screens.browser.rover import drive, rover
 from tests.screens.browser.stage import Stage
 from tftool.stamps import display, seconds
 
@@ -67,7 +68,7 @@ def test_frames_appear_and_move(chromium, stage):
 
 def test_axes_are_painted_in_their_colours(chromium, stage):
     stage.put(1.0, 1.0)
-    page = Page(chromium, stage, "names=0&arrows=0&theme=dark&scale=2")
+    page = Page(chromium, stage, "names=0&arrows=0&theme=dark&scale=2&pair=none")
     page.until(lambda: "turtle" in page.drawn())
 
     painted = chromium.execute_script(
@@ -499,7 +500,7 @@ def test_a_frame_leaves_a_trail_when_asked_to(chromium, stage):
     for second in (1.0, 2.0, 3.0):
         stage.put(second, at=second)
         stage.put(0.0, second, at=second, child="other")
-    page = Page(chromium, stage, "chosen=turtle")
+    page = Page(chromium, stage, "chosen=turtle&trails=0&at=3")
     page.until(lambda: page.said("tftool.remembered()") > 100)
     assert page.said("tftool.trails()") == []
 
@@ -567,7 +568,7 @@ def test_a_crowd_of_frames_is_painted_in_its_colours(chromium, stage, drawn_by, 
         request.getfixturevalue("card")
     links = [("world", f"f{index}") for index in range(100)]
     stage.mount(*links, x=2.0)
-    page = Page(chromium, stage, "names=0&grid=0&theme=dark&scale=3")
+    page = Page(chromium, stage, "names=0&grid=0&theme=dark&scale=3&pair=none")
     page.until(lambda: len(page.drawn()) == 101)
     assert page.said("tftool.plain()") == (drawn_by == "processor")
 
@@ -600,16 +601,13 @@ def test_thousands_of_frames_are_answered_and_what_is_left_out_is_said(chromium,
     reason="the README's picture is there; TFTOOL_PICTURES=1 makes it anew",
 )
 def test_the_readmes_picture_is_made_from_the_page_as_it_is(chromium, card):
-    chromium.set_window_size(1280, 984)
-    with Stage(scenario="robot", lived=17.0) as stage:
-        page = Page(
-            chromium,
-            stage,
-            "view=orbit&theme=dark&trails=1&fixed=map&chosen=laser_link"
-            "&target=map&source=laser_point",
-        )
-        page.until(lambda: page.text("#sentence") == "laser_point in map")
-        page.until(lambda: page.text("#chosen") == "laser_link")
+    with Stage() as stage, Resized(chromium, 1280, 984):
+        shown = rover()
+        stage.show(shown)
+        stage.do(lambda world: drive(world, shown))
+        page = Page(chromium, stage, "theme=dark&chosen=gripper&fixed=map&arrows=0")
+        page.until(lambda: page.text("#sentence") == "gripper in map")
+        page.until(lambda: page.text("#chosen") == "gripper")
         page.until(lambda: chromium.execute_script("return tftool.remembered()") >= 240)
         PICTURE.parent.mkdir(exist_ok=True)
         assert chromium.save_screenshot(str(PICTURE))

@@ -18,6 +18,7 @@ test("what makes no sense in the address is left at its default, or brought insi
 test("the address carries every choice there and back", () => {
   const choices = new Choices({}, "dark");
   Object.assign(choices, { view: "orbit", grid: false, speed: 0.25, scale: 2, chosen: "a&b=c#d" });
+  Object.assign(choices.byHand, { view: true, trails: true });
   choices.setFixed("map");
   choices.setPair("base_link", "laser <x>");
   choices.setNumber("timeout", 7);
@@ -32,6 +33,16 @@ test("the address carries every choice there and back", () => {
   assert.equal(given.at, 12.25);
   assert.deepEqual(given.camera, camera);
   assert.deepEqual(new Choices(given), choices);
+});
+
+test("what was not chosen by hand is not in the address", () => {
+  const choices = new Choices({}, "dark");
+  choices.setPair("map", "laser", false);
+  Object.assign(choices, { view: "orbit", trails: true });
+  const given = read(write(choices.shared(null, undefined)));
+  assert.deepEqual([given.target, given.source, given.view, given.trails], [undefined, undefined, undefined, undefined]);
+  choices.setPair(undefined, undefined);
+  assert.equal(read(write(choices.shared(null, undefined))).pair, "none");
 });
 
 test("a wrong filter says what is wrong, and the last right one stays in force", () => {

@@ -32,6 +32,12 @@ export class Choices {
     this.axes = given.axes ?? true;
     this.arrows = given.arrows ?? true;
     this.grid = given.grid ?? true;
+    // What was not chosen by hand is left to the page: see opening.js.
+    this.byHand = {
+      trails: given.trails !== undefined,
+      view: given.view !== undefined,
+      pair: given.pair === "none" || given.target !== undefined || given.source !== undefined,
+    };
     this.trails = given.trails ?? false;
     this.visuals = given.visuals ?? true; // of the robot
     this.collisions = given.collisions ?? false;
@@ -110,8 +116,10 @@ export class Choices {
   /**
    * @param {string | undefined} target
    * @param {string | undefined} source
+   * @param {boolean} byHand whether a person chose it
    */
-  setPair(target, source) {
+  setPair(target, source, byHand = true) {
+    this.byHand.pair ||= byHand;
     this.target = target || undefined;
     this.source = source || undefined;
   }
@@ -135,6 +143,10 @@ export class Choices {
   shared(at, camera) {
     return {
       ...this,
+      ...(this.byHand.trails ? {} : { trails: undefined }),
+      ...(this.byHand.view ? {} : { view: undefined }),
+      ...(this.byHand.pair ? {} : { target: undefined, source: undefined }),
+      pair: this.byHand.pair && !this.target && !this.source ? "none" : undefined,
       hidden: [...this.hidden],
       closed: [...this.closed],
       trailed: [...this.trailed],

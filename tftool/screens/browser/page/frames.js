@@ -7,16 +7,18 @@ const MOST_TRAILS = 60;
 const HUES = [207, 332, 140, 32, 268, 180, 354, 80, 238, 300];
 // A frame is late after so many of its periods, and after so long at least; red a while later.
 const LATE = { periods: 3, seconds: 1 };
+const BESIDE = 0.4; // how much is left of frames beside the chain
 const DEAD = { periods: 10, seconds: 5 };
 
 /**
  * pose, parent: in the fixed frame, null where not known or without a parent. grey, alpha: how far
  * it has faded. shown: whether it is in the picture. trouble: why it cannot be. told: rate or age.
  * late: "late" or "dead" where data stopped coming. color: its own, in the list and of its trail.
+ * dim: 1, and less beside the pair's chain.
  * @typedef {{
  *   index: number, name: string, pose: number[] | null, parent: number[] | null,
  *   grey: number, alpha: number, filtered: boolean, shown: boolean, lost: boolean,
- *   trouble: string, told: string, late: string, color: string,
+ *   trouble: string, told: string, late: string, color: string, dim: number,
  * }} Frame
  */
 
@@ -28,7 +30,8 @@ const DEAD = { periods: 10, seconds: 5 };
 export function colorOf(place, theme) {
   // Where all hues are given out, they come again in another tone.
   const tone = [0, -14, 10][Math.floor(place / HUES.length) % 3];
-  return `hsl(${HUES[place % HUES.length]} 85% ${(theme === "dark" ? 66 : 45) + tone}%)`;
+  // With commas: three reads no other way of writing it.
+  return `hsl(${HUES[place % HUES.length]}, 85%, ${(theme === "dark" ? 66 : 45) + tone}%)`;
 }
 
 /**
@@ -46,9 +49,11 @@ export function lateness(age, rate) {
  * @param {import("./model.js").Model} model solved for the fixed frame
  * @param {import("./choices.js").Choices} choices
  * @param {boolean} past whether a past moment is shown
+ * @param {{ found: boolean, chain: string[] } | null} pair
  * @returns {Frame[]}
  */
-export function describe(model, choices, past) {
+export function describe(model, choices, past, pair = null) {
+  const along = pair?.found ? new Set(pair.chain) : null;
   return model.names.map((name, index) => {
     const pose = model.absolute[index] ?? null;
     const { grey, alpha } = fade(model.age(index), choices.timeout);
@@ -68,6 +73,7 @@ export function describe(model, choices, past) {
       trouble: pose === null ? trouble(model, index, choices.fixed, past) : "",
       told: told(model, index, late),
       late,
+      dim: !along || along.has(name) || choices.chosen === name ? 1 : BESIDE,
       color: colorOf(model.places.get(name) ?? index, choices.theme),
     };
   });
@@ -117,12 +123,17 @@ function told(model, index, late) {
 export function trails(model, drawn, choices, until) {
   if (!model.poses) return [];
   return drawn
-    .filter(({ index, name }) => choices.trailed.has(name) || (choices.trails && model.moves(index)))
+    .filter(({ index, name }) => choices.trailed.has(name) || (choices.trails && leaves(model, index, choices)))
     .slice(0, MOST_TRAILS)
     .map(({ index, color }) => ({
       color,
       points: model.trail(index, choices.fixed, choices.length, until),
     }));
+}
+
+/** Whether a frame moves; unasked, what is mounted on something that moves leaves no trail beside it. */
+function leaves(model, index, choices) {
+  return model.moves(index) && (choices.byHand.trails || !model.statics[index]);
 }
 
 /**
@@ -132,7 +143,7 @@ export function trails(model, drawn, choices, until) {
  * @returns {number[][]}
  */
 export function chain(model, pair) {
-  if (!pair?.found) return [];
+  if (!pair?.found || !pair.chain) return [];
   const poses = pair.chain.map((name) => model.absolute[model.index.get(name) ?? -1] ?? null);
   return poses.every((pose) => pose !== null) ? poses : [];
 }

@@ -5,10 +5,12 @@ import { Choices, LIMITS } from "./choices.js";
 import { Course } from "./course.js";
 import { Displays } from "./displays.js";
 import { keepFiles } from "./files.js";
+import { number } from "./format.js";
 import { chain, describe, retell, trails } from "./frames.js";
 import { freshness } from "./freshness.js";
 import { KEYS, meant, OTHERS } from "./keys.js";
 import { fade, Model } from "./model.js";
+import { naturalPair, planar, trailsPay } from "./opening.js";
 import {
   $, fill, showBanner, showCounts, showEmpty, showFrame, showPair, showReach, showStatus, showTime, toast,
 } from "./panels.js";
@@ -112,6 +114,7 @@ const handlers = {
     tree.build(model, choices);
     course.forget();
     fillPickers();
+    open();
     timers.past.forEach(clearTimeout);
     timers.past = PAST_AFTER.map((wait) => setTimeout(() => wire.past(), wait));
     redraw.everything();
@@ -130,6 +133,7 @@ const handlers = {
   },
   robot(message) {
     robot.show(message);
+    if (!choices.byHand.view) setView("orbit", false);
     sliders.show(message.sliders);
     $("robot").hidden = false;
     redraw.everything();
@@ -222,7 +226,11 @@ function solve() {
     pickers.fixed.value = choices.fixed ?? "";
   }
   model.solve(choices.fixed);
-  shown.frames = describe(model, choices, timeline.past);
+  if (!choices.byHand.view && choices.view === "top" && !planar(model.absolute)) {
+    setView("orbit", false);
+    bounds.reset();
+  }
+  shown.frames = describe(model, choices, timeline.past, server.pair);
   shown.drawn = shown.frames.filter((frame) => frame.shown);
   shown.lines = trails(model, shown.drawn, choices, timeline.at ?? timeline.reach.now);
 }
@@ -240,11 +248,19 @@ function paint() {
     .map((frame) => ({ ...frame, first: special.has(frame.name) }))
     .sort((one, other) => Number(other.first) - Number(one.first));
   stage.drawUnder(lines);
-  const chosen = model.index.get(choices.chosen);
-  stage.drawOver(labels, chain(model, pair), chosen === undefined ? null : (model.absolute[chosen] ?? null));
+  const poseOf = (name) => model.absolute[model.index.get(name) ?? -1];
+  const rings = [{ pose: poseOf(choices.chosen), strong: true }, { pose: poseOf(hovered), strong: false }];
+  stage.drawOver(labels, { chain: chain(model, pair), distance: distance(pair) }, rings);
+}
+
+/** How far apart the frames of the pair are, as text. */
+function distance(pair) {
+  const known = pair?.found && !pair.translation.includes(null);
+  return `${number(known ? Math.hypot(...pair.translation) : null, 3)} m`;
 }
 
 function words() {
+  stage.inset = insets();
   const state = freshness(server.connection, model, timeline.past);
   showStatus(timeline, state);
   showBanner(state, model);
@@ -335,8 +351,17 @@ function choose(name) {
   changed();
 }
 
-function setPair(target, source) {
-  choices.setPair(target, source);
+/** Open with what there is to see, as long as a person has not chosen. */
+function open() {
+  const pair = choices.byHand.pair ? null : naturalPair(model);
+  if (pair && (pair.target !== choices.target || pair.source !== choices.source)) {
+    setPair(pair.target, pair.source, false);
+  }
+  if (!choices.byHand.trails) setSwitch("trails", trailsPay(model), false);
+}
+
+function setPair(target, source, byHand = true) {
+  choices.setPair(target, source, byHand);
   pickers.target.value = choices.target ?? "";
   pickers.source.value = choices.source ?? "";
   server.pair = null;
@@ -354,14 +379,16 @@ function setFixed(name) {
   changed();
 }
 
-function setView(view) {
+function setView(view, byHand = true) {
+  choices.byHand.view ||= byHand;
   choices.view = view;
   stage.setView(view);
   for (const id of ["top", "orbit"]) $(id).setAttribute("aria-pressed", String(id === view));
   changed();
 }
 
-function setSwitch(id, on) {
+function setSwitch(id, on, byHand = true) {
+  if (id === "trails") choices.byHand.trails ||= byHand;
   choices[id] = on;
   $(id).setAttribute("aria-pressed", String(on));
   changed();
@@ -445,7 +472,7 @@ stage.changed = () => {
 };
 for (const id of SWITCHES) {
   $(id).onclick = () => setSwitch(id, !choices[id]);
-  setSwitch(id, choices[id]);
+  setSwitch(id, choices[id], false);
 }
 $("top").onclick = () => setView("top");
 $("orbit").onclick = () => setView("orbit");
@@ -635,7 +662,7 @@ setInterval(() => {
 
 setSide(choices.side);
 setTheme(choices.theme);
-setView(choices.view);
+setView(choices.view, false);
 showScale(choices.scale ?? 1);
 filter();
 if (given.camera) {
@@ -651,16 +678,19 @@ Object.assign(globalThis, {
   tftool: {
     robot: () => ({ waiting: robot.waiting, missing: robot.missing, ...robot.drawn() }),
     drawn: () =>
-      shown.drawn.map(({ name, pose, parent, grey, alpha }) => ({
+      shown.drawn.map(({ name, pose, parent, grey, alpha, dim }) => ({
         name,
         pose,
         grey,
         alpha,
+        dim,
         arrow: parent !== null,
         pixel: stage.project(pose[0], pose[1], pose[2]),
       })),
     fade,
     hovered: () => hovered,
+    distance: () => distance(server.pair),
+    ground: () => ({ cell: stage.ground.cell, reach: stage.seen().reach }),
     moment: () => model.poses?.at ?? null,
     pair: () => server.pair,
     reach: () => timeline.reach,

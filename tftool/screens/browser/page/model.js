@@ -58,6 +58,8 @@ export class Model {
     /** @type {import("./wire.js").Poses[]} */
     this.history = [];
     this.historyBytes = 0;
+    /** @type {WeakMap<object, { base: number, inverse: number[] | null, known: Map<number, number[] | null> }>} */
+    this.spots = new WeakMap(); // of the history, where frames were
   }
 
   /** Take in the names; true if another session speaks now. */
@@ -237,11 +239,27 @@ export class Model {
     for (const poses of this.history) {
       const when = moment(poses);
       if (when > until || when < until - seconds * this.rate) continue;
-      const there = this.inRoot(poses, base);
-      const here = this.inRoot(poses, index);
-      if (there && here) points.push(compose(invert(there), here));
+      const point = this.placed(poses, base, index);
+      if (point) points.push(point);
     }
     return points;
+  }
+
+  /** Where a frame was at one moment of the history; worked out once. */
+  placed(poses, base, index) {
+    let spots = this.spots.get(poses);
+    if (!spots || spots.base !== base) {
+      const there = this.inRoot(poses, base);
+      spots = { base, inverse: there && invert(there), known: new Map() };
+      this.spots.set(poses, spots);
+    }
+    let point = spots.known.get(index);
+    if (point === undefined) {
+      const here = spots.inverse ? this.inRoot(poses, index) : null;
+      point = here && spots.inverse ? compose(spots.inverse, here) : null;
+      spots.known.set(index, point);
+    }
+    return point;
   }
 
   inRoot(poses, index) {

@@ -10,6 +10,7 @@ import {
   DoubleSide,
   Group,
   HemisphereLight,
+  Matrix4,
   Mesh,
   MeshLambertMaterial,
   Quaternion,
@@ -23,6 +24,8 @@ import { GLTFLoader } from "three/addons/loaders/GLTFLoader.js";
 import { OBJLoader } from "three/addons/loaders/OBJLoader.js";
 import { STLLoader } from "three/addons/loaders/STLLoader.js";
 import { fetchFile } from "./files.js";
+
+import { Places, Solids } from "./solids.js";
 
 const GREY = [0.75, 0.75, 0.77, 1]; // where a description says no colour
 const COLLISION = [0.95, 0.45, 0.2, 0.45];
@@ -52,8 +55,11 @@ export class Robot {
     this.changed = changed;
     this.group = new Group();
     this.group.visible = false;
-    /** @type {Map<string, { all: Group, visuals: Group, collisions: Group, axes: Group }>} */
-    this.links = new Map();
+    /** @type {Map<string, { number: number, all: Group, visuals: Group, collisions: Group, axes: Group, loose: boolean }>} */
+    this.links = new Map(); // loose: whether it has parts that are drawn one by one
+    this.places = new Places(0);
+    /** Shapes that are drawn together: all but textured ones. */
+    this.solids = { visuals: new Solids(this.places), collisions: new Solids(this.places) };
     /** @type {string[]} */
     this.missing = [];
     /** @type {Map<string, Promise<import("three").Object3D>>} */
@@ -93,11 +99,15 @@ export class Robot {
     }
     this.links.clear();
     this.meshes.clear();
+    for (const solids of Object.values(this.solids)) solids.dispose();
+    this.places.texture.dispose();
+    this.places = new Places(description.links.length + description.joints.length);
+    this.solids = { visuals: new Solids(this.places), collisions: new Solids(this.places) };
+    this.group.add(this.solids.visuals.mesh, this.solids.collisions.mesh);
     this.missing = [...description.missing];
     for (const link of description.links) {
-      const { visuals, collisions } = this.link(link.frame);
-      for (const shape of link.visuals) this.add(visuals, shape, shape.color ?? GREY);
-      for (const shape of link.collisions) this.add(collisions, shape, COLLISION);
+      for (const shape of link.visuals) this.add(link.frame, "visuals", shape, shape.color ?? GREY);
+      for (const shape of link.collisions) this.add(link.frame, "collisions", shape, COLLISION);
     }
     for (const joint of description.joints) {
       const way = new Vector3(...joint.axis);
@@ -115,28 +125,38 @@ export class Robot {
       all.visible = false;
       all.add(visuals, collisions, axes);
       this.group.add(all);
-      link = { all, visuals, collisions, axes };
+      link = { number: this.links.size, all, visuals, collisions, axes, loose: false };
       this.links.set(frame, link);
     }
     return link;
   }
 
   /**
-   * @param {Group} group
+   * @param {string} frame
+   * @param {"visuals" | "collisions"} kind
    * @param {Shape} shape
    * @param {number[]} color
    */
-  add(group, shape, color) {
+  add(frame, kind, shape, color) {
+    const link = this.link(frame);
+    const solids = this.solids[kind];
     const holder = new Group();
     holder.position.fromArray(shape.origin, 0);
     holder.quaternion.fromArray(shape.origin, 3);
-    group.add(holder);
+    holder.updateMatrix();
+    holder.matrixAutoUpdate = false;
+    link[kind].add(holder);
     const geometry = solid(shape);
+    if (geometry && shape.kind !== "missing" && !shape.texture) {
+      solids.add(link.number, geometry, holder.matrix, linear(color));
+      return;
+    }
     if (geometry) {
       const material = paint(shape.kind === "missing" ? MISSING : color);
       if (shape.kind === "missing") material.wireframe = true;
       if (shape.texture) this.texture(material, shape.texture);
       holder.add(new Mesh(geometry, material));
+      link.loose = true;
       return;
     }
     const address = shape.address ?? "";
@@ -144,23 +164,37 @@ export class Robot {
     this.mesh(address).then(
       (found) => {
         const copy = found.clone(true);
-        copy.traverse((part) => {
-          if (!(part instanceof Mesh)) return;
-          // An STL or OBJ says no colour; the others have materials of their own.
-          if (/\.(stl|obj)$/i.test(address) || group.parent?.children[1] === group) part.material = paint(color);
-          else part.material = Array.isArray(part.material) ? part.material.map((one) => one.clone()) : part.material.clone();
-          if (shape.texture && !Array.isArray(part.material)) this.texture(part.material, shape.texture);
-          remember(part.material);
-        });
         const sized = new Group();
         sized.scale.fromArray(shape.scale ?? [1, 1, 1]);
         sized.add(copy);
+        sized.updateMatrixWorld(true);
+        /** @type {Mesh[]} */
+        const parts = [];
+        copy.traverse((part) => {
+          if (part instanceof Mesh) parts.push(part);
+        });
+        for (const part of parts) {
+          // An STL or OBJ says no colour; the others have materials of their own.
+          const plain = /\.(stl|obj)$/i.test(address) || kind === "collisions";
+          const tone = plain ? linear(color) : toneOf(part);
+          if (tone && !shape.texture) {
+            solids.add(link.number, part.geometry, new Matrix4().multiplyMatrices(holder.matrix, part.matrixWorld), tone);
+            part.removeFromParent();
+            continue;
+          }
+          if (plain) part.material = paint(color);
+          else part.material = Array.isArray(part.material) ? part.material.map((one) => one.clone()) : part.material.clone();
+          if (shape.texture && !Array.isArray(part.material)) this.texture(part.material, shape.texture);
+          remember(part.material);
+          link.loose = true;
+        }
         holder.add(sized);
         this.arrived();
       },
       (error) => {
         const box = paint(MISSING);
         box.wireframe = true;
+        link.loose = true;
         holder.add(new Mesh(new BoxGeometry(MISSING_SIZE, MISSING_SIZE, MISSING_SIZE), box));
         const name = decodeURIComponent(address.split("/").slice(3).join("/"));
         const sentence = `'${name}' cannot be drawn: ${error instanceof Error ? error.message : error}`;
@@ -199,6 +233,7 @@ export class Robot {
   place(frames, look) {
     if (!this.group.visible) return;
     for (const { all } of this.links.values()) all.visible = false;
+    this.places.clear();
     const turn = new Quaternion();
     const where = new Vector3();
     const one = new Vector3(1, 1, 1);
@@ -207,11 +242,16 @@ export class Robot {
       if (!link || !pose || filtered || look.bare.has(name)) continue;
       link.all.visible = true;
       link.all.matrix.compose(where.fromArray(pose, 0), turn.fromArray(pose, 3), one);
+      this.places.put(link.number, link.all.matrix);
+      // What has nothing to be drawn by itself needs no place in the scene either.
+      link.all.matrixWorldAutoUpdate = link.loose || look.jointaxes;
       link.all.matrixWorldNeedsUpdate = true;
       link.visuals.visible = look.visuals;
       link.collisions.visible = look.collisions;
       link.axes.visible = look.jointaxes;
     }
+    this.solids.visuals.show(look.visuals, look.opacity);
+    this.solids.collisions.show(look.collisions, 1);
     if (this.opacity !== look.opacity || this.painted !== this.waiting) {
       this.opacity = look.opacity;
       this.painted = this.waiting;
@@ -231,6 +271,24 @@ function solid({ kind, size = [1, 1, 1], radius = 0, length = 0 }) {
   if (kind === "capsule") return new CapsuleGeometry(radius, length, SIDES / 4, SIDES).rotateX(Math.PI / 2);
   if (kind === "missing") return new BoxGeometry(MISSING_SIZE, MISSING_SIZE, MISSING_SIZE);
   return null;
+}
+
+/**
+ * A colour of a description in linear light, and how opaque it is.
+ * @param {number[]} given
+ */
+function linear(given) {
+  const [red, green, blue, alpha] = given;
+  const color = new Color().setRGB(red, green, blue, SRGBColorSpace);
+  return [color.r, color.g, color.b, alpha];
+}
+
+/** The one colour of a part that came with a mesh; null where there is more to it. */
+function toneOf(part) {
+  const { material, geometry } = part;
+  if (Array.isArray(material) || material.map || material.vertexColors || !material.color) return null;
+  if (!geometry.attributes.position || geometry.morphAttributes.position || part.isSkinnedMesh) return null;
+  return [material.color.r, material.color.g, material.color.b, material.transparent ? material.opacity : 1];
 }
 
 function paint(color) {

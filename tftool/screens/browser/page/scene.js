@@ -5,7 +5,6 @@ import {
   ConeGeometry,
   CylinderGeometry,
   DynamicDrawUsage,
-  GridHelper,
   InstancedBufferAttribute,
   InstancedMesh,
   Matrix4,
@@ -23,7 +22,12 @@ import {
 } from "three";
 import { OrbitControls } from "three/addons/controls/OrbitControls.js";
 import { Crowd } from "./crowd.js";
+import { Ground } from "./ground.js";
+import { arrange } from "./labels.js";
+import { isTurtle } from "./opening.js";
+import { round, spelled } from "./scale.js";
 import { THEMES } from "./themes.js";
+import { Turtles } from "./turtles.js";
 
 const AXES = ["#f0454b", "#3fc45c", "#3d84ff"];
 const SHAFT = "#cfbf57";
@@ -79,6 +83,8 @@ export class Stage {
     this.scene = new Scene();
     this.crowd = new Crowd();
     this.scene.add(this.crowd.mesh);
+    this.ground = new Ground(this.scene);
+    this.turtles = new Turtles(this.scene);
 
     const top = new OrthographicCamera(-1, 1, 1, -1, -1e5, 1e5);
     top.up.set(0, 1, 0);
@@ -107,14 +113,17 @@ export class Stage {
     this.width = this.height = 0; // of the window, CSS pixels
     this.ratio = 1; // canvas pixels per CSS pixel
     this.extent = 5; // how far the frames reach from the origin, metres
-    this.gridSize = 0;
-    /** @type {GridHelper | null} */
-    this.grid = null;
+    /** Pixels that panels cover, at each side. */
+    this.inset = { left: 0, right: 0, top: 0, bottom: 0 };
+    /** @type {Map<string, number>} */
+    this.stood = new Map(); // where names stood in the picture before
     this.theme = THEMES.dark;
     this.capacity = 0;
     /** @type {any[]} */
     this.meshes = [];
     this.point = new Vector3();
+    /** @type {number[] | null} */
+    this.reserved = null; // where the distance stands
     this.signs = new Map(); // names as they were painted
     this.changed = () => {}; // the camera has moved
     this.taken = false; // whether a person moves the camera, and not the page
@@ -138,7 +147,6 @@ export class Stage {
   setTheme(name) {
     this.theme = THEMES[name];
     this.signs.clear();
-    this.gridSize = 0;
     this.changed();
   }
 
@@ -318,7 +326,8 @@ export class Stage {
     if (frames.length) {
       this.extent = Math.max(1, ...frames.map(({ pose }) => Math.max(Math.abs(pose[0]), Math.abs(pose[1]))));
     }
-    this.drawGrid(look);
+    this.ground.draw(look.grid, this.seen(), this.theme.grid);
+    this.drawTurtles(frames);
     const [xs, ys, zs, hubs, shafts, heads] = this.meshes;
     const length = 0.2 * look.scale;
     const radius = 0.02 * look.scale * 0.75;
@@ -336,12 +345,12 @@ export class Stage {
       const { color, corners } = mesh.userData;
       const blend = (own) => own + (GREY - own) * frame.grey;
       if (together) {
-        this.crowd.add(corners, matrix, [blend(color.r), blend(color.g), blend(color.b)], frame.alpha);
+        this.crowd.add(corners, matrix, [blend(color.r), blend(color.g), blend(color.b)], frame.alpha * frame.dim);
         return;
       }
       mesh.setMatrixAt(index, matrix);
       mesh.instanceColor.setXYZ(index, blend(color.r), blend(color.g), blend(color.b));
-      mesh.geometry.attributes.fade.setX(index, frame.alpha);
+      mesh.geometry.attributes.fade.setX(index, frame.alpha * frame.dim);
     };
     for (const frame of frames) {
       if (frame.alpha <= 0) continue;
@@ -383,23 +392,35 @@ export class Stage {
     this.renderer.render(this.scene, this.camera);
   }
 
-  drawGrid(look) {
-    let cell = 1;
-    while (this.extent / cell > 40) cell *= 10;
-    const cells = Math.max(10, 2 * Math.ceil((this.extent * 1.1) / cell));
-    if (this.gridSize !== cells * cell) {
-      if (this.grid) {
-        this.scene.remove(this.grid);
-        this.grid.geometry.dispose();
-        this.grid.material.dispose();
-      }
-      this.gridSize = cells * cell;
-      this.grid = new GridHelper(this.gridSize, cells, ...this.theme.grid);
-      this.grid.rotation.x = Math.PI / 2;
-      this.grid.position.z = -1e-4;
-      this.scene.add(this.grid);
-    }
-    if (this.grid) this.grid.visible = look.grid;
+  /** Metres of a pixel where one looks, the place one looks at, and how far one sees or the frames reach. */
+  seen() {
+    const { x, y } = this.controls[this.view].target;
+    const corner = Math.hypot(this.width, this.height) / 2;
+    const pixel = this.pixel();
+    if (this.view === "top") return { pixel, middle: [x, y], reach: corner * pixel, flat: true };
+    const world = this.extent + Math.max(Math.abs(x), Math.abs(y));
+    return { pixel, middle: [x, y], reach: Math.max(1.3 * world, corner * pixel), flat: false };
+  }
+
+  /** Metres a pixel is wide, at the place one looks at. */
+  pixel() {
+    const { top, orbit } = this.cameras;
+    if (this.view === "top") return 10 / (this.height || 1) / top.zoom;
+    const distance = orbit.position.distanceTo(this.controls.orbit.target) || 1;
+    return (2 * distance * Math.tan((orbit.fov * Math.PI) / 360)) / (this.height || 1);
+  }
+
+  drawTurtles(frames) {
+    const where = new Vector3();
+    const turn = new Quaternion();
+    const size = new Vector3(1, 1, 1);
+    this.turtles.draw(
+      frames.filter(({ name, alpha }) => alpha > 0 && isTurtle(name)),
+      (group, pose) => {
+        group.matrix.compose(where.fromArray(pose, 0), turn.fromArray(pose, 3), size);
+        group.matrixWorldNeedsUpdate = true;
+      },
+    );
   }
 
   /** Pixels from the top left corner, or null for what lies behind the camera. */
@@ -442,56 +463,146 @@ export class Stage {
     pen.globalAlpha = 1;
   }
 
-  /** Names, the chosen frame's ring and the pair's chain. Names are only ever painted as text. */
-  drawOver(labels, chain, ring) {
+  /**
+   * Names, rings, the pair's chain, the scale and the axes. Names are only ever painted as text.
+   * @param {any[]} labels
+   * @param {{ chain: number[][], distance: string }} pair
+   * @param {{ pose: number[] | null | undefined, strong: boolean }[]} rings
+   */
+  drawOver(labels, pair, rings) {
     const pen = flat(this.over);
     pen.setTransform(this.ratio, 0, 0, this.ratio, 0, 0);
     pen.clearRect(0, 0, this.width, this.height);
-    const spots = chain.map((pose) => this.project(pose[0], pose[1], pose[2]));
-    if (spots.length > 1 && spots.every(Boolean)) {
-      pen.strokeStyle = pen.fillStyle = this.theme.accent;
+    this.drawChain(pen, pair);
+    for (const { pose, strong } of rings) {
+      const spot = pose ? this.project(pose[0], pose[1], pose[2]) : null;
+      if (!spot) continue;
+      pen.strokeStyle = strong ? this.theme.accent : this.theme.text;
       pen.lineWidth = 2;
-      pen.setLineDash([2, 7]);
-      pen.lineCap = "round";
+      pen.beginPath();
+      pen.arc(spot[0], spot[1], strong ? 13 : 16, 0, 7);
+      pen.stroke();
+    }
+    this.drawNames(pen, labels);
+    this.drawCorner(pen);
+  }
+
+  /** The way from frame to frame, and the straight one with its length. */
+  drawChain(pen, { chain, distance }) {
+    const spots = chain.map((pose) => this.project(pose[0], pose[1], pose[2]));
+    if (spots.length < 2 || !spots.every(Boolean)) return;
+    const [first, last] = [spots[0], spots[spots.length - 1]];
+    pen.lineCap = pen.lineJoin = "round";
+    const way = () => {
       pen.beginPath();
       spots.forEach(([x, y], at) => pen[at ? "lineTo" : "moveTo"](x, y));
       pen.stroke();
+    };
+    pen.strokeStyle = this.theme.halo;
+    pen.lineWidth = 7;
+    way();
+    pen.strokeStyle = pen.fillStyle = this.theme.accent;
+    pen.lineWidth = 4;
+    way();
+    if (spots.length > 2) {
+      pen.lineWidth = 2;
+      pen.setLineDash([2, 7]);
+      pen.beginPath();
+      pen.moveTo(first[0], first[1]);
+      pen.lineTo(last[0], last[1]);
+      pen.stroke();
       pen.setLineDash([]);
-      spots.forEach(([x, y], at) => {
-        const end = at === 0 || at === spots.length - 1;
-        pen.beginPath();
-        pen.arc(x, y, end ? 5 : 3, 0, 7);
-        pen.fill();
-      });
     }
-    if (ring) {
-      const spot = this.project(ring[0], ring[1], ring[2]);
-      if (spot) {
-        pen.strokeStyle = this.theme.accent;
-        pen.lineWidth = 2;
+    spots.forEach(([x, y], at) => {
+      pen.beginPath();
+      pen.arc(x, y, at === 0 || at === spots.length - 1 ? 6 : 4, 0, 7);
+      pen.fill();
+    });
+    const sign = this.sign(distance, this.theme.accent);
+    const [width, height] = [sign.width / this.ratio, sign.height / this.ratio];
+    const [x, y] = [(first[0] + last[0]) / 2 - width / 2, (first[1] + last[1]) / 2 - height / 2];
+    this.reserved = [x, y, width, height];
+    pen.fillStyle = this.theme.halo;
+    pen.fillRect(x, y + 2, width, height - 6);
+    pen.drawImage(sign, Math.round(x), Math.round(y), width, height);
+  }
+
+  /** Names beside their frames; one that has to stand aside gets a line. */
+  drawNames(pen, labels) {
+    const seen = [];
+    for (const label of labels) {
+      const spot = this.project(label.pose[0], label.pose[1], label.pose[2]);
+      if (!spot || spot[0] < -60 || spot[0] > this.width + 60 || spot[1] < -40 || spot[1] > this.height + 40) continue;
+      const sign = this.sign(label.name, label.first ? this.theme.accent : this.theme.text);
+      const [width, height] = [sign.width / this.ratio, sign.height / this.ratio];
+      seen.push({ label, sign, x: spot[0], y: spot[1], width, height, first: label.first, was: this.stood.get(label.name) });
+    }
+    const stands = arrange(seen, this.reserved);
+    this.reserved = null;
+    this.stood.clear();
+    pen.strokeStyle = this.theme.text;
+    pen.lineWidth = 1;
+    stands.forEach((stand, at) => {
+      if (!stand) return;
+      const { label, sign, x, y, width, height } = seen[at];
+      this.stood.set(label.name, stand.place);
+      pen.globalAlpha = label.alpha * (1 - 0.4 * label.grey) * (0.4 + 0.6 * label.dim);
+      if (stand.moved) {
+        // To the nearest edge of the name.
+        const toX = Math.max(stand.left + 4, Math.min(x, stand.left + width - 4));
+        const toY = Math.max(stand.top + 4, Math.min(y, stand.top + height - 4));
         pen.beginPath();
-        pen.arc(spot[0], spot[1], 13, 0, 7);
+        pen.moveTo(x, y);
+        pen.lineTo(toX, toY);
         pen.stroke();
       }
-    }
-    const taken = new Set();
-    for (const { name, pose, alpha, grey, first } of labels) {
-      const spot = this.project(pose[0], pose[1], pose[2]);
-      if (!spot || spot[0] < -200 || spot[0] > this.width + 200 || spot[1] < -40 || spot[1] > this.height + 40) continue;
-      const sign = this.sign(name, first ? this.theme.accent : this.theme.text);
-      const y = spot[1] + 10;
-      // One name per patch of the picture: a heap of names says nothing.
-      const half = sign.width / this.ratio / 2;
-      const cells = [];
-      for (let x = Math.floor((spot[0] - half) / 16); x <= Math.floor((spot[0] + half) / 16); x++) {
-        for (let row = Math.floor(y / 7); row <= Math.floor((y + 12) / 7); row++) cells.push(`${x},${row}`);
-      }
-      if (!first && cells.some((cell) => taken.has(cell))) continue;
-      cells.forEach((cell) => taken.add(cell));
-      pen.globalAlpha = alpha * (1 - 0.4 * grey);
-      pen.drawImage(sign, Math.round(spot[0] - half), Math.round(y - 3), 2 * half, sign.height / this.ratio);
-    }
+      pen.drawImage(sign, stand.left, stand.top, width, height);
+    });
     pen.globalAlpha = 1;
+  }
+
+  /** How long a metre is, and where x, y and z point, in the corner that panels leave free. */
+  drawCorner(pen) {
+    const left = this.inset.left + 18;
+    const bottom = this.height - this.inset.bottom - 16;
+    const pixel = this.pixel();
+    const long = round(64 * pixel);
+    const wide = long / pixel;
+    pen.lineCap = "butt";
+    for (const [color, width] of [[this.theme.halo, 5], [this.theme.text, 1.5]]) {
+      pen.strokeStyle = color;
+      pen.lineWidth = width;
+      pen.beginPath();
+      pen.moveTo(left, bottom - 5);
+      pen.lineTo(left, bottom);
+      pen.lineTo(left + wide, bottom);
+      pen.lineTo(left + wide, bottom - 5);
+      pen.stroke();
+    }
+    const sign = this.sign(spelled(long), this.theme.text);
+    pen.drawImage(sign, Math.round(left + wide + 4), Math.round(bottom - 14), sign.width / this.ratio, sign.height / this.ratio);
+    const middle = [left + 34, bottom - 58];
+    const turn = new Matrix4().extractRotation(this.camera.matrixWorldInverse);
+    const tips = AXES.map((color, side) => ({
+      color,
+      name: "xyz"[side],
+      tip: new Vector3(...[0, 1, 2].map((at) => Number(at === side))).applyMatrix4(turn),
+    }));
+    // What points away is drawn first.
+    for (const { color, name, tip } of tips.sort((one, other) => one.tip.z - other.tip.z)) {
+      const [x, y] = [middle[0] + 28 * tip.x, middle[1] - 28 * tip.y];
+      pen.strokeStyle = color;
+      pen.lineWidth = 3;
+      pen.lineCap = "round";
+      pen.beginPath();
+      pen.moveTo(middle[0], middle[1]);
+      pen.lineTo(x, y);
+      pen.stroke();
+      if (Math.hypot(tip.x, tip.y) < 0.2) continue;
+      const letter = this.sign(name, this.theme.text);
+      const [width, height] = [letter.width / this.ratio, letter.height / this.ratio];
+      pen.drawImage(letter, middle[0] + 38 * tip.x - width / 2, middle[1] - 38 * tip.y - height / 2, width, height);
+    }
   }
 
   /** A name painted once, to be put down in every picture: outlines of letters are costly. */

@@ -2,7 +2,7 @@
 // The view as part of the page's address, so that a link shows just this.
 
 const NUMBERS = ["scale", "interval", "timeout", "length", "speed", "at", "opacity", "side"];
-const WORDS = ["fixed", "target", "source", "chosen", "only", "not", "view", "theme", "plot"];
+const WORDS = ["fixed", "target", "source", "pair", "chosen", "only", "not", "view", "theme", "plot"];
 const SWITCHES = ["names", "axes", "arrows", "grid", "trails", "visuals", "collisions", "jointaxes"];
 const LISTS = ["hidden", "closed", "trailed", "bare", "undrawn"];
 
@@ -26,7 +26,7 @@ export function write(state) {
   const said = new URLSearchParams();
   for (const key of NUMBERS) if (Number.isFinite(state[key])) said.set(key, String(+state[key].toPrecision(12)));
   for (const key of WORDS) if (state[key]) said.set(key, state[key]);
-  for (const key of SWITCHES) said.set(key, state[key] ? "1" : "0");
+  for (const key of SWITCHES) if (state[key] !== undefined) said.set(key, state[key] ? "1" : "0");
   for (const key of LISTS) for (const name of state[key] ?? []) said.append(key, name);
   if (state.camera) said.set("camera", state.camera.join(","));
   return `#${said}`;

@@ -1,0 +1,106 @@
+"""The page of `tftool view`: hundreds of frames in a browser without a graphics card."""
+
+import asyncio
+import math
+import shutil
+import threading
+import time
+from collections.abc import Awaitable, Callable
+from typing import Any
+
+from tftool.frames.sample import TransformStamped
+from tftool.geometry.rigid import Transform
+from tftool.runtime.clock import Phase
+from tftool.runtime.world import World
+from tftool.stamps import seconds
+
+FRAMES = 300
+WANTED = 30.0
+WARM = 3.0
+LASTING = 10.0
+
+pause = threading.Event().wait
+
+
+async def crowd(world: World) -> None:
+    """Move a tree of so many frames, each of them at 30 Hz, for ever."""
+    links = [("map" if n < 10 else f"frame{(n - 10) // 3}", f"frame{n}") for n in range(FRAMES)]
+    clock = world.clock
+    due = clock.now()
+    while True:
+        await clock.sleep_until(due, Phase.WATCH)
+        due += seconds(1 / WANTED)
+        now = clock.now()
+        moved = 0.3 * math.sin(2.0 * (now - clock.epoch) / 1e9)
+        world.broadcast(
+            [
+                TransformStamped(
+                    now,
+                    parent,
+                    child,
+                    Transform(
+                        (0.5 + n % 3, n % 5 - 2.0 + moved, 0.2 * (n % 2)),
+                        (0.0, 0.0, math.sin(0.1 * n), math.cos(0.1 * n)),
+                    ),
+                )
+                for n, (parent, child) in enumerate(links)
+            ],
+            "crowd",
+        )
+
+
+def pictures_a_second(
+    act: Callable[[World], Awaitable[None]], state: str, ready: str, robot: Any = None
+) -> float | None:
+    """How many pictures a second a headless browser draws; None without one.
+
+    Args:
+        act: What goes on in the world.
+        state: The page's address behind the #.
+        ready: Holds in the page once everything is drawn.
+        robot: Shown in the page.
+    """
+    if not (shutil.which("chromium") and shutil.which("chromedriver")):
+        return None
+    from tests.screens.browser.driving import start_chromium
+    from tests.screens.browser.stage import Stage
+
+    with Stage() as stage:
+        stage.do(lambda world: asyncio.ensure_future(act(world)))
+        if robot is not None:
+            stage.show(robot)
+        driver = start_chromium()
+        try:
+            driver.get(f"{stage.url}#{state}")
+            while not driver.execute_script(f"return {ready}"):
+                pause(0.1)
+            pause(WARM)
+            before, began = stage.pictures(), time.perf_counter()
+            pause(LASTING)
+            return (stage.pictures() - before) / (time.perf_counter() - began)
+        finally:
+            driver.quit()
+
+
+def told(what: str, pictures: float | None) -> str:
+    """A line of a report."""
+    if pictures is None:
+        return f"{what}: no chromium here"
+    return f"{what} in headless Chromium: {pictures:.1f} pictures/s (wanted: {WANTED:.0f})"
+
+
+def report() -> str:
+    """Measure, and say it in a few lines."""
+    ready = f"globalThis.tftool?.drawn().length > {FRAMES}"
+    named = pictures_a_second(crowd, "", ready)
+    bare = pictures_a_second(crowd, "names=0", ready)
+    return "\n".join(
+        [
+            told(f"{FRAMES} frames at {WANTED:.0f} Hz, with names and a pair", named),
+            told(f"{FRAMES} frames at {WANTED:.0f} Hz, without names", bare),
+        ]
+    )
+
+
+if __name__ == "__main__":
+    print(report())  # noqa: T201

@@ -1,0 +1,79 @@
+// @ts-check
+// Where names stand in the picture: beside their frames, moved aside where others stand already.
+
+const CELL = 8; // pixels
+const GAP = 2; // pixels between two names
+
+/**
+ * @typedef {{ x: number, y: number, width: number, height: number, first?: boolean, was?: number }} Wanted
+ *   x, y: the frame's pixel; width, height: of the name; first: it stands whatever happens;
+ *   was: where it stood in the picture before
+ * @typedef {{ left: number, top: number, place: number, moved: boolean }} Stand
+ *   place: number of the place it got, for the next picture; moved: it needs a line to its frame
+ */
+
+/** Places round a frame as shifts of the name's middle, in units of its half size: below first. */
+const PLACES = [[0, 1, 9], [0, -1, 9], [1, 0, 10], [-1, 0, 10]];
+for (const ring of [24, 40, 58, 80]) {
+  for (let step = 0; step < 8; step++) {
+    const angle = Math.PI / 2 + ((step % 2 ? -1 : 1) * Math.ceil(step / 2) * Math.PI) / 4;
+    PLACES.push([Math.cos(angle), Math.sin(angle), ring]);
+  }
+}
+const MANY = 80; // names; among so many none is led far away
+const FEW = 12;
+const NEAREST = 4; // of the places need no line
+
+class Grid {
+  constructor() {
+    /** @type {Set<number>} */
+    this.taken = new Set();
+  }
+
+  *cells(left, top, width, height) {
+    const last = { x: Math.floor((left + width + GAP) / CELL), y: Math.floor((top + height) / CELL) };
+    for (let x = Math.floor((left - GAP) / CELL); x <= last.x; x++) {
+      for (let y = Math.floor(top / CELL); y <= last.y; y++) yield x * 65_536 + y;
+    }
+  }
+
+  free(...box) {
+    for (const cell of this.cells(...box)) if (this.taken.has(cell)) return false;
+    return true;
+  }
+
+  take(...box) {
+    for (const cell of this.cells(...box)) this.taken.add(cell);
+  }
+}
+
+/**
+ * Give every name a place; null for one that finds none. The first in the list choose first.
+ * @param {Wanted[]} wanted
+ * @param {number[] | null} [reserved] left, top, width and height of what no name may cover
+ * @returns {(Stand | null)[]}
+ */
+export function arrange(wanted, reserved = null) {
+  const grid = new Grid();
+  if (reserved) grid.take(...reserved);
+  const places = wanted.length > MANY ? FEW : PLACES.length;
+  return wanted.map(({ x, y, width, height, first, was }) => {
+    const stand = (place) => {
+      const [right, down, far] = PLACES[place];
+      const left = Math.round(x + right * (far + width / 2) - width / 2);
+      return { left, top: Math.round(y + down * (far + height / 2) - height / 2), place, moved: place >= NEAREST };
+    };
+    // A name that stood well stays: names that jump cannot be read.
+    for (let turn = was ? -1 : 0; turn < places; turn++) {
+      const place = turn < 0 ? (was ?? 0) : turn;
+      const found = stand(place);
+      if (!grid.free(found.left, found.top, width, height)) continue;
+      grid.take(found.left, found.top, width, height);
+      return found;
+    }
+    if (!first) return null;
+    const found = stand(0);
+    grid.take(found.left, found.top, width, height);
+    return found;
+  });
+}
