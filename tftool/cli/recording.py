@@ -150,7 +150,7 @@ def best_compression() -> str:
 def heard(messages: list[Kept]) -> Hearing:
     """What some messages say, as the doctor hears it."""
     hearing = Hearing()
-    for channel, log_time, payload in messages:
+    for channel, log_time, payload, _ in messages:
         if channel.type != "tf2_msgs/msg/TFMessage":
             continue
         with suppress(MalformedMessage):

@@ -129,6 +129,17 @@ def test_a_ring_keeps_the_last_of_it_and_all_statics(tmp_path):
     strictly_read(tmp_path / "a.mcap")
 
 
+def test_a_ring_says_in_the_end_what_it_wrote(tmp_path):
+    rolling = RollingRecording(tmp_path / "a.mcap", RecordLimits(ring=seconds(3)))
+    drive(rolling, 200)
+    rolling.close()
+
+    with open_recording(tmp_path / "a.mcap") as recording:
+        assert rolling.messages == sum(topic.count for topic in recording.topics)
+        assert rolling.transforms == sum(len(edge.stamps) for edge in recording.edges)
+    assert rolling.transforms < 60
+
+
 def test_of_a_recorder_that_was_killed_a_second_is_missing_at_most(tmp_path):
     rolling = RollingRecording(tmp_path / "a.mcap")
     drive(rolling, 57)

@@ -39,6 +39,7 @@ class Kept(NamedTuple):
     channel: Channel
     log_time: Stamp
     payload: bytes
+    transforms: int = 0
 
 
 @dataclass(frozen=True, slots=True)
@@ -66,7 +67,7 @@ class RollingRecording:
 
     Attributes:
         path: Its name in the end.
-        messages: How many messages came.
+        messages: How many messages came; of a ring that is closed, how many it wrote.
         transforms: How many transforms were in them.
         size: Bytes written, or held.
         files: Names of the files that are closed, in order.
@@ -175,7 +176,7 @@ class RollingRecording:
         self.transforms += transforms
         self._last = log_time
         if self._limits.ring:
-            self._held.append(Kept(channel, log_time, payload))
+            self._held.append(Kept(channel, log_time, payload, transforms))
             self._held_bytes += len(payload)
             self._forget(log_time)
         else:
@@ -282,7 +283,12 @@ class RollingRecording:
     def held(self) -> list[Kept]:
         """What the ring holds, the oldest first; the statics in front."""
         statics = [
-            Kept(channel, self._held[0].log_time if self._held else self._last, payload)
+            Kept(
+                channel,
+                self._held[0].log_time if self._held else self._last,
+                payload,
+                len(rows),
+            )
             for channel, rows in self._statics.items()
             if rows
             for payload in (encode_rows(CDR, tuple(rows.values())),)
@@ -301,9 +307,15 @@ class RollingRecording:
             return
         try:
             if self._limits.ring:
+                # From now on these say what is in the file, and not what went by.
+                held = self.held()
+                self.messages = len(held)
+                self.transforms = sum(kept.transforms for kept in held)
+                if held:
+                    self._next(held[0].log_time)
                 # Statics that were sent within the ring stand in it once more.
-                for kept in self.held():
-                    self._write(*kept)
+                for kept in self._held:
+                    self._write(kept.channel, kept.log_time, kept.payload)
                 self._held.clear()
                 self._held_bytes = 0
             self._closed = True
