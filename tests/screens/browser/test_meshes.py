@@ -49,6 +49,17 @@ def test_a_package_is_found_around_beside_and_below_what_is_given(package, how):
     assert folders.read("/mesh/0/textures/red.png").kind == "image/png"
 
 
+def test_a_folder_beside_the_package_that_is_none_is_not_served(package):
+    private = package.parent / "private"
+    private.mkdir()
+    (private / "plan.stl").write_bytes(stl())
+    folders = where(package, "beside")
+
+    with pytest.raises(MeshRefused, match="package 'private'"):
+        folders.address("package://private/plan.stl")
+    assert folders.roots == []
+
+
 @pytest.mark.parametrize(
     ("variable", "inside"), [("ROS_PACKAGE_PATH", ""), ("AMENT_PREFIX_PATH", "share")]
 )

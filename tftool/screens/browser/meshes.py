@@ -189,9 +189,10 @@ class MeshFolders:
         for package in self._around():
             if package.name == name or package_name(package) == name:
                 yield package
-        # Packages lie beside each other.
+        # Packages lie beside each other; other folders there are not served.
         for package in self._around():
-            yield package.parent / name
+            if (package.parent / name / "package.xml").is_file():
+                yield package.parent / name
         for variable, inside in (("ROS_PACKAGE_PATH", ""), ("AMENT_PREFIX_PATH", "share")):
             for entry in filter(None, os.environ.get(variable, "").split(os.pathsep)):
                 yield Path(entry) / inside / name
