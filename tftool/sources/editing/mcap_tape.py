@@ -238,6 +238,7 @@ class McapChunk:
         self._end = end
         self._cut = cut
         self._found: list[Taken] | None = None
+        self._is_examined = False
         head = tape.bytes_at(position, min(end - position, 256))
         self._crc: int
         start, stop, self._size, self._crc, length = struct.unpack_from("<QQQII", head, 9)
@@ -334,9 +335,16 @@ class McapChunk:
         return found
 
     def sound(self) -> bool:
-        """Whether what it holds is what was written, as far as it carries proof of that."""
-        if self._found is None and (self.method or self._crc):
-            self._unpacked()
+        """Whether what it holds is what was written, as far as it carries proof of that.
+
+        Found out once, by whatever thread asks first; others may ask when it has answered.
+        """
+        if self._found is None and not self._is_examined:
+            if self.method:
+                self._unpacked()
+            elif self._crc and not self._cut:
+                self._check(Piece(self._tape.fileno(), self._data, self._packed).crc())
+        self._is_examined = True
         return self.whole
 
     def _unpacked(self) -> bytes:
@@ -349,13 +357,18 @@ class McapChunk:
             self._tape.note(f"The chunk at byte {self.position} is damaged ({error}).")
             self.whole = False
             return unpack_beginning(self.method, packed, self._size)
-        if self._crc and zlib.crc32(data) != self._crc:
+        if self._crc:
+            self._check(zlib.crc32(data))
+        return data
+
+    def _check(self, crc: int) -> None:
+        """Hold the CRC of what it holds against the one it carries."""
+        if crc != self._crc:
             self._tape.note(
                 f"The CRC of the chunk at byte {self.position} is wrong: its messages are "
                 "copied as they are, and may not be what was recorded."
             )
             self.whole = False
-        return data
 
 
 def _message(data: bytes, first: int, last: int) -> Taken:

@@ -64,6 +64,21 @@ class Piece:
             done += count
         return crc or 0
 
+    def crc(self) -> int:
+        """Their CRC, without holding more than a step of them.
+
+        Raises:
+            InputError: If the file has become shorter.
+        """
+        found, done, room = 0, 0, memoryview(bytearray(min(_STEP, self.length)))
+        while done < self.length:
+            count = os.preadv(self.file, [room[: self.length - done]], self.place + done)
+            if not count:
+                raise InputError(f"a file ends at byte {self.place + done}: it was shortened")
+            found = zlib.crc32(room[:count], found)
+            done += count
+        return found
+
 
 def _begin_alike(count: int) -> bool:
     """Whether what was written and what was read back are the same."""

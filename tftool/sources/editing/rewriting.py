@@ -6,8 +6,9 @@ is opened, and all of it compared with what was to be written. Only then it gets
 
 import contextlib
 import shutil
-from collections import Counter
+from collections import Counter, deque
 from collections.abc import Iterator, Mapping, Sequence
+from concurrent.futures import Future, ThreadPoolExecutor
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Final
@@ -49,6 +50,7 @@ from tftool.wire.splicing import TransformRow, TransformRows, encode_rows
 MOST_PARTS: Final = 10_000
 _LATEST: Final = 2**63 - 1
 _ROOM: Final = 1 << 20
+_AHEAD: Final = 3  # chunks that are examined before they are wanted
 
 
 @dataclass(slots=True)
@@ -341,7 +343,7 @@ class _Job:
         self._collect_statics()
         total, done = sum(tape.size for tape in self._tapes), 0
         for source, tape in enumerate(self._tapes):
-            for block in tape.blocks():
+            for block in self._examined_ahead(tape):
                 if self._by_tape and source not in self._outputs:
                     self._output(source, part, block.start or self._start)
                 self._write_block(source, tape, block, part)
@@ -356,6 +358,36 @@ class _Job:
         for number, output in self._outputs.items():
             whose = [self._tapes[number]] if self._by_tape else self._tapes
             output.finish(whose if self._by_tape or number == self._order[0] else [])
+
+    def _examined_ahead(self, tape: Tape) -> Iterator[Block]:
+        """A tape's pieces; what is copied whole is examined while those before it are written.
+
+        To unpack a chunk and hold its CRC against it takes as long as to copy it, and both
+        work without Python's lock.
+        """
+        waiting: deque[tuple[Block, Future[bool] | None]] = deque()
+        with ThreadPoolExecutor(1, "tftool-examine") as pool:
+            try:
+                for block in tape.blocks():
+                    stays = self._stays_unseen(block, tape)
+                    waiting.append((block, pool.submit(block.sound) if stays else None))
+                    if len(waiting) > _AHEAD:
+                        yield _examined(*waiting.popleft())
+                while waiting:
+                    yield _examined(*waiting.popleft())
+            finally:
+                for _, examined in waiting:
+                    if examined is not None:
+                        examined.cancel()
+
+    def _stays_unseen(self, block: Block, tape: Tape) -> bool:
+        """Whether a block stays as it is by what its index tells, if it is sound."""
+        return (
+            block.whole
+            and bool(block.channels)
+            and self._changer.keeps_all(block.start, block.end)
+            and not any(self._changer.touches(tape.channels[n]) for n in block.channels or ())
+        )
 
     # Databases
 
@@ -681,6 +713,12 @@ class _Job:
     def _tell(self, done: int, total: int = 0) -> None:
         if self._progress is not None:
             self._progress(done, total or sum(tape.size for tape in self._tapes))
+
+
+def _examined(block: Block, examined: "Future[bool] | None") -> Block:
+    if examined is not None:
+        examined.result()
+    return block
 
 
 @dataclass(slots=True)

@@ -205,6 +205,7 @@ class Rosbag1Chunk:
         self.end: Stamp = 0
         self.channels: Mapping[int, int] | None = None
         self._found: list[Taken] | None = None
+        self._is_examined = False
 
     def raw(self) -> Piece:
         """Its record and those of its index."""
@@ -241,9 +242,10 @@ class Rosbag1Chunk:
         return found
 
     def sound(self) -> bool:
-        """Whether it can be unpacked."""
-        if self._found is None and self._method != "none":
+        """Whether it can be unpacked; found out once."""
+        if self._found is None and not self._is_examined and self._method != "none":
             self._unpacked()
+        self._is_examined = True
         return self.whole
 
     def _unpacked(self) -> bytes:
