@@ -184,3 +184,17 @@ def test_a_robot_without_moving_joints_says_so():
 
     assert sliders.sliders == []
     assert tip_of(robot) == "stone"
+
+
+def test_the_link_beside_the_sliders_is_one_that_has_a_frame():
+    joint = '<joint name="{0}" type="{1}"><parent link="{2}"/><child link="{3}"/></joint>'
+    robot = Robot(
+        parse_description(
+            '<robot name="r"><link name="base"/><link name="hand"/><link name="ball"/>'
+            + joint.format("turn", "continuous", "base", "hand")
+            + joint.format("thrown", "floating", "hand", "ball")
+            + "</robot>"
+        )
+    )
+
+    assert tip_of(robot) == "hand"

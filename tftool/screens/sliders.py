@@ -203,12 +203,16 @@ def slide_range(joint: RobotJoint) -> tuple[float, float]:
 
 
 def tip_of(robot: Robot) -> str:
-    """The link that is farthest from the root, the first of several: a hand, most often."""
+    """The link that is farthest from the root, the first of several: a hand, most often.
+
+    Links behind a floating joint have no frame here, and do not count.
+    """
     depth = {robot.root: 0}
     waiting = [robot.root]
     children: dict[str, list[str]] = {}
     for joint in robot.joints.values():
-        children.setdefault(joint.parent, []).append(joint.child)
+        if joint.type != "floating":
+            children.setdefault(joint.parent, []).append(joint.child)
     for link in waiting:
         for child in children.get(link, ()):
             depth[child] = depth[link] + 1
