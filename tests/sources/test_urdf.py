@@ -1,4 +1,6 @@
 import math
+import shutil
+import subprocess
 
 import pytest
 
@@ -286,3 +288,46 @@ def test_xacro_that_fails_is_a_sentence(tmp_path):
 
     with pytest.raises(InputError, match="cannot be expanded by xacro"):
         load_description(path)
+
+
+@pytest.mark.skipif(not shutil.which("check_urdf"), reason="Debian's liburdfdom-tools is missing")
+def test_urdfdom_takes_and_refuses_the_same(tmp_path):
+    steel = '<material name="steel"><color rgba="0.5 0.5 0.5 1"/></material>'
+    changes = [
+        ("", ""),
+        ('<mass value="2.5"/>', ""),
+        ('ixy="0" ', ""),
+        ('radius="0.1"', 'radius="thin"'),
+        ('<box size="1 2 3"/>', "<cone/>"),
+        ('xyz="0 0 0.5"', 'xyz="0 0"'),
+        ('rgba="0.5 0.5 0.5 1"', 'rgba="grey"'),
+        ('name="arm"', 'name=""'),
+        ('name="arm"', ""),
+        (steel, steel * 2),
+        ('name="tool"', 'name="base"'),
+        ('type="revolute"', 'type="revolut"'),
+        ('xyz="0 0 1"', 'xyz="0 1"'),
+        ('effort="10" ', ""),
+        ('lower="-1" ', ""),
+        ('<child link="upper"/>', '<child link="uper"/>'),
+        ('<link name="tool"/>', '<link name="tool"/><link name="loose"/>'),
+        ('<?xml version="1.0"?>', ""),
+        ('<?xml version="1.0"?>', "<?xml verison='1.0'?>"),
+        ('<?xml version="1.0"?>', "\n\n<?xml version='1.0'?>"),
+        ("</robot>", "</robo>"),
+    ]
+    theirs, ours = [], []
+    for number, (before, after) in enumerate(changes):
+        file = tmp_path / f"{number}.urdf"
+        file.write_text(ARM.replace(before, after, 1))
+        told = subprocess.run(["check_urdf", file], capture_output=True, check=False, timeout=60)
+        theirs.append((number, told.returncode == 0))
+        try:
+            load_description(file)
+        except DescriptionError:
+            ours.append((number, False))
+        else:
+            ours.append((number, True))
+
+    assert ours == theirs
+    assert {taken for _, taken in theirs} == {True, False}
