@@ -46,6 +46,16 @@ def test_without_a_terminal_the_scenario_is_played_and_summed_up(tftool):
     assert result.err == ""
 
 
+def test_all_scenarios_are_listed(tftool):
+    plain, listed = tftool("demo", "--list"), tftool("demo", "--list", "--json")
+
+    names = [line.split()[0] for line in plain.out.splitlines()]
+    assert plain.status == listed.status == 0
+    assert {"turtles", "carrot", "robot", "two_trees"} <= set(names)
+    assert [one["name"] for one in json.loads(listed.out)] == names == sorted(names)
+    assert "turtles      turtle2 follows turtle1, the tutorial's demo." in plain.out
+
+
 def test_two_runs_print_the_same(tftool):
     assert tftool("demo").out == tftool("demo").out
 

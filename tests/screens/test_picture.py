@@ -1,4 +1,4 @@
-"""The picture in the README: TFTOOL_PICTURES=1 draws it anew."""
+"""The pictures in the README: TFTOOL_PICTURES=1 draws them anew."""
 
 import asyncio
 import os
@@ -7,66 +7,109 @@ from pathlib import Path
 
 import pytest
 
+from tests.screens.moving_picture import animated
+from tftool.cli.hosting import left_to_a_person, scenario_named
+from tftool.cli.onscreen import simulator_of
+from tftool.nodes.idle_drawing import IdleDrawing
+from tftool.runtime.clock import Phase, SimClock, run
+from tftool.runtime.node import Node
+from tftool.scenario.play import build
+from tftool.screens.scene import Scene
 from tftool.screens.setting import Setting
 from tftool.screens.terminal import TurtleApp
+from tftool.stamps import seconds
+from tftool.views import theme
 
-PICTURE = Path(__file__).parents[1] / "pictures" / "demo.svg"
-SIZE = (116, 34)
+PICTURES = Path(__file__).parents[1] / "pictures"
+STILL, MOVING = PICTURES / "demo.svg", PICTURES / "demo-moving.svg"
+SIZE = (104, 32)
 FONTS = "ui-monospace, SFMono-Regular, Menlo, Consolas, 'DejaVu Sans Mono', monospace"
-
-# A person's keys, at their seconds: a round through the field, with turtle2 behind.
-KEYS = tuple((4.0 + 0.5 * n, "left" if n % 3 == 2 else "up") for n in range(26))
+LASTING, COUNT, STEP = 24.0, 16, seconds(0.6)
 
 
-def drawn(scene):
-    """The app's screen as SVG that fetches nothing."""
-    app = TurtleApp(scene, lambda key: None, Setting(title="tftool demo turtles"))
-    pictures = []
+class Looker(Node):
+    """Looks as often as a screen does."""
+
+    phase = Phase.WATCH
+
+    def __init__(self, world, scene):
+        super().__init__(world, "looker")
+        self.scene = scene
+
+    async def run(self):
+        self.scene.start = self.clock.now()
+        async for _ in self.every(seconds(0.05)):
+            self.scene.look()
+
+
+def taken():
+    """The carrot's demo, drawing by itself: its screen, and a way through its last seconds."""
+    play = build(left_to_a_person(scenario_named("carrot")), SimClock())
+    world = play.world
+    IdleDrawing(world)
+    scene = Scene(world, simulator_of(world))
+    Looker(world, scene)
+    run(world.clock, play.live(world.clock.now() + seconds(LASTING)))
+    setting = Setting(title="tftool demo carrot", pair=("turtle2", "carrot1"))
+    app = TurtleApp(scene, lambda key: None, setting)
+    screens, pictures = [], []
 
     async def main():
         async with app.run_test(size=SIZE) as pilot:
             await pilot.pause()
             app.redraw()
             await pilot.pause()
-            pictures.append(app.export_screenshot(title="tftool demo"))
+            pictures.append(app.export_screenshot(title="tftool demo carrot"))
+            app.action_travel(-COUNT * STEP)
+            for _ in range(COUNT):
+                await pilot.pause()
+                screens.append(app.screen._compositor.render_strips(app.size))
+                app.action_travel(STEP)
 
     asyncio.run(main())
+    if app.failure is not None:
+        raise app.failure
     svg = re.sub(r"@font-face \{.*?\}", "", pictures[0], flags=re.DOTALL)
-    return re.sub(r"font-family: Fira Code, monospace", f"font-family: {FONTS}", svg)
+    still = re.sub(r"font-family: Fira Code, monospace", f"font-family: {FONTS}", svg)
+    ground = theme.hexadecimal(theme.DARK.ground)
+    return still, animated(screens, 0.4, ground, "tftool demo carrot")
 
 
 @pytest.fixture(scope="module")
-def scene(turtles):
-    return turtles(16.6, KEYS)
+def pictures():
+    return taken()
 
 
-def test_the_picture_in_the_readme_is_this_screen(scene):
-    svg = drawn(scene)
+def test_the_pictures_in_the_readme_are_this_screen(pictures):
+    for place, svg in zip((STILL, MOVING), pictures, strict=True):
+        if os.environ.get("TFTOOL_PICTURES") or not place.exists():
+            place.write_text(svg, encoding="utf-8")
+        assert place.read_text(encoding="utf-8").startswith("<svg")
+        assert "http" not in svg.replace("http://www.w3.org/2000/svg", "").replace(
+            "https://www.textualize.io", ""
+        )
+    still, moving = pictures
+    assert len(still.encode()) < 300_000
+    assert len(moving.encode()) < 700_000
 
-    if os.environ.get("TFTOOL_PICTURES") or not PICTURE.exists():
-        PICTURE.write_text(svg, encoding="utf-8")
 
-    assert PICTURE.read_text(encoding="utf-8").startswith("<svg")
-    text = re.sub(r"<[^>]+>", "", svg).replace("&#160;", " ")
-    for there in (
-        "Frames",
-        "world",
-        "Tree",
-        "Echo",
-        "Log",
-        "turtle1",
-        "turtle2",
-        "62.6",
-        "live",
-        "drive",
-    ):
+@pytest.mark.parametrize("which", [0, 1], ids=["still", "moving"])
+def test_the_pictures_show_frames(pictures, which):
+    text = re.sub(r"<[^>]+>", "", pictures[which]).replace("&#160;", " ")
+
+    for there in ("Frames in", "Tree", "Echo", "Plot", "turtle1", "turtle2", "62."):
+        assert there in text
+    for there in ("carrot1", "distance", "yaw", "drive"):
         assert there in text
     assert "⣀" in text or "⠤" in text
-    assert len(svg.encode()) < 300_000
-    assert "http" not in svg.replace("http://www.w3.org/2000/svg", "").replace(
-        "https://www.textualize.io", ""
-    )
+    # Axes are red and green.
+    assert "#ff6e6e" in pictures[which]
+    assert "#5fff87" in pictures[which]
 
 
-def test_the_picture_is_the_same_every_time(scene, turtles):
-    assert drawn(scene) == drawn(turtles(16.6, KEYS))
+def test_the_moving_picture_moves(pictures):
+    moving = pictures[1]
+
+    assert moving.count("<animate ") > 100
+    assert len(set(re.findall(r"(\d+\.\d) s ago", moving))) >= COUNT - 2
+    assert "┃" in moving

@@ -542,6 +542,20 @@ def test_a_pair_whose_frames_never_come_gives_way_to_one_that_is_there(turtles):
     assert "world in turtle2" in "\n".join(shown(early, keys=("k",)))
 
 
+def test_a_pair_whose_frames_come_late_is_shown_after_all(frames):
+    scene = frames({"a": ("map", 1.0, 1.0)})
+
+    async def steps(app, pilot):
+        assert "a in map" in "\n".join(screen(app))
+        link = TransformStamped(seconds(1000), "map", "turtle1", Transform())
+        other = TransformStamped(seconds(1000), "map", "turtle2", Transform())
+        scene.world.broadcast([link, other], "me", static=True)
+        await settled(pilot)
+        assert "turtle1 in turtle2" in "\n".join(screen(app))
+
+    visit(scene, (100, 30), steps)
+
+
 def test_an_empty_world_says_so(frames):
     text = "\n".join(shown(frames({})))
 

@@ -83,17 +83,80 @@ def test_the_demo_shows_turtle2_reaching_turtle1_and_obeys_the_keys(terminal, wi
     demo.ended(0)
 
 
+def test_two_trees_that_are_joined_are_drawn_where_the_echo_says(terminal):
+    demo = terminal(110, 30, *DEMO, "two_trees", "--rate", "8")
+
+    demo.shows("apart: map, 2 frames")
+    demo.until(lambda text: "Frames in map" in text and "apart" not in text, "one tree")
+    # The echo of the pair the picture is about: 10 m from map to world, the turtle in the centre.
+    demo.until(lambda text: "turtle1 in world" in text, "turtle1 in world")
+    demo.press("k", "Enter", "k", "k", "k", "Enter", "j", "j", "j")
+    demo.until(
+        lambda text: "turtle1 in map" in text and re.search(r"15\.544 +5\.544", text),
+        "turtle1 in map",
+    )
+    scale = next(line for line in demo.screen().splitlines() if line.startswith("│ m "))
+    row = next(line for line in demo.screen().splitlines() if "▐→▌" in line)
+    # Its arrow stands between the numbers on either side of 15.5 m.
+    assert scale.index("15") < row.index("→") < scale.index("20")
+
+    demo.press("q")
+    demo.ended(0)
+
+
+def test_left_alone_turtle1_draws_by_itself_until_a_key_is_pressed(terminal):
+    demo = terminal(100, 30, "-m", "tftool", "demo", "--rate", "4")
+
+    screen = demo.shows("turtle1 draws by itself; a key stops it")
+    assert "turtle1" in screen
+    demo.press("?")
+    demo.until(lambda text: "by itself" not in text and "close these keys" in text, "the keys")
+    demo.press("Escape")
+    demo.shows("turtle1 draws by itself; a key stops it")
+
+    demo.press("q")
+    demo.ended(0)
+
+
+def test_one_fixes_a_frame_zooms_and_shows_another_scenario(terminal):
+    demo = terminal(100, 30, *DEMO)
+    demo.until(lambda text: apart(text) is not None, "a distance")
+
+    demo.press("F")
+    demo.shows("Frames in turtle1 (fixed)")
+    demo.press("F")
+    demo.shows("Frames in world ─")
+    before = demo.screen().splitlines()
+    # Beside it stands the time of the plots, which goes on.
+    scale = next(line for line in before if line.startswith("│ m ")).partition("││")[0]
+    demo.press("+", "+", "+", "+")
+    demo.until(lambda text: scale not in text, "another scale")
+    demo.press("0")
+    demo.shows(scale)
+
+    demo.press("o")
+    demo.shows("A robot: odometry that drifts")
+    demo.press(*["Down"] * 5)
+    demo.shows("▸ robot")
+    demo.press("Enter")
+    demo.until(lambda text: "demo robot" in text and "laser_point" in text, "the robot")
+    demo.shows("base_link in map")
+
+    demo.press("q")
+    demo.ended(0)
+
+
 def test_letters_turn_to_the_heading_at_which_they_lie(terminal, tmp_path):
     alone = tmp_path / "alone.yaml"
     alone.write_text("duration: 1 s\nnodes: [turtlesim, broadcaster: {turtle: turtle1}]\n")
     demo = terminal(60, 20, *DEMO, str(alone), "--rate", "8")
-    demo.shows("▐→▌ turtle1")
+    demo.shows("▐→▌")
 
     for key, arrow in zip("trdcb", "↗↑←↙↘", strict=True):
         demo.press(key)
-        demo.shows(f"▐{arrow}▌ turtle1")
+        demo.shows(f"▐{arrow}▌")
     demo.press("Left")
-    demo.until(lambda text: "▐↑▌ turtle1" in text or "▐↗▌ turtle1" in text, "a turn to the left")
+    demo.until(lambda text: "▐↑▌" in text or "▐↗▌" in text, "a turn to the left")
 
     demo.press("q")
     demo.ended(0)

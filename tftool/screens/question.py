@@ -27,7 +27,7 @@ class SceneQuestion:
 
     def __init__(self, scene: Scene, pair: tuple[str, str]) -> None:
         self.scene = scene
-        self.target, self.source = pair
+        self.target, self.source = self._wished = pair
         self.at: Stamp | None = None
         self.fixed = ""
         self.moment: SceneMoment | None = None
@@ -92,8 +92,11 @@ class SceneQuestion:
         return found
 
     def _other_pair(self, moment: SceneMoment) -> tuple[str, str]:
-        """The pair asked for, until its frames are overdue and no other was picked."""
+        """The pair asked for; while its frames are overdue and no other was picked, another."""
         asked, snapshot = (self.target, self.source), moment.snapshot
+        if not self._picked and all(name in snapshot for name in self._wished):
+            # They came late.
+            return self._wished
         names = [info.frame for info in snapshot.frames if info.parent is not None]
         simulator = self.scene.simulator
         soon = simulator is not None and bool(simulator.turtles) and moment.elapsed < PATIENCE

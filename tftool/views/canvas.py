@@ -431,7 +431,7 @@ class Canvas:
     def _faint(self, color: Color, ground: Color | None) -> Color:
         """A frame's colour for the way it went: less than the frame itself."""
         if ground is not None:
-            return theme.blend(color, ground, 0.3)
+            return theme.blend(color, ground, 0.1)
         return theme.blend(theme.readable(color, self._palette), self._palette.panel, 0.3)
 
     def _colors(self, row: int, column: int) -> PaperColors:
@@ -584,6 +584,9 @@ def _line(cells: list[Cell]) -> Line:
     look: tuple[Color | None, Color | None, bool] = (None, None, False)
     for cell in cells:
         mine = cell.ink, cell.ground, cell.bold
+        if cell.text == " " and text and cell.ground == look[1]:
+            # A blank has no ink: it needs no segment, and a terminal no code, of its own.
+            mine = look
         if mine != look and cell.text:
             if text:
                 line.append(Segment("".join(text), _style(*look)))
