@@ -2,7 +2,6 @@
 
 import math
 from array import array
-from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -203,10 +202,10 @@ PLAINLY = "plainly"
 class Bare(Door):
     """The kernel's methods of a buffer, and in place of the plain ones a word."""
 
-    def __init__(self, paths=None, senders=None, listeners=(), pending=None):
+    def __init__(self, paths=None, senders=None, listening=(), pending=None):
         self._paths = paths
         self._senders = senders
-        self._listeners = SimpleNamespace(registered=listeners)
+        self._listening = listening
         self._pending = {} if pending is None else pending
 
     def _plainly(self, *arguments, **named):

@@ -226,7 +226,7 @@ typedef struct {
 /* What the methods of a buffer read: `Buffer` inherits it; see there. */
 typedef struct {
     PyObject_HEAD
-    PyObject *paths, *senders, *listeners, *pending;
+    PyObject *paths, *senders, *listening, *pending;
 } Door;
 
 /* Both begin with so many objects. */
@@ -247,7 +247,7 @@ static PyMemberDef link_members[] = {
 };
 static PyMemberDef door_members[] = {
     PRIVATE(Door, paths, T_OBJECT_EX), PRIVATE(Door, senders, T_OBJECT_EX),
-    PRIVATE(Door, listeners, T_OBJECT_EX), PRIVATE(Door, pending, T_OBJECT_EX),
+    PRIVATE(Door, listening, T_OBJECT_EX), PRIVATE(Door, pending, T_OBJECT_EX),
     {NULL, 0, 0, 0, NULL},
 };
 
@@ -275,7 +275,7 @@ static void held_dealloc(PyObject *self) {
 /* What answers are made of and read by; the state of the module, which Python never unloads. */
 typedef struct {
     PyTypeObject *fields, *stamped, *transform, *vector, *quaternion;
-    PyObject *registered, *empty; /* The name of what says whether anything listens; "". */
+    PyObject *empty; /* "". */
 } Types;
 
 /* That many floats of a tuple. Returns whether that is what it is; never sets an error. */
@@ -674,20 +674,17 @@ METHOD(set_transform) {
     const Types *types = PyType_GetModuleState(door);
     const Door *buffer = (const Door *)self;
     PyObject *authority = count == 2 ? args[1] : types->empty;
-    if (names != NULL || count < 1 || count > 2 || buffer->listeners == NULL
-        || buffer->pending == NULL || !PyDict_Check(buffer->pending)
-        || !insert(buffer, types, args[0], authority))
+    if (names != NULL || count < 1 || count > 2 || buffer->listening == NULL
+        || !PyTuple_Check(buffer->listening) || buffer->pending == NULL
+        || !PyDict_Check(buffer->pending) || !insert(buffer, types, args[0], authority))
         return PLAINLY(set_transform);
-    PyObject *listening = PyObject_GetAttr(buffer->listeners, types->registered);
-    const int told = listening == NULL ? -1 : PyObject_IsTrue(listening);
-    Py_XDECREF(listening);
-    if (told > 0 || (told == 0 && PyDict_Size(buffer->pending) > 0)) {
+    if (PyTuple_Size(buffer->listening) > 0 || PyDict_Size(buffer->pending) > 0) {
         PyObject *done = PyObject_CallMethod(self, "_tell_of", "OO", args[0], authority);
         if (done == NULL)
             return NULL;
         Py_DECREF(done);
     }
-    return told < 0 ? NULL : Py_NewRef(Py_True);
+    Py_RETURN_TRUE;
 }
 
 #define CALL METH_METHOD | METH_FASTCALL | METH_KEYWORDS
@@ -1056,7 +1053,6 @@ static int module_exec(PyObject *module) {
     types->fields = (PyTypeObject *)PyType_FromSpec(&link_spec);
     if (added < 0 || types->fields == NULL || PyModule_AddType(module, types->fields) < 0
         || PyModule_AddIntConstant(module, "INTERFACE", INTERFACE) < 0
-        || (types->registered = PyUnicode_InternFromString("registered")) == NULL
         || (types->empty = PyUnicode_InternFromString("")) == NULL
         || (types->vector = tuple_type("tftool.geometry.rigid", "Vector3")) == NULL
         || (types->quaternion = tuple_type("tftool.geometry.rigid", "Quaternion")) == NULL

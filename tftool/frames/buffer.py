@@ -119,6 +119,7 @@ class Buffer(Door):
         self._pending = self._requests.pending
         self._report = report or self._log_failure
         self._listeners: Listeners[TransformStamped, bool, str] = Listeners(self._report)
+        self._listening = self._listeners.registered
 
     # Setting
 
@@ -154,7 +155,7 @@ class Buffer(Door):
                 return False
             if outcome == PARENT_CHANGED:
                 self._solver.drop_paths()
-        if self._listeners.registered or self._pending:
+        if self._listening or self._pending:
             self._tell_of(transform, authority)
         return True
 
@@ -162,7 +163,7 @@ class Buffer(Door):
         """Tell of a sample that was taken as it came, but for its quaternion's length and sign."""
         stamp, parent, child, pose = transform
         kept: tuple[TransformStamped, ...] = ()
-        if self._listeners.registered:
+        if self._listening:
             kept = (TransformStamped(stamp, parent, child, rigid.canonical(pose)),)
         self._tell(kept, False, authority, (child,))
 
@@ -209,7 +210,7 @@ class Buffer(Door):
         trees.note(frame, parent, authority, origin)
         if fresh or outcome == PARENT_CHANGED:
             self._solver.drop_paths()
-        if self._listeners.registered or self._pending:
+        if self._listening or self._pending:
             kept = _stamped(parent, child, stamp, sample)
             self._tell((kept,), static, authority, (child, *named))
         return True
@@ -277,7 +278,7 @@ class Buffer(Door):
             )
             grown = len(self._tree.frames) > known
             news = (child, parent) if grown else (child,)
-            self._tell(taken if self._listeners.registered else (), False, authority, news)
+            self._tell(taken if self._listening else (), False, authority, news)
         return report
 
     def set_records(
@@ -304,9 +305,7 @@ class Buffer(Door):
 
         link = (parent, child, authority)
         known = len(self._tree.frames)
-        if not self._listeners.registered and insert.adopt(
-            self._tree, self.max_frames, link, records
-        ):
+        if not self._listening and insert.adopt(self._tree, self.max_frames, link, records):
             self._solver.drop_paths()
             named = [frame.name for frame in self._tree.frames[known:]]
             self._tell((), False, authority, (tree.stripped(child), *named))
@@ -329,7 +328,14 @@ class Buffer(Door):
         What it raises is reported under the name of its `owner`; the sample stays, and the
         code that set it goes on.
         """
-        return self._listeners.add(callback, owner)
+        withdraw = self._listeners.add(callback, owner)
+        self._listening = self._listeners.registered
+
+        def stop() -> None:
+            withdraw()
+            self._listening = self._listeners.registered
+
+        return stop
 
     # Looking up
 

@@ -12,9 +12,7 @@ if TYPE_CHECKING:
 
     from tftool.frames.path import Path
     from tftool.frames.requests import Request
-    from tftool.frames.sample import TransformStamped
     from tftool.frames.tree import Sender
-    from tftool.listeners import Listeners
 
 _Class = TypeVar("_Class", bound=type)
 
@@ -52,15 +50,15 @@ if TYPE_CHECKING or not IS_NATIVE:
         Attributes:
             _paths: The solver's.
             _senders: The tree's.
-            _listeners: Those that each accepted sample is told to.
+            _listening: Those that each accepted sample is told to.
             _pending: Requests that wait, by handle.
         """
 
-        __slots__ = ("_listeners", "_paths", "_pending", "_senders")
+        __slots__ = ("_listening", "_paths", "_pending", "_senders")
 
         _paths: "dict[str, dict[str, Path]]"
         _senders: "dict[str, Sender]"
-        _listeners: "Listeners[TransformStamped, bool, str]"
+        _listening: "tuple[object, ...]"
         _pending: "dict[int, Request]"
 
 else:
