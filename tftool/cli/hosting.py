@@ -824,6 +824,9 @@ def _name_of(connection: Connection, link: "Link") -> str:
     nodes = sorted({one.node for one in link.graph.entities(NODE)})
     if nodes:
         return f"the session of ROS node '{visible(nodes[0])}'"
+    others = sorted({one.node for one in link.graph.entities()})
+    if others:
+        return f"'{visible(others[0])}' at {visible(connection.place)}"
     return f"what is at {visible(connection.place)}, where nothing has answered yet"
 
 
