@@ -98,7 +98,7 @@ def _heard(session: Session, lasting: Duration, kind: str) -> Material:
     hearing, stops = heard_in(world)
     began: Stamp = world.clock.now()
     try:
-        session.run(session.lasting(lasting))
+        session.run(session.listened(lasting))
     finally:
         for stop in stops:
             stop()

@@ -84,6 +84,9 @@ LISTEN_LIVE = seconds(2)
 TOLD = seconds(2)
 """How long a joined world waits for the first that `/clock` says, where it is published."""
 
+STATICS = seconds(8)
+"""How much longer for static transforms of publishers that are there: DDS repeats what was lost."""
+
 AHEAD = seconds(1)
 """How long past the moment asked about a scenario is played, for what comes late."""
 
@@ -274,6 +277,16 @@ class Session:
                 await clock.sleep(duration, Phase.WATCH)
             finally:
                 clock.limit(None)
+
+    async def listened(self, duration: Duration) -> None:
+        """Listen for so long, and to robots over DDS until their static transforms have come."""
+        await self.lasting(duration)
+        if self.link is None or self.link.options.middleware != "dds":
+            return
+        clock = pace_of(self.world.clock)
+        end = clock.now() + STATICS
+        while self.link.awaits_statics and clock.now() < end:
+            await clock.sleep(seconds(0.02), Phase.WATCH)
 
     async def _after_head_start(self, work: Coroutine[Any, Any, T]) -> T:
         clock = self.world.clock
@@ -554,7 +567,7 @@ def observe(
     if word is None and at is None:
         joined = join_session(connection, cache_time=cache_time)
         if joined is not None:
-            joined.run(joined.lasting(LISTEN_LIVE))
+            joined.run(joined.listened(LISTEN_LIVE))
             for sentence in twins(joined.world):
                 notice(sentence)
             clock = joined.world.clock

@@ -30,6 +30,7 @@ class LinkContext:
         endpoints: What others publish and subscribe, as it is entered in the world.
         refused: Messages that came in and were not what they should be.
         received: Messages that were taken in.
+        heard_statics: The gids of those who have sent static transforms.
     """
 
     def __init__(self, options: Options, middleware: Middleware) -> None:
@@ -39,6 +40,7 @@ class LinkContext:
         self.endpoints: dict[GraphEntity, Endpoint] = {}
         self.refused = 0
         self.received = 0
+        self.heard_statics: set[bytes] = set()
         self._world: World | None = None
         self._said: set[str] = set()
         self._senders: dict[tuple[bytes, str], GraphEntity | None] = {}
@@ -73,6 +75,16 @@ class LinkContext:
         """The node that what cannot be told apart is said to be of: the first of the world."""
         shown = (node.name for node in self.world.nodes if node.is_shown)
         return next(shown, f"tftool_{self.options.command}")
+
+    @property
+    def awaits_statics(self) -> bool:
+        """Whether a publisher of static transforms is there of which none have come yet."""
+        if b"" in self.heard_statics:
+            return False  # one that does not say who it is
+        publishers = self.graph.entities(PUBLISHER, name="tf_static")
+        return any(
+            one.gid not in self.heard_statics and one.quality.is_latched for one in publishers
+        )
 
     def authority(self, gid: bytes, topic: str) -> str:
         """The node that sent a message, by the gid beside it; b"" if there was none."""

@@ -172,6 +172,10 @@ class StaticBridge(TransformBridge):
     def _dismiss(self) -> None:
         """Close none: what a node said for all time is sent to late listeners when it has left."""
 
+    def _arrived(self, message: Arrived) -> None:
+        super()._arrived(message)
+        self._link.heard_statics.add(message.sender)
+
     def _store(
         self, transforms: tuple[TransformStamped, ...], authority: str
     ) -> tuple[TransformStamped, ...]:

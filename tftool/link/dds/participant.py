@@ -53,12 +53,13 @@ class Domains:
         self._held: dict[int, tuple[Any, str, int]] = {}
         self._lock = threading.Lock()
 
-    def enter(self, number: int, config: str) -> None:
+    def enter(self, number: int, network: Network) -> None:
         """Hold a domain until it is left as often.
 
         Raises:
             LinkError: If it is there with another configuration, or cannot be made.
         """
+        config = network.xml()
         from cyclonedds.core import DDSException
         from cyclonedds.domain import Domain
 
@@ -72,9 +73,7 @@ class Domains:
                 try:
                     made = Domain(number, config)
                 except (DDSException, UnicodeEncodeError) as error:
-                    raise LinkError(
-                        f"DDS does not take the configuration of domain {number} ({error})"
-                    ) from error
+                    raise LinkError(_refused(number, network)) from error
             self._held[number] = made, config, count + 1
 
     def leave(self, number: int) -> None:
@@ -122,7 +121,7 @@ class Participant:
         self._outbox = Outbox()
         self._closing: list[Callable[[], None]] = []
         self._topics: dict[tuple[str, type[Raw]], Any] = {}
-        _DOMAINS.enter(domain, network.xml())
+        _DOMAINS.enter(domain, network)
         try:
             qos = Qos(Policy.EntityName(name), Policy.Userdata(user_data))
             self.entity: Any = DomainParticipant(domain, qos=qos)
@@ -360,7 +359,10 @@ def _qos(policies: list[Any]) -> Any:
 
 def _refused(domain: int, network: Network) -> str:
     if network.config:
-        return f"no participant can be made in DDS domain {domain} with CYCLONEDDS_URI's network"
+        return (
+            f"the library does not take CYCLONEDDS_URI's configuration for DDS domain {domain}: "
+            "unset it, or mend what it names"
+        )
     return (
         f"no participant can be made in DDS domain {domain} on {network}: either all "
         f"{MOST_PARTICIPANTS + 1} places of this machine are taken (end some programs, or choose "

@@ -19,6 +19,9 @@ LOOPBACK: Final = "127.0.0.1"
 MOST_PARTICIPANTS: Final = 120
 """How many participants of one machine a domain has numbers for."""
 
+_LARGE_PACKETS: Final = "<MaxMessageSize>65000B</MaxMessageSize><FragmentSize>62000B</FragmentSize>"
+"""The loopback carries in one piece what a cable takes in forty."""
+
 _RANGES: Final = ("SUBNET", "LOCALHOST", "OFF", "SYSTEM_DEFAULT")
 
 
@@ -64,7 +67,7 @@ class Network:
             + "".join(_interface(one) for one in used)
             + f"</Interfaces><AllowMulticast>{multicast}</AllowMulticast>"
             f"<DontRoute>{'true' if self.is_loopback else 'false'}</DontRoute>"
-            "</General>"
+            f"{_LARGE_PACKETS if self.is_loopback else ''}</General>"
             "<Discovery><ParticipantIndex>auto</ParticipantIndex>"
             f"<MaxAutoParticipantIndex>{MOST_PARTICIPANTS}</MaxAutoParticipantIndex><Peers>"
             + "".join(f"<Peer address={quoteattr(one)}/>" for one in peers)
