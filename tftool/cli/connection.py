@@ -352,7 +352,9 @@ SESSION_OPTIONS: dict[str, Any] = {
     "dds": Annotated[
         bool,
         typer.Option(
-            "--dds", help="A ROS 2 robot over DDS, in place of zenoh: on this machine's loopback."
+            "--dds",
+            help="A ROS 2 robot over DDS, not zenoh: what is sent stays on this machine's loopback "
+            "(DDS receives on 0.0.0.0 all the same).",
         ),
     ],
     "dds_on": Annotated[

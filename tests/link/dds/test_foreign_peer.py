@@ -121,7 +121,7 @@ def test_a_peer_that_is_killed_is_missed_when_its_lease_is_over(peer, domain):
 
     async def scene():
         async with joined(domain, Role.GUEST, read_only=True) as (world, link):
-            await until(lambda: "base" in world.buffer.frames())
+            await until(lambda: {"laser", "odom"} <= set(world.buffer.frames()))
             foreign.kill()
             await until(lambda: link.graph.is_empty)
             return link.departures, world.buffer.frames()

@@ -12,11 +12,13 @@ from tftool.cli.app import main
 from tftool.cli.rivals import twins
 from tftool.interfaces.classes import INTERFACES, Interfaces
 from tftool.interfaces.hashes import type_hash
+from tftool.link.dds.discovery import LATEST_OF_ALL, Information
 from tftool.link.dds.participant import Participant
 from tftool.link.dds.settings import MOST_PARTICIPANTS, network
 from tftool.link.dds.types import Types
+from tftool.link.graph import NODE
 from tftool.runtime.clock import WallClock
-from tftool.runtime.endpoints import PUBLISHER, SUBSCRIPTION, Endpoint, Quality
+from tftool.runtime.endpoints import PUBLISHER, SUBSCRIPTION, TF, Endpoint, Quality
 from tftool.stamps import seconds
 
 STRING = INTERFACES.message("std_msgs/msg/String")
@@ -138,3 +140,23 @@ def test_what_only_looks_has_no_publisher(domain):
             return link.graph.entities(PUBLISHER)
 
     assert asyncio.run(scene()) == []
+
+
+def test_nodes_of_releases_before_iron_are_named_too(domain):
+    form = Information(24)
+
+    async def scene():
+        async with joined(domain, read_only=True) as (_, link):
+            robot = Participant(domain, network(()), "robot", b"enclave=/;")
+            try:
+                raw = Types(INTERFACES).raw("tf2_msgs/msg/TFMessage")
+                writer = robot.writer("rt/tf", raw, TF, b"")
+                informing = robot.writer("ros_discovery_info", form.raw(), LATEST_OF_ALL, b"")
+                nodes = {"arm/driver": (set(), {writer.gid})}
+                informing.put(form.encode(robot.gid, nodes))
+                await until(lambda: nodes_of(link, "tf") == {"arm/driver"})
+                return {one.node for one in link.graph.entities(NODE)}
+            finally:
+                robot.close()
+
+    assert asyncio.run(scene()) == {"arm/driver"}
