@@ -124,9 +124,11 @@ def test_a_peer_that_is_killed_is_missed_when_its_lease_is_over(peer, domain):
             await until(lambda: {"laser", "odom"} <= set(world.buffer.frames()))
             foreign.kill()
             await until(lambda: link.graph.is_empty)
-            return link.departures, world.buffer.frames()
+            told = [one.text for one in world.log.records]
+            return link.departures, world.buffer.frames(), told
 
-    departures, frames = asyncio.run(scene())
+    departures, frames, told = asyncio.run(scene())
+    assert any("publishes /tf no more" in one for one in told)
     assert departures == 1
     assert {"odom", "base", "laser"} <= set(frames)
 

@@ -292,6 +292,20 @@ class DdsMiddleware:
             self._watcher.graph_changed(found, there)
             if there and found is not None:
                 self._compare(found)
+            elif isinstance(found, GraphEntity):
+                self._tell_departure(found)
+
+    def _tell_departure(self, gone: GraphEntity) -> None:
+        """Say that a publisher of transforms is there no more."""
+        if gone.kind != PUBLISHER or gone.name != "tf":
+            return
+        # It may only have become known under its node's name.
+        if all(one.gid != gone.gid for one in self.graph.entities(PUBLISHER, name="tf")):
+            self.say_once(
+                f"left {gone.gid.hex()}",
+                f"'{gone.node}' publishes /tf no more: it has left, or was not heard of for the "
+                "ten seconds of its lease. What it sent stays as it was.",
+            )
 
     def _compare(self, found: GraphEntity | Process) -> None:
         """Say why nothing passes between us and another endpoint, where that is so."""

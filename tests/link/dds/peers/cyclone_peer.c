@@ -12,7 +12,8 @@ static dds_qos_t *quality(bool latched, bool reliable) {
   dds_qset_reliability(qos, reliable ? DDS_RELIABILITY_RELIABLE : DDS_RELIABILITY_BEST_EFFORT,
                        DDS_SECS(10));
   dds_qset_durability(qos, latched ? DDS_DURABILITY_TRANSIENT_LOCAL : DDS_DURABILITY_VOLATILE);
-  dds_qset_history(qos, DDS_HISTORY_KEEP_LAST, latched ? 1 : 100);
+  /* tf2 keeps 100: more, so that no busy machine makes a test lose one. */
+  dds_qset_history(qos, DDS_HISTORY_KEEP_LAST, latched ? 1 : 400);
   if (latched) dds_qset_durability_service(qos, 0, DDS_HISTORY_KEEP_LAST, 1, -1, -1, -1);
   return qos;
 }
