@@ -1,10 +1,14 @@
 """What the shell offers when Tab is pressed."""
 
+import os
+import shutil
 import subprocess
 import sys
+from pathlib import Path
 
 import pytest
 
+from tests.terminals import Terminal
 from tftool.cli import completion
 from tftool.cli.app import COMMANDS
 
@@ -136,3 +140,88 @@ echo "${{COMPREPLY[*]}}"
     done = subprocess.run(["bash", "-c", lines], capture_output=True, text=True, check=True)
 
     assert done.stdout == "turtles\n"
+
+
+@pytest.fixture
+def recorded(tftool, tmp_path, monkeypatch):
+    """A recording of scenario `robot`, in the folder one stands in."""
+    monkeypatch.chdir(tmp_path)
+    monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path / "cache"))
+    result = tftool("export", "robot", "-o", "run.mcap")
+    assert result.status == 0, result.err
+    return tmp_path / "run.mcap"
+
+
+def test_frames_are_those_of_a_recording_named_behind_or_before(offered, recorded, monkeypatch):
+    monkeypatch.setenv(completion.BEHIND, "run.mcap")
+    assert offered("echo", "") == ["base_link", "laser_link", "laser_point", "map", "odom"]
+    assert offered("echo", "map", "laser_") == ["laser_link", "laser_point"]
+
+    monkeypatch.setenv(completion.BEHIND, "")
+    assert offered("echo", "map", "odom", "run.mcap", "--fixed-frame", "o") == ["odom"]
+
+
+def test_frames_of_a_large_recording_come_from_its_kept_columns_alone(
+    offered, recorded, monkeypatch
+):
+    from tftool.sources import cache, cache_heads
+    from tftool.sources.find import find
+    from tftool.sources.recording import open_recording
+
+    monkeypatch.setattr(cache_heads, "WORTHWHILE", 0)
+    monkeypatch.setenv(completion.BEHIND, "run.mcap")
+    assert offered("echo", "") == []
+    with open_recording("run.mcap") as recording:
+        transforms = recording.transforms
+    kept = cache.ColumnCache(cache_heads.default_folder())
+    assert kept.store(cache_heads.key_of(find("run.mcap")), transforms)
+    assert offered("echo", "l") == ["laser_link", "laser_point"]
+
+    (entry,) = cache_heads.default_folder().glob("*.columns")
+    entry.write_bytes(entry.read_bytes()[:40])
+    assert offered("echo", "l") == []
+
+
+def test_frames_of_a_description_are_its_links(offered, tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    Path("arm.urdf").write_text(
+        '<robot name="arm"><link name="base"/><link name="hand"/><joint name="j" type="fixed">'
+        '<parent link="base"/><child link="hand"/></joint></robot>'
+    )
+    monkeypatch.setenv(completion.BEHIND, "arm.urdf")
+
+    assert offered("echo", "") == ["base", "hand"]
+
+
+def test_a_file_without_frames_offers_nothing(offered, tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    Path("notes.txt").write_text("no frames")
+    monkeypatch.setenv(completion.BEHIND, "notes.txt")
+    monkeypatch.setattr("tftool.link.zenoh.rendezvous.frames_known", lambda domain: FRAMES[domain])
+
+    assert offered("echo", "ma") == ["map"]
+
+
+@pytest.mark.skipif(shutil.which("tmux") is None, reason="needs tmux")
+@pytest.mark.parametrize(
+    ("shell", "options", "load"),
+    [("zsh", ["-f", "-i"], "source"), ("fish", ["--no-config", "-i"], "source")],
+)
+def test_tab_completes_in_a_real_shell(tmp_path, shell, options, load):
+    if shutil.which(shell) is None:
+        pytest.skip(f"needs {shell}")
+    (tmp_path / "tftool").write_text(f'#!/bin/sh\nexec "{sys.executable}" -m tftool "$@"\n')
+    (tmp_path / "tftool").chmod(0o755)
+    (tmp_path / "script").write_text(completion.SCRIPTS[shell])
+    run = f"import os; os.execvp({shell!r}, [{shell!r}, *{options!r}])"
+    path = f"{tmp_path}:{os.environ['PATH']}"
+    terminal = Terminal(tmp_path, 80, 24, ("-c", run), {"PATH": path, "HOME": str(tmp_path)})
+    try:
+        terminal.press(f'{load} "{tmp_path}/script"; clear; echo rea""dy', "Enter")
+        terminal.until(lambda screen: screen.startswith("ready"), "ready")
+        terminal.press("tftool che", "Tab")
+        terminal.shows("tftool check")
+        terminal.press("tur", "Tab")
+        terminal.shows("tftool check turtles")
+    finally:
+        terminal.tmux("kill-server")

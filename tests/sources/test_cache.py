@@ -15,8 +15,9 @@ pytest.importorskip("zstandard", reason="the extra 'recordings' is not installed
 
 from tests.sources.writers import content, write_mcap
 from tftool import open_recording
-from tftool.sources import cache as caching
-from tftool.sources.cache import ColumnCache, default_folder, key_of
+from tftool.sources import cache_heads as caching
+from tftool.sources.cache import ColumnCache
+from tftool.sources.cache_heads import default_folder, key_of
 from tftool.sources.find import find
 
 SENT = content(40)
@@ -152,7 +153,7 @@ def test_small_recordings_are_read_as_quickly(file, cache, monkeypatch):
 WRITER = """
 import sys
 from pathlib import Path
-from tftool.sources import cache as caching
+from tftool.sources import cache_heads as caching
 caching.WORTHWHILE = 0
 from tftool import open_recording
 from tftool.sources.cache import ColumnCache

@@ -17,11 +17,15 @@ from tftool.errors import InputError, TftoolError, UsageError
 VARIABLE: Final = "_TFTOOL_COMPLETE"
 """Set by the scripts; holds the name of the shell."""
 
+BEHIND: Final = "_TFTOOL_COMPLETE_BEHIND"
+"""Set by the scripts of shells that tell it: the words behind the one typed, a word a line."""
+
 SCRIPTS: Final = {
     "bash": """\
 _tftool() {
     local IFS=$'\\n'
-    COMPREPLY=($(_TFTOOL_COMPLETE=bash tftool "${COMP_WORDS[@]:1:$COMP_CWORD}" 2>/dev/null))
+    COMPREPLY=($(_TFTOOL_COMPLETE=bash _TFTOOL_COMPLETE_BEHIND="${COMP_WORDS[*]:COMP_CWORD+1}" \\
+        tftool "${COMP_WORDS[@]:1:$COMP_CWORD}" 2>/dev/null))
 }
 complete -o default -F _tftool tftool
 """,
@@ -30,7 +34,9 @@ autoload -Uz compinit
 (( $+functions[compdef] )) || compinit
 _tftool() {
     local -a offered
-    offered=("${(@f)$(_TFTOOL_COMPLETE=zsh tftool "${(@)words[2,$CURRENT]}" 2>/dev/null)}")
+    local behind="${(F)words[CURRENT+1,-1]}"
+    offered=("${(@f)$(_TFTOOL_COMPLETE=zsh _TFTOOL_COMPLETE_BEHIND="$behind" \\
+        tftool "${(@)words[2,$CURRENT]}" 2>/dev/null)}")
     if [[ -n "${offered[1]}" ]]; then _describe tftool offered; else _files; fi
 }
 compdef _tftool tftool
@@ -170,7 +176,10 @@ def _values(kind: Any, called: str, before: Sequence[str]) -> Iterator[Offer]:
 
 
 def _frames(before: Sequence[str]) -> list[str]:
-    """Frames of the session that runs here, in the domain that is named or the usual one."""
+    """Frames of the recording or description that is named, else of the session that runs here."""
+    named = _frames_of_a_file([*_words_behind(), *before])
+    if named is not None:
+        return named
     from tftool.cli.connection import domain_here
     from tftool.link.zenoh.rendezvous import frames_known
 
@@ -178,6 +187,43 @@ def _frames(before: Sequence[str]) -> list[str]:
     if "--domain" in before[:-1]:
         domain = int(before[before.index("--domain") + 1])
     return frames_known(domain)
+
+
+def _words_behind() -> list[str]:
+    """What stands behind the word that is being typed: FROM often does."""
+    return os.environ.get(BEHIND, "").split("\n")
+
+
+def _frames_of_a_file(words: Sequence[str]) -> list[str] | None:
+    """Frames of the first of some words that names a file with frames; None where none does."""
+    for word in words:
+        path = Path(word).expanduser()
+        if not word or word.startswith("-") or not path.exists():
+            continue
+        with contextlib.suppress(InputError, UsageError, OSError, ValueError):
+            return _read_frames(str(path))
+    return None
+
+
+def _read_frames(word: str) -> list[str]:
+    """Frames by a recording's kept columns; short ones, and descriptions, are read."""
+    from tftool.sources.cache_heads import frames_kept, key_of
+    from tftool.sources.find import Kind, find
+
+    found = find(word)
+    if found.kind is Kind.DESCRIPTION:
+        from tftool.sources.robot import load_urdf
+
+        return list(load_urdf(word).links)
+    if not found.kind.is_recording:
+        raise UsageError("no frames are known of it before it runs")
+    kept = frames_kept(found)
+    if kept is None and not key_of(found):
+        from tftool.sources.recording import open_recording
+
+        with open_recording(word) as recording:
+            kept = sorted({name for edge in recording.edges for name in (edge.parent, edge.child)})
+    return kept or []
 
 
 def _packages(before: Sequence[str]) -> Iterator[Offer]:

@@ -48,7 +48,8 @@ def read(
         InputError: If it cannot be read.
         UsageError: If it needs an extra that is not installed.
     """
-    from tftool.sources.cache import ColumnCache, default_folder
+    from tftool.sources.cache import ColumnCache
+    from tftool.sources.cache_heads import default_folder
     from tftool.sources.recording import open_recording
 
     with_odometry = options is not None and options.with_odometry

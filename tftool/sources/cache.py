@@ -6,10 +6,8 @@ not there: it may be cut, be another program's, or be written by another process
 """
 
 import contextlib
-import hashlib
 import json
 import os
-import sys
 import tempfile
 import zlib
 from collections.abc import Iterator
@@ -18,74 +16,15 @@ from typing import Any, Final
 
 import numpy as np
 
+from tftool.sources.cache_heads import MAGIC, SUFFIX, head_size, key_of, parsed_head
 from tftool.sources.contract import Edge, Publisher, Transforms
-from tftool.sources.find import METADATA, Found
-
-FORMAT: Final = 1
-"""Is raised whenever the same recording would give other columns, or they lie otherwise."""
-
-WORTHWHILE: Final = 4 << 20
-"""Bytes of a recording from which its columns are kept; shorter ones are read as quickly."""
+from tftool.sources.find import Found
 
 MOST_BYTES: Final = 1 << 30
 """Bytes of all that is kept: what was not used for longest goes first."""
 
 LARGEST: Final = MOST_BYTES // 2
 """Bytes of what is kept of one recording."""
-
-_MAGIC: Final = b"tftool columns\n"
-_END: Final = 4096
-_SUFFIX: Final = ".columns"
-_MOST_HEAD: Final = 64 << 20
-
-
-def default_folder() -> Path:
-    """The folder for it: in `XDG_CACHE_HOME`, else where this system has such files."""
-    given = os.environ.get("XDG_CACHE_HOME", "")
-    if os.path.isabs(given):
-        return Path(given) / "tftool"
-    if sys.platform == "win32":
-        local = os.environ.get("LOCALAPPDATA")
-        return Path(local or Path.home() / "AppData" / "Local") / "tftool" / "Cache"
-    if sys.platform == "darwin":
-        return Path.home() / "Library" / "Caches" / "tftool"
-    return Path.home() / ".cache" / "tftool"
-
-
-def key_of(found: Found) -> str:
-    """What a recording's columns are kept under; "" where they are not worth it.
-
-    Raises:
-        OSError: If one of its files cannot be read.
-    """
-    told: list[tuple[object, ...]] = [(FORMAT, found.kind.value, sys.byteorder)]
-    total = 0
-    for path in _files(found):
-        with path.open("rb") as file:
-            status = os.fstat(file.fileno())
-            total += status.st_size
-            first = file.read(_END)
-            file.seek(max(0, status.st_size - _END))
-            last = file.read(_END)
-        where = os.fsencode(os.path.abspath(path)).hex()
-        told.append((where, status.st_size, status.st_mtime_ns, first.hex(), last.hex()))
-    if total < WORTHWHILE:
-        return ""
-    return hashlib.blake2b(json.dumps(told).encode(), digest_size=16).hexdigest()
-
-
-def _files(found: Found) -> Iterator[Path]:
-    for path in found.paths:
-        if path.is_dir():
-            yield from sorted(one for one in path.iterdir() if one.is_file())
-        else:
-            yield path
-            beside = path.with_name(path.name + "-wal")
-            if beside.is_file():
-                yield beside
-            metadata = path.parent / METADATA
-            if metadata.is_file():
-                yield metadata
 
 
 class ColumnCache:
@@ -105,7 +44,7 @@ class ColumnCache:
         """What is kept under a key; None where nothing is, or it is not as it was written."""
         if not key:
             return None
-        path = self.folder / f"{key}{_SUFFIX}"
+        path = self.folder / f"{key}{SUFFIX}"
         try:
             with path.open("rb") as file:
                 size = os.fstat(file.fileno()).st_size
@@ -135,7 +74,7 @@ class ColumnCache:
                 with os.fdopen(number, "wb") as file:
                     for part in _packed(transforms, key):
                         file.write(part)
-                os.replace(name, self.folder / f"{key}{_SUFFIX}")
+                os.replace(name, self.folder / f"{key}{SUFFIX}")
             except BaseException:
                 with contextlib.suppress(OSError):
                     os.unlink(name)
@@ -150,7 +89,7 @@ class ColumnCache:
         entries = []
         newest = 0.0
         for path in self.folder.iterdir():
-            if path.suffix in (_SUFFIX, ".part"):
+            if path.suffix in (SUFFIX, ".part"):
                 with contextlib.suppress(OSError):
                     status = path.stat()
                     entries.append((status.st_mtime, status.st_size, path))
@@ -191,8 +130,8 @@ def _packed(transforms: Transforms, key: str) -> Iterator[bytes | memoryview]:
             "check": check,
         }
     ).encode()
-    head += b" " * (-(len(_MAGIC) + 12 + len(head)) % 8)
-    yield _MAGIC
+    head += b" " * (-(len(MAGIC) + 12 + len(head)) % 8)
+    yield MAGIC
     yield len(head).to_bytes(8, "little")
     yield zlib.crc32(head).to_bytes(4, "little")
     yield head
@@ -207,17 +146,9 @@ def _unpacked(data: bytearray, key: str) -> Transforms:
     Raises:
         ValueError: If they are not what was written.
     """
-    start = len(_MAGIC) + 12
-    length = int.from_bytes(data[len(_MAGIC) : start - 4], "little")
-    if not data.startswith(_MAGIC) or not 0 < length <= min(_MOST_HEAD, len(data) - start):
-        raise ValueError("no columns")
-    raw = bytes(data[start : start + length])
-    if zlib.crc32(raw) != int.from_bytes(data[start - 4 : start], "little"):
-        raise ValueError("the head is damaged")
-    head = json.loads(raw)
-    if head["key"] != key:
-        raise ValueError("of another recording")
-    place, check = start + length, 0
+    start = head_size(bytes(data[: len(MAGIC) + 12]))
+    head = parsed_head(bytes(data[:start]), key)
+    place, check = start, 0
 
     def column(count: int, kind: str) -> np.ndarray[Any, Any]:
         nonlocal place, check
