@@ -108,6 +108,15 @@ class _Pens:
     is_cut: bool = False
 
 
+@dataclass(slots=True)
+class _KeptRow:
+    """The cells of a row without what moves, what they were made from, and their line."""
+
+    state: object
+    cells: list[Cell]
+    line: Line | None = None
+
+
 class Canvas:
     """A picture of a given size that remembers what it has drawn of the trails.
 
@@ -184,7 +193,7 @@ class Canvas:
         self._grid = self._gridded()
         self._standing: object = None
         self._inside: list[tuple[int, int]] = [(0, 0)] * self.rows
-        self._kept: list[tuple[object, Line] | None] = [None] * self.rows
+        self._kept: list[_KeptRow | None] = [None] * self.rows
         self._field_colors = None
 
     def _new_ink(self) -> Ink:
@@ -381,6 +390,13 @@ class Canvas:
 
     def _still(self, row: int) -> Line:
         """Give a line with nothing on it that moves, kept until a trail changes there."""
+        kept = self._base(row)
+        if kept.line is None:
+            kept.line = _line(kept.cells)
+        return kept.line
+
+    def _base(self, row: int) -> "_KeptRow":
+        """A row of all that stays, composed anew only where a trail grew."""
         ground = None if self._field_colors is None else self._field_colors.ground
         state = (
             self._pen_ink.revisions[row],
@@ -389,13 +405,12 @@ class Canvas:
             ground,
         )
         kept = self._kept[row]
-        if kept is None or kept[0] != state:
-            kept = state, _line(self._cells(row))
-            self._kept[row] = kept
-        return kept[1]
+        if kept is None or kept.state != state:
+            kept = self._kept[row] = _KeptRow(state, self._cells(row))
+        return kept
 
     def _joined(self, row: int, dots: dict[int, tuple[int, Color]], signs: dict[int, Cell]) -> Line:
-        cells = self._cells(row)
+        cells = list(self._base(row).cells)
         for column, (mask, color) in dots.items():
             colors = self._colors(row, column)
             role = _ROLES.get(color)
