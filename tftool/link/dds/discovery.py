@@ -12,7 +12,7 @@ from typing import Any, Final
 from tftool.errors import LinkError, MalformedMessage
 from tftool.interfaces.classes import Interfaces, Message
 from tftool.link.dds import names
-from tftool.link.dds.participant import Participant, Sample, Writer
+from tftool.link.dds.participant import DdsSample, Participant, TopicWriter
 from tftool.link.dds.types import Types
 from tftool.link.graph import CLIENT, NODE, SERVER, Graph, GraphEntity, Process, node_name
 from tftool.runtime.endpoints import PUBLISHER, SUBSCRIPTION, Quality
@@ -162,7 +162,7 @@ class Discovery:
             for form in self._information.values()
         ]
         self._own: dict[str, tuple[set[bytes], set[bytes]]] = {}
-        self._writer: Writer | None = None
+        self._writer: TopicWriter | None = None
         participant.at_close(self._close)
 
     def _close(self) -> None:
@@ -323,13 +323,13 @@ class Discovery:
 
     # What nodes say of themselves
 
-    def _informed_by(self, form: Information) -> Callable[[Sample], None]:
-        def informed(sample: Sample) -> None:
+    def _informed_by(self, form: Information) -> Callable[[DdsSample], None]:
+        def informed(sample: DdsSample) -> None:
             self._take_information(form, sample)
 
         return informed
 
-    def _take_information(self, form: Information, sample: Sample) -> None:
+    def _take_information(self, form: Information, sample: DdsSample) -> None:
         try:
             participant, nodes, all_nodes = form.decode(sample.payload)
         except (MalformedMessage, UnicodeError):

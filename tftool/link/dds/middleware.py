@@ -10,7 +10,7 @@ from tftool.interfaces.classes import INTERFACES
 from tftool.interfaces.hashes import type_hash
 from tftool.link.dds import names
 from tftool.link.dds.discovery import Discovery
-from tftool.link.dds.participant import Participant, Reader, Sample, Writer
+from tftool.link.dds.participant import DdsSample, Participant, TopicReader, TopicWriter
 from tftool.link.dds.services import CycloneClient, CycloneServer, ServicePart
 from tftool.link.dds.settings import network, other_domains, participants_here
 from tftool.link.dds.types import Raw, Types
@@ -225,8 +225,12 @@ class DdsMiddleware:
         return all(one.quality.is_reliable for one in offered if one.ros_type == ros_type)
 
     def open_reader(
-        self, listening: "_Listening", on_sample: Callable[[Sample], object], *, is_reliable: bool
-    ) -> Reader:
+        self,
+        listening: "_Listening",
+        on_sample: Callable[[DdsSample], object],
+        *,
+        is_reliable: bool,
+    ) -> TopicReader:
         """A reader for what listens."""
         quality = Quality(is_reliable=is_reliable, is_latched=listening.is_latched)
         return self._participant.reader(
@@ -237,7 +241,7 @@ class DdsMiddleware:
             listening.refused,
         )
 
-    def sender(self, sample: Sample) -> bytes:
+    def sender(self, sample: DdsSample) -> bytes:
         """The GUID of the writer of a message."""
         return self._discovery.gid(sample.writer)
 
@@ -360,7 +364,7 @@ class _Listening:
         self.name = name
         self.ros_type = ros_type
         self.is_latched = is_latched
-        self.reader: Reader | None = None
+        self.reader: TopicReader | None = None
         self.hide: Callable[[], None] = _nothing
         self._is_closed = False
 
@@ -383,7 +387,7 @@ class _Listening:
             self.reader.close()
         self.open(is_reliable=False)
 
-    def _arrived(self, sample: Sample) -> None:
+    def _arrived(self, sample: DdsSample) -> None:
         if not self._is_closed:
             self._on_message(Arrived(sample.payload, self._middleware.sender(sample)))
 
@@ -391,7 +395,7 @@ class _Listening:
 class DdsPublisher:
     """A publisher: a writer, which others see as its node's."""
 
-    def __init__(self, writer: Writer, hide: Callable[[], None]) -> None:
+    def __init__(self, writer: TopicWriter, hide: Callable[[], None]) -> None:
         self._writer = writer
         self._hide = hide
 

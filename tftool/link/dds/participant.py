@@ -34,7 +34,7 @@ NO_WHEEL: Final = (
 
 
 @dataclass(frozen=True, slots=True)
-class Sample:
+class DdsSample:
     """A message that came in.
 
     Attributes:
@@ -152,11 +152,11 @@ class Participant:
         topic: str,
         kind: type[Raw],
         quality: Quality,
-        on_sample: Callable[[Sample], object],
+        on_sample: Callable[[DdsSample], object],
         on_refused: Callable[[int], object] | None = None,
         *,
         hears_own: bool = False,
-    ) -> "Reader":
+    ) -> "TopicReader":
         """Have `on_sample` called on the loop with what others write.
 
         Args:
@@ -190,9 +190,11 @@ class Participant:
         )
         # What came while it was made found nothing to tell yet.
         self._take(made, on_sample)
-        return Reader(made)
+        return TopicReader(made)
 
-    def writer(self, topic: str, kind: type[Raw], quality: Quality, user_data: bytes) -> "Writer":
+    def writer(
+        self, topic: str, kind: type[Raw], quality: Quality, user_data: bytes
+    ) -> "TopicWriter":
         """Write a topic.
 
         Args:
@@ -212,7 +214,7 @@ class Participant:
         if quality.is_latched and not quality.keeps_all:
             policies.append(Policy.DurabilityService(0, kept, -1, -1, -1))
         made = DataWriter(self.entity, self._topic(topic, kind), qos=_qos(policies))
-        return Writer(made, kind, self._outbox, keeps=quality.is_latched)
+        return TopicWriter(made, kind, self._outbox, keeps=quality.is_latched)
 
     def builtin(self, topic: Any, on_change: Callable[[], object]) -> Any:
         """A reader of one of the library's own topics.
@@ -252,7 +254,7 @@ class Participant:
                 raise LinkError(f"DDS does not take the topic '{name}' ({error})") from error
         return self._topics[key]
 
-    def _take(self, reader: Any, on_sample: Callable[[Sample], object]) -> None:
+    def _take(self, reader: Any, on_sample: Callable[[DdsSample], object]) -> None:
         """Hand over what waits (on a thread of the library's)."""
         while True:
             taken = reader.take(AT_ONCE)
@@ -263,13 +265,13 @@ class Participant:
                 if len(one.payload) > LARGEST:
                     self.oversized += 1
                     continue
-                sample = Sample(one.payload, one.sample_info.publication_handle)
+                sample = DdsSample(one.payload, one.sample_info.publication_handle)
                 self.inbox.put(on_sample, sample, len(one.payload))
             if len(taken) < AT_ONCE:
                 return
 
 
-class Reader:
+class TopicReader:
     """A reader, until it is closed."""
 
     def __init__(self, made: Any) -> None:
@@ -288,7 +290,7 @@ class Reader:
         return 0 if self._made is None else len(self._made.get_matched_publications())
 
 
-class Writer:
+class TopicWriter:
     """A writer, until it is closed."""
 
     def __init__(self, made: Any, kind: type[Raw], outbox: Outbox, *, keeps: bool) -> None:

@@ -13,7 +13,7 @@ from typing import Final
 
 from tftool.errors import LinkError
 from tftool.link.dds import names
-from tftool.link.dds.participant import Participant, Sample
+from tftool.link.dds.participant import DdsSample, Participant
 from tftool.link.dds.types import Raw, Types
 from tftool.link.graph import SERVER, Graph
 from tftool.link.seam import WireRequest
@@ -51,7 +51,7 @@ class ServicePart:
         participant: Participant,
         types: Types,
         graph: Graph,
-        sender: Callable[[Sample], bytes],
+        sender: Callable[[DdsSample], bytes],
     ) -> None:
         self.participant = participant
         self.graph = graph
@@ -103,7 +103,7 @@ class CycloneServer:
         self._reader.close()
         self._writer.close()
 
-    def _asked(self, sample: Sample) -> None:
+    def _asked(self, sample: DdsSample) -> None:
         sender = self._part.sender(sample)
         if sender[:2] not in (names.CYCLONE, b""):
             self._on_stranger(names.vendor(sender))
@@ -181,7 +181,7 @@ class CycloneClient:
         self._put = writer.put
         self._is_matched = lambda: writer.readers > 0 and reader.writers > 0
 
-    def _answered(self, sample: Sample) -> None:
+    def _answered(self, sample: DdsSample) -> None:
         payload = sample.payload
         order = "<" if payload[1] & 1 else ">"
         guid, number = struct.unpack_from(f"{order}Qq", payload, _HEAD)
