@@ -7,6 +7,9 @@ export const LIMITS = { interval: [0, 60], timeout: [1, 1e6], length: [1, 60], s
 /** What can be plotted of the pair. */
 export const PLOTTED = ["xyz", "distance", "rpy", "none"];
 
+/** From where one looks: three without perspective, and one that turns. */
+export const VIEWS = ["top", "side", "front", "orbit"];
+
 export const SPEEDS = [0.1, 0.25, 0.5, 1, 2, 4];
 
 /**
@@ -43,7 +46,7 @@ export class Choices {
     this.collisions = given.collisions ?? false;
     this.jointaxes = given.jointaxes ?? false;
     this.opacity = Math.min(1, Math.max(0.1, given.opacity ?? 1));
-    this.view = given.view === "orbit" ? "orbit" : "top";
+    this.view = VIEWS.includes(given.view) ? given.view : "top";
     this.theme = given.theme === "light" || given.theme === "dark" ? given.theme : theme;
     this.interval = 0; // seconds
     this.timeout = 15; // seconds
@@ -63,6 +66,8 @@ export class Choices {
     this.source = given.source;
     /** @type {string | undefined} */
     this.chosen = given.chosen;
+    /** @type {string | undefined} */
+    this.followed = given.followed; // the frame the camera goes along with
     this.hidden = new Set(given.hidden);
     this.closed = new Set(given.closed);
     this.trailed = new Set(given.trailed);

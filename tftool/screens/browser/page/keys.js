@@ -4,6 +4,8 @@
 /** Key, the control it stands for, and what that does. */
 export const KEYS = [
   ["t", "top", "from above"],
+  ["s", "side", "from the side"],
+  ["e", "front", "from the front"],
   ["o", "orbit", "turn around it"],
   ["f", "fit", "show everything"],
   ["n", "names", "names"],
@@ -11,6 +13,7 @@ export const KEYS = [
   ["r", "arrows", "arrows to parents"],
   ["g", "grid", "grid"],
   ["m", "trails", "trails"],
+  ["d", "measure", "measure between two points"],
   [" ", "play", "play or pause"],
   ["[", "back", "a little earlier"],
   ["]", "forth", "a little later"],

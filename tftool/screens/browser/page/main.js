@@ -1,7 +1,8 @@
 // @ts-check
 // The page: joins the server, the model, the choices, the time and the picture.
 import { Bounds, spread } from "./bounds.js";
-import { Choices, LIMITS } from "./choices.js";
+import { FLAT, ray } from "./cameras.js";
+import { Choices, LIMITS, VIEWS } from "./choices.js";
 import { Course } from "./course.js";
 import { Displays } from "./displays.js";
 import { keepFiles } from "./files.js";
@@ -9,6 +10,7 @@ import { number } from "./format.js";
 import { chain, describe, retell, trails } from "./frames.js";
 import { freshness } from "./freshness.js";
 import { KEYS, meant, OTHERS } from "./keys.js";
+import { Measure, onPlane } from "./measure.js";
 import { fade, Model } from "./model.js";
 import { naturalPair, planar, trailsPay } from "./opening.js";
 import {
@@ -61,6 +63,10 @@ const shown = { frames: [], drawn: [], lines: [] };
 const timers = { past: [], address: undefined };
 /** @type {string | undefined} the frame under the pointer, in the picture or in the list */
 let hovered;
+
+const measure = new Measure();
+/** @type {{ name: string, fixed: string | undefined, place: number[] } | null} where the camera has gone along to */
+let carried = null;
 
 const timeline = new Timeline(
   {
@@ -208,6 +214,7 @@ function render(now) {
     solve();
     stage.resize();
     if (!stage.taken) follow();
+    carry();
     paint();
   }
   course.ask(timeline.reach, choices);
@@ -248,9 +255,9 @@ function paint() {
     .map((frame) => ({ ...frame, first: special.has(frame.name) }))
     .sort((one, other) => Number(other.first) - Number(one.first));
   stage.drawUnder(lines);
-  const poseOf = (name) => model.absolute[model.index.get(name) ?? -1];
   const rings = [{ pose: poseOf(choices.chosen), strong: true }, { pose: poseOf(hovered), strong: false }];
   stage.drawOver(labels, { chain: chain(model, pair), distance: distance(pair) }, rings);
+  if (measure.on) paintMeasure();
 }
 
 /** How far apart the frames of the pair are, as text. */
@@ -275,10 +282,48 @@ function words() {
   showPair(server.pair);
   showRobot(robot);
   displays.list(choices.undrawn);
+  $("with-camera").setAttribute("aria-pressed", String(choices.chosen !== undefined && choices.followed === choices.chosen));
+  $("measured").hidden = !measure.on;
+  if (measure.on) $("measured").textContent = measure.told(poseOf);
   showTime(timeline);
 }
 
 // ---- the camera
+
+/** Go along with the frame that is followed. */
+function carry() {
+  const { followed: name, fixed } = choices;
+  const pose = name === undefined ? null : poseOf(name);
+  if (name === undefined || !pose) {
+    carried = null;
+    return;
+  }
+  stage.taken = true;
+  if (carried && carried.name === name && carried.fixed === fixed) {
+    stage.carry(pose[0] - carried.place[0], pose[1] - carried.place[1], pose[2] - carried.place[2]);
+  }
+  carried = { name, fixed, place: pose.slice(0, 3) };
+}
+
+/** @param {string | undefined} name */
+function poseOf(name) {
+  return model.absolute[model.index.get(name) ?? -1] ?? null;
+}
+
+/** What is measured from or to, under the pointer: a frame, or a place on the plane looked at. */
+function under(event) {
+  const frame = nearest(event);
+  if (frame) return { name: frame.name };
+  const { from } = FLAT[choices.view] ?? FLAT.top;
+  const place = onPlane(ray(stage.camera, event.clientX / innerWidth, event.clientY / innerHeight), from, [0, 0, 0]);
+  return place ? { place } : null;
+}
+
+/** Draw what is measured, over everything else. */
+function paintMeasure() {
+  const spots = measure.places(poseOf).map((place) => place && stage.project(place[0], place[1], place[2]));
+  stage.drawMeasure(spots.filter((spot) => spot !== null));
+}
 
 /** Keep everything drawn in view, until a person takes the camera. */
 function follow() {
@@ -383,7 +428,7 @@ function setView(view, byHand = true) {
   choices.byHand.view ||= byHand;
   choices.view = view;
   stage.setView(view);
-  for (const id of ["top", "orbit"]) $(id).setAttribute("aria-pressed", String(id === view));
+  for (const id of VIEWS) $(id).setAttribute("aria-pressed", String(id === view));
   changed();
 }
 
@@ -474,8 +519,18 @@ for (const id of SWITCHES) {
   $(id).onclick = () => setSwitch(id, !choices[id]);
   setSwitch(id, choices[id], false);
 }
-$("top").onclick = () => setView("top");
-$("orbit").onclick = () => setView("orbit");
+for (const view of VIEWS) $(view).onclick = () => setView(view);
+$("measure").onclick = () => {
+  measure.turn(!measure.on);
+  $("measure").setAttribute("aria-pressed", String(measure.on));
+  changed();
+};
+$("with-camera").onclick = () => {
+  const follows = choices.followed !== choices.chosen;
+  choices.followed = follows ? choices.chosen : undefined;
+  if (follows && choices.chosen !== undefined) flyTo(choices.chosen);
+  changed();
+};
 $("fit").onclick = refit;
 $("theme").onclick = () => setTheme(choices.theme === "dark" ? "light" : "dark");
 $("share").onclick = share;
@@ -628,6 +683,11 @@ function nearest(event) {
 $("over").addEventListener("pointerdown", (event) => (pressed = [event.clientX, event.clientY]));
 $("over").addEventListener("pointerup", (event) => {
   if (!pressed || Math.hypot(event.clientX - pressed[0], event.clientY - pressed[1]) > DRAGGED) return;
+  if (measure.on) {
+    measure.click(under(event));
+    changed();
+    return;
+  }
   choose(nearest(event)?.name);
 });
 $("over").addEventListener("pointermove", (event) => {
@@ -695,6 +755,8 @@ Object.assign(globalThis, {
     pair: () => server.pair,
     reach: () => timeline.reach,
     displays: () => displays.drawn(),
+    pixelOf: (x, y, z) => stage.project(x, y, z),
+    camera: () => stage.cameraState(),
     course: () => ({
       gaps: course.gaps,
       findings: course.marks.findings.map(({ id, since }) => ({ id, since, pixel: course.scale.pixel(since) })),

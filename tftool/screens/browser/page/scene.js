@@ -9,18 +9,16 @@ import {
   InstancedMesh,
   Matrix4,
   MeshBasicMaterial,
-  MOUSE,
   OctahedronGeometry,
-  OrthographicCamera,
   PerspectiveCamera,
   Quaternion,
   Scene,
   TetrahedronGeometry,
-  TOUCH,
   Vector3,
   WebGLRenderer,
 } from "three";
 import { OrbitControls } from "three/addons/controls/OrbitControls.js";
+import { FLAT, fitFlat, flatCamera, panOnly } from "./cameras.js";
 import { Crowd } from "./crowd.js";
 import { Ground } from "./ground.js";
 import { arrange } from "./labels.js";
@@ -86,13 +84,10 @@ export class Stage {
     this.ground = new Ground(this.scene);
     this.turtles = new Turtles(this.scene);
 
-    const top = new OrthographicCamera(-1, 1, 1, -1, -1e5, 1e5);
-    top.up.set(0, 1, 0);
-    top.position.set(0, 0, 50);
     const orbit = new PerspectiveCamera(50, 1, 0.01, 1e5);
     orbit.up.set(0, 0, 1);
     orbit.position.set(-6, -6, 5);
-    this.cameras = { top, orbit };
+    this.cameras = { orbit, top: flatCamera("top"), side: flatCamera("side"), front: flatCamera("front") };
     this.controls = {};
     for (const [name, camera] of Object.entries(this.cameras)) {
       const controls = new OrbitControls(camera, over);
@@ -104,12 +99,9 @@ export class Stage {
         this.taken = true;
         this.flying = null;
       });
+      if (name in FLAT) panOnly(controls);
       this.controls[name] = controls;
     }
-    this.controls.top.enableRotate = false;
-    this.controls.top.screenSpacePanning = true;
-    this.controls.top.mouseButtons = { LEFT: MOUSE.PAN, MIDDLE: MOUSE.DOLLY, RIGHT: MOUSE.PAN };
-    this.controls.top.touches = { ONE: TOUCH.PAN, TWO: TOUCH.DOLLY_PAN };
     this.width = this.height = 0; // of the window, CSS pixels
     this.ratio = 1; // canvas pixels per CSS pixel
     this.extent = 5; // how far the frames reach from the origin, metres
@@ -161,13 +153,14 @@ export class Stage {
       canvas.width = Math.round(width * ratio);
       canvas.height = Math.round(height * ratio);
     }
-    const { top, orbit } = this.cameras;
-    top.left = (-width / height) * 5;
-    top.right = (width / height) * 5;
-    top.top = 5;
-    top.bottom = -5;
+    const across = (width / height) * 5;
+    for (const name of Object.keys(FLAT)) {
+      const camera = this.cameras[name];
+      Object.assign(camera, { left: -across, right: across, top: 5, bottom: -5 });
+      camera.updateProjectionMatrix();
+    }
+    const { orbit } = this.cameras;
     orbit.aspect = width / height;
-    top.updateProjectionMatrix();
     orbit.updateProjectionMatrix();
   }
 
@@ -182,14 +175,10 @@ export class Stage {
       x: Math.max(80, this.width - inset.left - inset.right),
       y: Math.max(80, this.height - inset.top - inset.bottom),
     };
-    const { top, orbit } = this.cameras;
-    const perPixel = Math.max((Math.max(size.x, 1) * 1.2) / free.x, (Math.max(size.y, 1) * 1.2) / free.y);
-    top.zoom = 10 / this.height / perPixel;
-    const shift = { x: ((inset.right - inset.left) / 2) * perPixel, y: ((inset.top - inset.bottom) / 2) * perPixel };
-    top.position.set(middle.x + shift.x, middle.y + shift.y, 50);
-    this.controls.top.target.set(middle.x + shift.x, middle.y + shift.y, 0);
-    top.updateProjectionMatrix();
-    this.controls.top.update();
+    const { orbit } = this.cameras;
+    for (const name of Object.keys(FLAT)) {
+      fitFlat(name, this.cameras[name], this.controls[name], { middle, size }, free, inset, this.height);
+    }
 
     const radius = Math.max(size.length() / 2, 0.7);
     const half = Math.tan((orbit.fov * Math.PI) / 360);
@@ -222,10 +211,9 @@ export class Stage {
     const to = { position: camera.position.clone(), target: new Vector3(...place), zoom: camera.zoom };
     const near = 4 * scale; // metres from side to side, at most
     let perPixel;
-    if (this.view === "top") {
+    if (this.view !== "orbit") {
       to.zoom = Math.max(camera.zoom, 10 / near);
       perPixel = 10 / this.height / to.zoom;
-      to.target.z = controls.target.z;
     } else {
       const half = Math.tan((camera.fov * Math.PI) / 360);
       const distance = Math.min(from.position.distanceTo(from.target), near / half);
@@ -237,7 +225,7 @@ export class Stage {
     const upward = new Vector3().setFromMatrixColumn(camera.matrixWorld, 1);
     to.target.addScaledVector(right, ((inset.right - inset.left) / 2) * perPixel);
     to.target.addScaledVector(upward, ((inset.top - inset.bottom) / 2) * perPixel);
-    if (this.view === "top") to.position.set(to.target.x, to.target.y, from.position.z);
+    if (this.view !== "orbit") to.position.add(to.target).sub(from.target);
     else to.position.add(to.target);
     this.flying = { from, to, lasting, began: performance.now() };
     this.advance(this.flying.began);
@@ -258,6 +246,18 @@ export class Stage {
     controls.update();
     if (share >= 1) this.flying = null;
     this.changed();
+  }
+
+  /** Move the camera along, by so many metres. */
+  carry(x, y, z) {
+    if (!x && !y && !z) return;
+    const { camera } = this;
+    const ends = this.flying ? [this.flying.from, this.flying.to] : [];
+    for (const end of [{ position: camera.position, target: this.controls[this.view].target }, ...ends]) {
+      end.position.add(this.point.set(x, y, z));
+      end.target.add(this.point);
+    }
+    camera.updateMatrixWorld();
   }
 
   cameraState() {
@@ -404,8 +404,8 @@ export class Stage {
 
   /** Metres a pixel is wide, at the place one looks at. */
   pixel() {
-    const { top, orbit } = this.cameras;
-    if (this.view === "top") return 10 / (this.height || 1) / top.zoom;
+    const { orbit } = this.cameras;
+    if (this.view !== "orbit") return 10 / (this.height || 1) / this.camera.zoom;
     const distance = orbit.position.distanceTo(this.controls.orbit.target) || 1;
     return (2 * distance * Math.tan((orbit.fov * Math.PI) / 360)) / (this.height || 1);
   }
@@ -602,6 +602,24 @@ export class Stage {
       const letter = this.sign(name, this.theme.text);
       const [width, height] = [letter.width / this.ratio, letter.height / this.ratio];
       pen.drawImage(letter, middle[0] + 38 * tip.x - width / 2, middle[1] - 38 * tip.y - height / 2, width, height);
+    }
+  }
+
+  /**
+   * What is measured: up to two pixels, and the line between.
+   * @param {number[][]} spots
+   */
+  drawMeasure(spots) {
+    const pen = flat(this.over);
+    pen.strokeStyle = pen.fillStyle = this.theme.accent;
+    pen.lineWidth = 2.5;
+    pen.beginPath();
+    spots.forEach(([x, y], at) => pen[at ? "lineTo" : "moveTo"](x, y));
+    pen.stroke();
+    for (const [x, y] of spots) {
+      pen.beginPath();
+      pen.arc(x, y, 5, 0, 7);
+      pen.fill();
     }
   }
 

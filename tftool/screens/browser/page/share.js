@@ -2,7 +2,7 @@
 // The view as part of the page's address, so that a link shows just this.
 
 const NUMBERS = ["scale", "interval", "timeout", "length", "speed", "at", "opacity", "side"];
-const WORDS = ["fixed", "target", "source", "pair", "chosen", "only", "not", "view", "theme", "plot"];
+const WORDS = ["fixed", "target", "source", "pair", "chosen", "only", "not", "view", "theme", "plot", "followed"];
 const SWITCHES = ["names", "axes", "arrows", "grid", "trails", "visuals", "collisions", "jointaxes"];
 const LISTS = ["hidden", "closed", "trailed", "bare", "undrawn"];
 

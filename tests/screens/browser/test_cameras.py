@@ -1,0 +1,110 @@
+"""Views without perspective, a measure between two points, a camera that follows: in a browser."""
+
+import pytest
+
+pytest.importorskip("websockets", reason="the extra `view` is not installed")
+pytest.importorskip("selenium", reason="selenium is not installed")
+
+from selenium.webdriver.common.action_chains import ActionChains
+
+from tests.screens.browser.driving import CHROMEDRIVER, CHROMIUM
+from tests.screens.browser.test_file import file_of, opened
+from tests.screens.browser.test_standalone import EPOCH
+from tftool.frames.buffer import Buffer
+from tftool.frames.sample import TransformStamped
+from tftool.geometry.rigid import Transform
+from tftool.stamps import seconds
+
+pytestmark = pytest.mark.skipif(
+    not (CHROMIUM and CHROMEDRIVER),
+    reason="no chromium and chromedriver: apt-get install chromium chromium-driver",
+)
+
+
+@pytest.fixture
+def driven(tmp_path):
+    """A robot that drives along x for 4 s at 1 m/s, and a post at (0, 3, 4)."""
+    buffer = Buffer(seconds(60))
+    post = TransformStamped(0, "world", "post", Transform((0.0, 3.0, 4.0)))
+    buffer.set_transform_static(post, "map")
+    for tick in range(41):
+        stamp = EPOCH + seconds(tick / 10)
+        pose = Transform((tick / 10, 0.0, 0.0))
+        buffer.set_transform(TransformStamped(stamp, "world", "robot", pose), "wheels")
+    return file_of(tmp_path, buffer, end=4.0)
+
+
+def pixels(page, *place):
+    return page.said("tftool.pixelOf({}, {}, {})".format(*place))
+
+
+def clicked(page, place):
+    """Click where a place is in the picture."""
+    x, y = pixels(page, *place)
+    over = page.find("#over")
+    left, top = round(x - over.size["width"] / 2), round(y - over.size["height"] / 2)
+    ActionChains(page.driver).move_to_element_with_offset(over, left, top).click().perform()
+
+
+@pytest.mark.parametrize(
+    ("view", "right", "upward"),
+    [
+        ("top", (1, 0, 0), (0, 1, 0)),
+        ("side", (1, 0, 0), (0, 0, 1)),
+        ("front", (0, 1, 0), (0, 0, 1)),
+    ],
+)
+def test_a_view_along_an_axis_has_no_perspective(chromium, driven, view, right, upward):
+    page = opened(chromium, driven, "fixed=world&at=1")
+    page.until(lambda: len(page.drawn()) == 3)
+    page.find(f"#{view}").click()
+    page.until(lambda: page.find(f"#{view}").get_attribute("aria-pressed") == "true")
+    through = [1 - one - other for one, other in zip(right, upward, strict=True)]
+
+    def spread():
+        origin, across, up, deep = (
+            pixels(page, *place) for place in ((0, 0, 0), right, upward, through)
+        )
+        metre = across[0] - origin[0]
+        return metre > 5 and (metre, origin, across, up, deep)
+
+    metre, origin, across, up, deep = page.until(spread)
+    assert across == pytest.approx([origin[0] + metre, origin[1]], abs=0.01)
+    assert up == pytest.approx([origin[0], origin[1] - metre], abs=0.01)
+    # What lies behind lies at the same place, and is as large.
+    assert deep == pytest.approx(origin, abs=0.01)
+    assert page.complaints() == []
+
+
+def test_two_frames_are_measured_as_they_move(chromium, driven):
+    page = opened(chromium, driven, "fixed=world&at=0&view=side")
+    page.until(lambda: len(page.drawn()) == 3)
+    page.scrub(3.0)
+    page.until(lambda: page.x_of("robot") == 3.0)
+    page.find("#measure").click()
+    page.until(lambda: "first point" in page.text("#measured"))
+    clicked(page, (3, 0, 0))
+    page.until(lambda: "second point" in page.text("#measured"))
+    clicked(page, (0, 3, 4))
+
+    page.until(
+        lambda: page.text("#measured") == "robot to post: 5.831 m (x -3.000, y 3.000, z 4.000)"
+    )
+    page.scrub(0.0)
+    page.until(
+        lambda: page.text("#measured") == "robot to post: 5.000 m (x 0.000, y 3.000, z 4.000)"
+    )
+    page.find("#measure").click()
+    page.until(lambda: not page.find("#measured").is_displayed())
+
+
+def test_the_camera_goes_along_with_the_frame_it_follows(chromium, driven):
+    page = opened(chromium, driven, "fixed=world&at=0.5&followed=robot")
+    page.until(lambda: page.x_of("robot") == 0.5)
+    before = pixels(page, 0.5, 0, 0)
+    page.scrub(3.5)
+    page.until(lambda: page.x_of("robot") == 3.5)
+
+    page.until(lambda: pixels(page, 3.5, 0, 0) == pytest.approx(before, abs=0.01))
+    assert pixels(page, 0.5, 0, 0)[0] < before[0] - 10
+    assert page.complaints() == []
