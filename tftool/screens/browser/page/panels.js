@@ -106,7 +106,7 @@ export function showStatus({ past, playing }, state) {
   for (const name of ["gone", "stale"]) classList.toggle(name, state === name);
   classList.toggle("past", past);
   const text = {
-    wait: "connecting", gone: "session ended, waiting for it to come back", stale: "no new data",
+    wait: "connecting", gone: "session ended", stale: "no new data",
     past: playing ? "replay" : "past", stored: playing && past ? "replay" : "recorded", live: "live",
   }[state];
   $("status").dataset.state = state;
