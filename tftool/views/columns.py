@@ -17,7 +17,7 @@ Cell: TypeAlias = tuple[str, str]
 
 
 @dataclass(frozen=True, slots=True)
-class Column:
+class TableColumn:
     """Cells under each other.
 
     Attributes:
@@ -57,7 +57,7 @@ class FittedColumns:
         more: What stands for text that was left out.
     """
 
-    columns: tuple[Column, ...]
+    columns: tuple[TableColumn, ...]
     room: int
     more: str = "…"
 
@@ -86,7 +86,7 @@ class FittedColumns:
 
 
 def fit(
-    columns: Sequence[Column], width: int, *, wanted: int, longest: int, more: str = "…"
+    columns: Sequence[TableColumn], width: int, *, wanted: int, longest: int, more: str = "…"
 ) -> FittedColumns:
     """Keep as many columns as leave `wanted` cells to what stands before them.
 

@@ -14,7 +14,7 @@ from rich.text import Text
 from tftool.frames.sample import FrameInfo, Snapshot
 from tftool.stamps import Stamp, as_seconds, display
 from tftool.views.branches import ASCII, UNICODE, Branch, Guides, branches
-from tftool.views.columns import Cell, Column, fit
+from tftool.views.columns import Cell, TableColumn, fit
 from tftool.views.escaping import distinct, visible
 from tftool.views.fixed_width import middle_cut
 from tftool.views.forest import Forest, grow
@@ -204,7 +204,7 @@ def _columns(
     width: int,
     moving: Collection[str] | None,
     marks: Mapping[str, Sequence[str]],
-) -> list[Column]:
+) -> list[TableColumn]:
     """What there is to say about each frame, beside its name."""
 
     def cells(told: Told, style: str = "") -> list[Cell]:
@@ -216,12 +216,12 @@ def _columns(
         ]
 
     wrong = [(_wrong(one, marks), "yellow") for one in rows]
-    last = Column("wrong", wrong, caps=(max(12, width // 4),))
+    last = TableColumn("wrong", wrong, caps=(max(12, width // 4),))
     if moving is not None:
         kinds = cells(lambda info: "fixed" if info.is_static else "moving")
         return [
-            Column("link", kinds, goes=2),
-            Column("joint", cells(_broadcaster), caps=BROADCASTERS, goes=1),
+            TableColumn("link", kinds, goes=2),
+            TableColumn("joint", cells(_broadcaster), caps=BROADCASTERS, goes=1),
             last,
         ]
     ages = [
@@ -229,12 +229,12 @@ def _columns(
         for one, (text, style), (why, _) in zip(rows, cells(_AGE), wrong, strict=True)
     ]
     return [
-        Column("broadcaster", cells(_broadcaster, "dim"), caps=BROADCASTERS, goes=4),
-        Column("rate", cells(_rate), stands_right=True, goes=5),
-        Column("kept", cells(_KEPT), stands_right=True, goes=3),
-        Column("oldest", cells(_OLDEST, "dim"), stands_right=True, goes=1),
-        Column("newest", cells(_NEWEST, "dim"), stands_right=True, goes=2),
-        Column("age", ages, stands_right=True, goes=6),
+        TableColumn("broadcaster", cells(_broadcaster, "dim"), caps=BROADCASTERS, goes=4),
+        TableColumn("rate", cells(_rate), stands_right=True, goes=5),
+        TableColumn("kept", cells(_KEPT), stands_right=True, goes=3),
+        TableColumn("oldest", cells(_OLDEST, "dim"), stands_right=True, goes=1),
+        TableColumn("newest", cells(_NEWEST, "dim"), stands_right=True, goes=2),
+        TableColumn("age", ages, stands_right=True, goes=6),
         last,
     ]
 

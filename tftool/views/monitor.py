@@ -10,7 +10,7 @@ from rich.text import Text
 from tftool.diagnostics.catalogue import CHECKS
 from tftool.frames.traffic import FrameTraffic, NetDelay, Series, Traffic
 from tftool.stamps import Duration, Stamp, as_seconds
-from tftool.views.columns import Cell, Column, fit
+from tftool.views.columns import Cell, TableColumn, fit
 from tftool.views.echo import in_words
 from tftool.views.escaping import visible
 from tftool.views.fixed_width import middle_cut, wrap_words
@@ -119,8 +119,8 @@ def table(
     series = [link.series for link in links]
     statics = [link.is_static for link in links]
     columns = [
-        Column("in", parents, caps=(24, 12), goes=4),
-        Column("broadcaster", senders, caps=(24, 16, 11), goes=3),
+        TableColumn("in", parents, caps=(24, 12), goes=4),
+        TableColumn("broadcaster", senders, caps=(24, 16, 11), goes=3),
         *_measures(now, series, statics, ascii_only),
     ]
     names = [(visible(link.frame), _late(now, link.series, link.is_static)) for link in links]
@@ -153,7 +153,7 @@ def _title(seconds: float, chain: Chain | None) -> str:
 
 
 def _rows(
-    heading: str, names: list[Cell], columns: list[Column], width: int, more: str
+    heading: str, names: list[Cell], columns: list[TableColumn], width: int, more: str
 ) -> list[Text]:
     longest = max(cell_len(text) for text, _ in [(heading, ""), *names])
     wanted = min(longest, max(12, width // 3))
@@ -177,7 +177,7 @@ def _within(rows: list[Text], room: int) -> list[Text]:
 
 def _measures(
     now: Stamp, series: list[Series], statics: list[bool], ascii_only: bool
-) -> list[Column]:
+) -> list[TableColumn]:
     """Rate, delay, and since when nothing came, of what sends again and again."""
     rates = [NONE if one.rate is None else f"{one.rate:.2f} Hz" for one in series]
     late = [_late(now, one, still) for one, still in zip(series, statics, strict=True)]
@@ -202,11 +202,15 @@ def _measures(
         for one, still, style in zip(series, statics, late, strict=True)
     ]
     return [
-        Column("rate", shown, stands_right=True, goes=6),
-        Column("", bars, goes=1),
-        Column("delay", cells([_milliseconds(one.average_delay) for one in series]), True, goes=5),
-        Column("most", cells([_milliseconds(one.maximum_delay) for one in series]), True, goes=2),
-        Column("last heard", silent, True),
+        TableColumn("rate", shown, stands_right=True, goes=6),
+        TableColumn("", bars, goes=1),
+        TableColumn(
+            "delay", cells([_milliseconds(one.average_delay) for one in series]), True, goes=5
+        ),
+        TableColumn(
+            "most", cells([_milliseconds(one.maximum_delay) for one in series]), True, goes=2
+        ),
+        TableColumn("last heard", silent, True),
     ]
 
 

@@ -7,7 +7,7 @@ from typing import Any
 from rich.cells import cell_len
 from rich.text import Text
 
-from tftool.views.columns import Column, fit
+from tftool.views.columns import TableColumn, fit
 from tftool.views.escaping import visible
 from tftool.views.fixed_width import middle_cut, wrap_words
 
@@ -42,9 +42,11 @@ def lines(
     told += writer.rows(
         [f"tftool {visible(one['command'])}" for one in processes],
         [
-            Column("", [(f"process {one['pid']}", "dim") for one in processes], goes=1),
-            Column("", [(ROLES[one["role"]], "") for one in processes]),
-            Column("", [(f"since {_clock(one['since'])}", "dim") for one in processes], goes=2),
+            TableColumn("", [(f"process {one['pid']}", "dim") for one in processes], goes=1),
+            TableColumn("", [(ROLES[one["role"]], "") for one in processes]),
+            TableColumn(
+                "", [(f"since {_clock(one['since'])}", "dim") for one in processes], goes=2
+            ),
         ],
         [_names(one["nodes"], "no nodes") for one in processes],
     )
@@ -58,8 +60,8 @@ def lines(
     told += writer.rows(
         [visible(name) for name in topics],
         [
-            Column("", [(f"{one['rate']:.1f} Hz", "") for one in topics.values()], True),
-            Column("", [(visible(one["type"]), "cyan") for one in topics.values()], goes=1),
+            TableColumn("", [(f"{one['rate']:.1f} Hz", "") for one in topics.values()], True),
+            TableColumn("", [(visible(one["type"]), "cyan") for one in topics.values()], goes=1),
         ],
         [
             f"from {_names(one['publishers'], 'none')}, to {_names(one['subscribers'], 'none')}"
@@ -73,7 +75,7 @@ def lines(
         if verbose or not _goes_without_saying(name, service["type"])
     }
     types = [(visible(ros_type), "cyan") for ros_type in shown.values()]
-    told += writer.rows([visible(name) for name in shown], [Column("", types, goes=1)])
+    told += writer.rows([visible(name) for name in shown], [TableColumn("", types, goes=1)])
     folded = len(found["services"]) - len(shown)
     if folded:
         sentence = f"and {folded} of parameters and actions (--verbose lists them)"
@@ -94,7 +96,7 @@ class _Writer:
         return [Text(f"{what} ({count})", style="bold")]
 
     def rows(
-        self, names: Sequence[str], columns: Sequence[Column] = (), lists: Sequence[str] = ()
+        self, names: Sequence[str], columns: Sequence[TableColumn] = (), lists: Sequence[str] = ()
     ) -> list[Text]:
         """Names in a column, what belongs to them beside, and long lists at the end or below."""
         if not names:
