@@ -9,6 +9,7 @@ from tftool.frames.sample import TransformStamped
 from tftool.geometry.rigid import Transform
 from tftool.runtime.clock import WallClock, run
 from tftool.runtime.world import World
+from tftool.screens.browser.live import LiveDisplays
 from tftool.screens.browser.server import PageServer
 from tftool.stamps import seconds
 
@@ -90,6 +91,7 @@ class Stage:
         self._loop = asyncio.get_running_loop()
         self._over = asyncio.Event()
         async with PageServer(world, port=self._port) as self._page:
+            self._page.show_live(LiveDisplays(world))
             running = asyncio.ensure_future(self._page.run())
             self._ready.set()
             await self._over.wait()

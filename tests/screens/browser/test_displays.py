@@ -5,6 +5,7 @@ import importlib.util
 import shutil
 import struct
 import threading
+from dataclasses import replace
 from types import SimpleNamespace
 
 import numpy as np
@@ -14,11 +15,18 @@ import tftool
 from tftool.cli.app import main
 from tftool.frames.sample import TransformStamped
 from tftool.geometry.rigid import Transform
+from tftool.interfaces.classes import INTERFACES
+from tftool.messages import PointStamped
+from tftool.runtime.clock import SimClock
+from tftool.runtime.endpoints import PUBLISHER, SUBSCRIPTION, Endpoint, Quality
+from tftool.runtime.world import World
 from tftool.screens.browser.displays import cloud, path, point, scan
+from tftool.screens.browser.live import LiveDisplays
 from tftool.screens.browser.tracks import Limits, recorded_tracks
 from tftool.stamps import NANOSECONDS, seconds
 
 EPOCH = 1_700_000_000 * NANOSECONDS
+CLASSES = SimpleNamespace(new_message=lambda name: INTERFACES.message(name)())
 POINTS = np.array([[1.0, 2.0, 3.0], [np.nan, 0.0, 0.0], [-1.0, 0.5, 0.25]])
 
 
@@ -163,6 +171,104 @@ needs_browser = pytest.mark.skipif(
     ),
     reason="no chromium and chromedriver: apt-get install chromium chromium-driver",
 )
+
+
+@needs_browser
+def test_a_session_shows_them_as_they_come_where_their_frames_were(chromium, stage):
+    from tests.screens.browser.driving import Page
+
+    for at, x in ((1.0, 3.0), (2.0, 5.0)):
+        stage.put(x, at=at)
+
+    def early(world):
+        points = world.publisher("test", "early", PointStamped)
+        points.publish(PointStamped(world.clock.epoch + seconds(1), "turtle", 0.0, 1.0, 0.0))
+
+    stage.do(early)
+    page = Page(chromium, stage, "fixed=world")
+    # Published before the page was opened, and where the turtle was at 1 s, not where it is.
+    assert shown(page, "/early", 1.0) == (1, [3.0, 1.0, 0.0])
+
+    def late(world):
+        epoch = world.clock.epoch
+        points = world.publisher("test", "turtle3/turtle_point_stamped", PointStamped)
+        points.publish(PointStamped(epoch + seconds(1), "world", 4.0, 2.0, 0.0))
+        points.publish(PointStamped(epoch + seconds(1.5), "turtle", 0.5, 0.0, 0.0))
+        points.publish(PointStamped(epoch + seconds(3), "turtle", 0.5, 0.0, 0.0))
+        # Its transform comes behind the point.
+        pose = TransformStamped(epoch + seconds(3), "world", "turtle", Transform((7.0, 0.0, 0.0)))
+        world.broadcast([pose], "test")
+        many = cloud_of(CLASSES, np.full((200_000, 3), 2.0), frame="turtle")
+        many.header.stamp.sec, many.header.stamp.nanosec = divmod(epoch + seconds(2), NANOSECONDS)
+        world.publisher("test", "cloud", type(many), Quality(is_reliable=False)).publish(many)
+
+    stage.do(late)
+    assert shown(page, "/turtle3/turtle_point_stamped", 3.0) == (1, [7.5, 0.0, 0.0])
+    assert shown(page, "/cloud", 2.0) == (200_000, [7.0, 2.0, 2.0])
+    page.find("#topics button").click()
+    page.until(lambda: len(page.said("tftool.displays()")) == 2)
+    assert page.complaints() == []
+
+
+def test_of_a_topic_of_a_session_the_last_message_is_told_within_a_round_of_so_many_bytes():
+    world = World(SimClock())
+    displays = LiveDisplays(world)
+    place = PointStamped(world.clock.epoch, "world", 1.0, 2.0, 0.0)
+    goal = world.publisher("test", "goal", PointStamped)
+    for x in range(3):
+        goal.publish(replace(place, x=float(x)))
+    kind = INTERFACES.message(cloud.TYPE)
+    large = cloud_of(CLASSES, np.random.default_rng(1).normal(size=(200_000, 3)), frame="lidar")
+    world.broadcast([TransformStamped(0, "world", "lidar", Transform())], "test", static=True)
+    for topic in ("a", "b", "c"):
+        world.publisher("test", topic, kind).publish(large)
+    world.publisher("test", "broken", kind).publish(kind())
+    world.publisher("test", "text", INTERFACES.message("std_msgs/msg/String"))
+
+    rounds = [displays.round() for _ in range(4)]
+
+    assert [set(one) for one in rounds] == [{"goal", "a", "b"}, {"c", "broken"}, set(), set()]
+    assert all(sum(map(len, one.values())) < 11e6 for one in rounds)
+    assert b'"count":3' in rounds[0]["goal"]
+    assert b"the cloud has no field 'x' of floats (1 messages)" in rounds[1]["broken"]
+    assert set(displays.blocks) == {"goal", "a", "b", "c", "broken"}
+    displays.close()
+    assert world.topics()["goal"].subscribers == 0
+
+
+def test_a_message_waits_for_the_transform_of_its_stamp_but_not_for_ever():
+    world = World(SimClock())
+    displays = LiveDisplays(world)
+    points = world.publisher("test", "goal", PointStamped)
+    points.publish(PointStamped(world.clock.epoch, "nowhere", 1.0, 2.0, 0.0))
+    waited = [len(displays.round()) for _ in range(8)]
+    assert sum(waited) == 1
+    assert waited[0] == 0
+
+    points.publish(PointStamped(world.clock.epoch + 5, "robot", 1.0, 2.0, 0.0))
+    assert displays.round() == {}
+    pose = TransformStamped(world.clock.epoch + 5, "world", "robot", Transform((4.0, 0.0, 0.0)))
+    world.broadcast([pose], "test")
+    assert b'"root":"world","pose":[4.0,' in displays.round()["goal"]
+
+
+def test_a_topic_of_another_type_here_is_left_alone_and_one_that_changes_its_quality_is_not():
+    world = World(SimClock())
+    displays = LiveDisplays(world)
+    world.topic("odd", INTERFACES.message("std_msgs/msg/String"))
+    odd = Endpoint(PUBLISHER, "other", "odd", point.TYPE, Quality(), is_remote=True)
+    world.endpoints.add(odd)
+    first = world.publisher("first", "goal", PointStamped, Quality(is_latched=True))
+    second = world.publisher("second", "goal", PointStamped, Quality(is_reliable=False))
+
+    world.broadcast([TransformStamped(0, "world", "robot", Transform())], "test", static=True)
+    for publisher in (first, second):
+        publisher.publish(PointStamped(world.clock.epoch, "world", 1.0, 0.0, 0.0))
+        assert set(displays.round()) == {"goal"}
+    subscriptions = world.endpoints.of("goal", SUBSCRIPTION)
+    assert [(one.quality.is_reliable, one.quality.is_latched) for one in subscriptions] == [
+        (False, False)
+    ]
 
 
 @needs_browser

@@ -117,6 +117,10 @@ def view(
         from tftool.screens.browser.tracks import tracks_named
 
         page.show_tracks(partial(tracks_named, recording.name))
+    else:
+        from tftool.screens.browser.live import LiveDisplays
+
+        page.show_live(LiveDisplays(session.world))
     if shown is not None:
         page.show_robot(shown)
         _tell_missing(shown)

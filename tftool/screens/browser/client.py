@@ -1,6 +1,7 @@
 """One open page, and the pictures it is sent."""
 
 import asyncio
+from collections.abc import Mapping
 from dataclasses import dataclass
 
 from websockets.asyncio.server import ServerConnection
@@ -74,6 +75,7 @@ class PageClient:
         self._next: list[str | bytes] = []
         self._word: str | None = None
         self._robot: str | None = None
+        self._displays: dict[str, bytes] = {}
         self._wake = asyncio.Event()
 
     def hear(self, said: protocol.Show | protocol.PairRequest | protocol.Got, epoch: Stamp) -> None:
@@ -114,6 +116,11 @@ class PageClient:
         self._robot = text
         self._wake.set()
 
+    def show_displays(self, blocks: Mapping[str, bytes]) -> None:
+        """Put up messages that are drawn, by topic; of each topic the last is sent."""
+        self._displays.update(blocks)
+        self._wake.set()
+
     async def feed(self) -> None:
         """Send what is offered whenever the page is ready for it; ends with the connection."""
         while True:
@@ -125,6 +132,9 @@ class PageClient:
             word, self._word = self._word, None
             if word is not None:
                 await self.socket.send(word)
+            # Not before the names: a page that was of another session begins anew with them.
+            while self._displays and self.sent:
+                await self.socket.send(self._displays.pop(next(iter(self._displays))))
             if not self._next or not self._ready():
                 continue
             messages, self._next = self._next, []
@@ -132,6 +142,8 @@ class PageClient:
             self.sent += 1
             for message in messages:
                 await self.socket.send(message)
+            if self._displays:
+                self._wake.set()
 
     def _ready(self) -> bool:
         return self.sent - self._drawn < IN_FLIGHT

@@ -107,6 +107,10 @@ class PackedBlock:
             known = self._known[key] = store()
         return known
 
+    def plain(self, header: object) -> bytes:
+        """The whole block as it is, for what is not kept; `header` is written in front."""
+        return b"".join([_head(header), *self._sections])
+
     def deflated(
         self,
         header: object,
@@ -126,9 +130,7 @@ class PackedBlock:
         Raises:
             TooLarge: If it takes more.
         """
-        text = json.dumps(header, separators=(",", ":"), allow_nan=False).encode("ascii")
-        text += b" " * (-(len(MAGIC) + 4 + len(text)) % 8)
-        head = MAGIC + struct.pack("<I", len(text)) + text
+        head = _head(header)
         squeeze = zlib.compressobj(level)
         packed = []
         done = taken = 0
@@ -144,6 +146,12 @@ class PackedBlock:
         if most is not None and taken + len(packed[-1]) > most:
             raise TooLarge
         return b"".join(packed)
+
+
+def _head(header: object) -> bytes:
+    text = json.dumps(header, separators=(",", ":"), allow_nan=False).encode("ascii")
+    text += b" " * (-(len(MAGIC) + 4 + len(text)) % 8)
+    return MAGIC + struct.pack("<I", len(text)) + text
 
 
 def _planes(words: npt.NDArray[Any]) -> bytes:

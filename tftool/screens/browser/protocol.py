@@ -8,6 +8,7 @@ Server to page:
   text   {"type": "series", ...}  a pair's transform at many moments; see `encode_series`
   text   {"type": "marks", ...}   gaps and the doctor's findings; see `marks.py`
   binary                          every frame's pose at one moment; see `encode_poses`
+  binary                          the last message of a topic that is drawn; a block of `packing.py`
 
 Page to server, text only:
   {"type": "show", "at": seconds | null}        which moment; null follows the present

@@ -30,6 +30,7 @@ from tftool.frames.sample import Snapshot
 from tftool.runtime.clock import Clock, Phase, pace_of
 from tftool.screens.browser import assets, protocol
 from tftool.screens.browser.client import PageClient, Poses, SharedMoment, TreeMessage
+from tftool.screens.browser.live import LiveDisplays
 from tftool.screens.browser.marks import marks_of
 from tftool.screens.browser.meshes import MeshRefused
 from tftool.screens.browser.packing import PackedBlock
@@ -48,6 +49,9 @@ ROUTER_PORT = 7447
 MOST_CLIENTS = 32
 RANGE_EVERY = 10
 """Ticks between two words about the buffer's reach to a page that shows the past."""
+
+DISPLAYS_RATE = 10.0
+"""How often pages are told of messages that are drawn, hertz."""
 
 TREES_KEPT = 8
 """Shapes of the tree whose names need not be written again."""
@@ -106,11 +110,13 @@ class PageServer:
         self.asked_port = self.port = port
         self.clients: set[PageClient] = set()
         self._period = _period(source.clock, rate)
+        self._displays_period = _period(source.clock, DISPLAYS_RATE)
         self._server: Server | None = None
         self._files = assets.load()
         self._robot: ShownRobot | None = None
         self._robot_text = ""
         self._read_tracks: Callable[[], Sequence[DrawnTopic]] | None = None
+        self._live: LiveDisplays | None = None
         self._tracks: asyncio.Future[bytes] | None = None
         self._trees: dict[object, TreeMessage] = {}
         self._revision = 0
@@ -125,6 +131,10 @@ class PageServer:
     def show_tracks(self, read: Callable[[], Sequence[DrawnTopic]]) -> None:
         """Draw messages beside the frames, which are read when a page is first opened."""
         self._read_tracks = read
+
+    def show_live(self, displays: LiveDisplays) -> None:
+        """Draw messages beside the frames as they come."""
+        self._live = displays
 
     def _tell_robot(self) -> None:
         if self._robot is not None:
@@ -200,11 +210,13 @@ class PageServer:
     async def run(self) -> None:
         """Take snapshots and offer them to the pages, for ever."""
         clock = pace_of(self.source.clock)
-        due = clock.now()
+        due = displays_due = clock.now()
         while True:
             await clock.sleep_until(due, Phase.WATCH)
             began = clock.now()
             self._tick(self.source.clock.now())
+            if self._live is not None and clock.now() >= displays_due:
+                displays_due = self._tell_displays(self._live, clock)
             ended = clock.now()
             # Thousands of frames may take longer than a period: never more than half the time.
             due = max(due + self._period, ended + (ended - began))
@@ -222,6 +234,17 @@ class PageServer:
             elif self._ticks % RANGE_EVERY == 0:
                 following = following or self._picture(now, 0)
                 client.tell(protocol.encode_range(self.source.clock.epoch, following.snapshot))
+
+    def _tell_displays(self, displays: LiveDisplays, clock: Clock) -> Stamp:
+        """Offer the messages that are drawn to the pages; when to do it next."""
+        began = clock.now()
+        blocks = displays.round()
+        for client in self.clients:
+            client.show_displays(blocks)
+        ended = clock.now()
+        # Without a page they are only kept, so that one that opens sees them.
+        period = self._displays_period * (1 if self.clients else 10)
+        return max(began + period, ended + 2 * (ended - began))
 
     def _picture(self, now: Stamp, at: Stamp) -> SharedMoment:
         snapshot = self.source.buffer.snapshot(now, at)
@@ -336,6 +359,8 @@ class PageServer:
             client.show_robot(self._robot_text)
         if self._read_tracks is not None:
             await socket.send('{"type": "tracks"}')
+        if self._live is not None:
+            client.show_displays(self._live.blocks)
         feeding = asyncio.ensure_future(client.feed())
         telling: asyncio.Future[None] | None = None
         judging: asyncio.Future[None] | None = None

@@ -28,3 +28,20 @@ test("what goes on is added to, up to a limit; what is whole replaces", () => {
   tracks.take([track(7)], packed, true);
   assert.equal(tracks.topics.get("/scan")?.messages.length, 1);
 });
+
+test("a topic that goes on is kept up to so many places, and its last message always", () => {
+  const tracks = new Tracks();
+  const large = (stamp) => ({ ...track(stamp), messages: [{ ...message(stamp), count: 250_000 }] });
+  for (let stamp = 0; stamp < 9; stamp++) tracks.take([large(stamp)], packed, false);
+  assert.deepEqual(tracks.topics.get("/scan")?.messages.map((one) => one.stamp), [7, 8]);
+});
+
+test("where time begins anew, what came last is shown; another session begins without any", () => {
+  const tracks = new Tracks();
+  for (const stamp of [5, 6, 6, 2]) tracks.take([track(stamp)], packed, false);
+  tracks.take([{ ...track(1), topic: "/recorded" }], packed, true);
+
+  assert.deepEqual(tracks.topics.get("/scan")?.messages.map((one) => one.stamp), [2]);
+  tracks.forget();
+  assert.deepEqual([...tracks.topics.keys()], ["/recorded"]);
+});

@@ -34,16 +34,14 @@ export class Displays {
    * @param {Set<string>} undrawn topics that are switched off
    */
   place(moment, model, undrawn) {
+    for (const [topic, { shape }] of this.shown) if (!this.tracks.topics.has(topic)) this.drop(topic, shape);
     let color = 0;
     for (const { topic, kind } of this.tracks.topics.values()) {
       const message = this.tracks.at(topic, moment);
       const tint = COLORS[color++ % COLORS.length];
       let one = this.shown.get(topic);
       if (one && one.message !== message) {
-        this.group.remove(one.shape);
-        one.shape.geometry.dispose();
-        one.shape.material.dispose();
-        this.shown.delete(topic);
+        this.drop(topic, one.shape);
         one = undefined;
       }
       if (!message) continue;
@@ -66,6 +64,13 @@ export class Displays {
     }
   }
 
+  drop(topic, shape) {
+    this.group.remove(shape);
+    shape.geometry.dispose();
+    shape.material.dispose();
+    this.shown.delete(topic);
+  }
+
   /** What is in the picture, by topic: how many places, and its message's stamp. */
   drawn() {
     const found = {};
@@ -81,6 +86,11 @@ export class Displays {
   list(undrawn) {
     const topics = [...this.tracks.topics.values()];
     $("displays").hidden = topics.length === 0;
+    for (const [topic, row] of this.switches) {
+      if (this.tracks.topics.has(topic)) continue;
+      row.remove();
+      this.switches.delete(topic);
+    }
     for (const { topic, type, faults } of topics) {
       let row = this.switches.get(topic);
       if (!row) {

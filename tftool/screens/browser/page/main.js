@@ -116,7 +116,10 @@ const handlers = {
   names(message) {
     const another = model.setNames(message);
     timeline.rate = model.rate;
-    if (another) timeline.goLive();
+    if (another) {
+      timeline.goLive();
+      tracks.forget();
+    }
     tree.build(model, choices);
     course.forget();
     fillPickers();

@@ -2,14 +2,15 @@
 // The messages that are drawn beside the frames, by topic and in order of their stamps.
 
 const MOST_KEPT = 200; // messages of a topic that goes on
+const MOST_PLACES = 600_000; // of all of them together
 
 /**
  * @typedef {{ stamp: number, frame: string, root: string | null, pose: number[] | null, count: number,
  *   places: import("./packed.js").Column[] }} PackedMessage
  * @typedef {{ topic: string, type: string, kind: "ball" | "line" | "points", count: number, faults: string[],
  *   messages: PackedMessage[] }} PackedTrack
- * @typedef {{ stamp: number, frame: string, root: string | null, pose: number[] | null, places(): Float32Array }} Message
- * @typedef {{ topic: string, type: string, kind: "ball" | "line" | "points", faults: string[], messages: Message[] }} Track
+ * @typedef {{ stamp: number, frame: string, root: string | null, pose: number[] | null, count: number, places(): Float32Array }} Message
+ * @typedef {{ topic: string, type: string, kind: "ball" | "line" | "points", faults: string[], whole: boolean, messages: Message[] }} Track
  */
 
 /**
@@ -29,7 +30,22 @@ function opened({ stamp, frame, root, pose, count, places }, packed) {
     });
     return found;
   };
-  return { stamp, frame, root, pose, places: () => (known ??= unpack()) };
+  return { stamp, frame, root, pose, count, places: () => (known ??= unpack()) };
+}
+
+/**
+ * Drop the oldest, but never the last.
+ * @param {Message[]} messages
+ */
+function shorten(messages) {
+  let kept = 0;
+  let places = 0;
+  while (kept < Math.min(messages.length, MOST_KEPT)) {
+    places += messages[messages.length - 1 - kept].count;
+    if (kept && places > MOST_PLACES) break;
+    kept++;
+  }
+  messages.splice(0, messages.length - kept);
 }
 
 export class Tracks {
@@ -47,16 +63,24 @@ export class Tracks {
   take(tracks, packed, whole) {
     for (const { topic, type, kind, faults, messages } of tracks) {
       const known = this.topics.get(topic);
-      const track = known && !whole ? known : { topic, type, kind, faults, messages: [] };
+      const track = known && !whole ? known : { topic, type, kind, faults, whole, messages: [] };
       this.topics.set(topic, track);
       track.faults = faults;
+      // What comes last is shown in the present, whatever its stamp: time may have begun anew.
+      const first = messages[0]?.stamp ?? Infinity;
+      while (!whole && track.messages.length && track.messages[track.messages.length - 1].stamp >= first) track.messages.pop();
       for (const message of messages) {
         let place = track.messages.length;
         while (place > 0 && track.messages[place - 1].stamp > message.stamp) place--;
         track.messages.splice(place, 0, opened(message, packed));
       }
-      if (!whole) track.messages.splice(0, track.messages.length - MOST_KEPT);
+      if (!whole) shorten(track.messages);
     }
+  }
+
+  /** Another session speaks: what came from the one before is gone. */
+  forget() {
+    for (const { topic, whole } of [...this.topics.values()]) if (!whole) this.topics.delete(topic);
   }
 
   /**
