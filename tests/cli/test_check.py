@@ -93,6 +93,42 @@ def test_a_misspelt_name_is_told(tftool, scenarios):
     )
 
 
+@pytest.mark.parametrize(
+    ("nodes", "told"),
+    [
+        (
+            ["static: {parent: world, child: a}", "static: {parent: b, child: a}"],
+            "odd.yaml:5:5: frame 'a' has two parents: 'world' (line 4) and 'b'",
+        ),
+        (
+            ["static: {parent: a, child: b}", "static: {parent: b, child: a}"],
+            "odd.yaml:5:5: a loop: frame 'a' hangs from 'b', 'a'",
+        ),
+        (
+            ["static: {parent: turtle1, child: world}", "broadcaster: {turtle: turtle1}"],
+            "odd.yaml:5:5: a loop: frame 'turtle1' hangs from 'world', 'turtle1'",
+        ),
+        (["static: {parent: a, child: /a}"], "odd.yaml:4:5: frame 'a' cannot hang from itself"),
+    ],
+)
+def test_nodes_that_make_no_tree_are_told_where_they_stand(tftool, scenarios, nodes, told):
+    lines = ["duration: 2 s", "nodes:", "  - turtlesim", *(f"  - {node}" for node in nodes)]
+    (scenarios / "odd.yaml").write_text("\n".join([*lines, "expect: []"]))
+
+    result = tftool("check", "odd.yaml")
+
+    assert result.err.startswith(told)
+    assert result.err.splitlines()[-1].endswith("^")
+
+
+def test_frames_of_one_parent_each_are_not_told(tftool, scenarios):
+    nodes = ["fixed_carrot", "fixed_carrot: {name: again}", "broadcaster: {turtle: turtle1}"]
+    lines = ["duration: 2 s", "nodes:", "  - turtlesim", *(f"  - {node}" for node in nodes)]
+    (scenarios / "even.yaml").write_text("\n".join([*lines, "expect: []"]))
+
+    assert tftool("check", "even.yaml").err == ""
+
+
 def test_json_is_for_programs(tftool, scenarios):
     result = tftool("check", "good.yaml", "bad.yaml", "--json")
 

@@ -10,6 +10,7 @@ from types import MappingProxyType
 from typing import Any
 
 from tftool.frames.sample import TransformStamped
+from tftool.frames.tree import stripped
 from tftool.geometry.conversions import quaternion_from_rpy
 from tftool.geometry.rigid import Transform
 from tftool.messages import Color, Spawn
@@ -281,3 +282,17 @@ KINDS: Mapping[str, NodeKind] = MappingProxyType(
         ),
     }
 )
+
+
+def link_of(kind: str, parameters: Mapping[str, Any]) -> tuple[str, str] | None:
+    """The parent and child of the one link that a node with these parameters publishes.
+
+    None for a node that publishes none, or whose links its parameters do not name.
+    """
+    if kind in {"broadcaster", "message_broadcaster"}:
+        parent, child = parameters["frame_id"], parameters["turtle"]
+    elif {"parent", "child"} <= parameters.keys():
+        parent, child = parameters["parent"], parameters["child"]
+    else:
+        return None
+    return stripped(parent), stripped(child)

@@ -6,18 +6,18 @@ The kinds of nodes, actions and subjects come from `kinds.KINDS`, `actions.ACTIO
 
 import re
 from collections import Counter
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from pathlib import Path, PurePath
 from types import MappingProxyType
 from typing import Any
 
-from tftool.errors import ScenarioError, TftoolError, UsageError
+from tftool.errors import Mistake, ScenarioError, TftoolError, UsageError
 from tftool.runtime.clock import SimClock
 from tftool.runtime.world import World
 from tftool.scenario import doctoring, document, values
 from tftool.scenario.actions import ACTIONS, StopNode
 from tftool.scenario.document import Document, Node, Scalar
-from tftool.scenario.kinds import KINDS
+from tftool.scenario.kinds import KINDS, link_of
 from tftool.scenario.questions import SUBJECTS
 from tftool.scenario.reading import (
     UNREAD,
@@ -93,6 +93,7 @@ class _ScenarioReader:
         duration: How long the scenario lasts, once that is known.
         names: NamesCheck of its nodes, once all are known.
         looks: How often its expectations look so far.
+        not_a_tree: Where its nodes publish what no tree of frames can hold.
     """
 
     def __init__(self, given: Mapping[str, str]) -> None:
@@ -100,6 +101,7 @@ class _ScenarioReader:
         self.duration: Duration | None = None
         self.names: tuple[str, ...] | None = None
         self.looks = 0
+        self.not_a_tree: list[Mistake] = []
 
     def scenario(self, root: Node, reading: Reading, name: str) -> Scenario:
         """Read everything, in the order in which one thing checks another."""
@@ -133,6 +135,7 @@ class _ScenarioReader:
             expect=found["expect"],
             doctor=found["doctor"],
             source=reading.source.text,
+            not_a_tree=tuple(self.not_a_tree),
         )
 
     # What the rest is read with.
@@ -214,7 +217,37 @@ class _ScenarioReader:
             self.names = tuple(taken)
         if not whole:
             raise Unreadable
+        self.against_a_tree(reading.items(node, ""), items, reading)
         return tuple(found)
+
+    def against_a_tree(
+        self, places: Iterable[Node], items: Iterable[tuple[str, str, Any]], reading: Reading
+    ) -> None:
+        """Note which nodes' links cannot stand in one tree: two parents, a loop, itself."""
+        parents: dict[str, tuple[str, int]] = {}
+        for item, (kind, _, parameters) in zip(places, items, strict=True):
+            link = None if parameters is UNREAD else link_of(kind, parameters)
+            if link is None:
+                continue
+            parent, child = link
+            above = [parent]
+            while above[-1] != child and above[-1] in parents and len(above) <= len(parents):
+                above.append(parents[above[-1]][0])
+            known, line = parents.get(child, (parent, 0))
+            if parent == child:
+                text = f"frame {quoted(child)} cannot hang from itself"
+            elif known != parent:
+                text = (
+                    f"frame {quoted(child)} has two parents: {quoted(known)} (line {line}) "
+                    f"and {quoted(parent)}; a frame hangs from one"
+                )
+            elif above[-1] == child:
+                path = ", ".join(quoted(one) for one in above)
+                text = f"a loop: frame {quoted(child)} hangs from {path}; no frame is the root"
+            else:
+                parents.setdefault(child, (parent, item.place.line + 1))
+                continue
+            self.not_a_tree.append(reading.source.mistake(item.place, text))
 
     def node(self, item: Node, reading: Reading) -> tuple[str, str, Any]:
         """One node: its kind ("" if that is not known), its name if it has one, the rest."""

@@ -4,6 +4,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, Any
 
+from tftool.errors import Mistake
 from tftool.scenario.checks import AnswerCheck
 from tftool.scenario.doctoring import NO_RULES, DoctorRules
 from tftool.stamps import Duration
@@ -105,6 +106,8 @@ class Scenario:
         expect: What must hold.
         doctor: What the doctor is to leave out, in expectations and in `tftool doctor`.
         source: The text it was read from, so that it can be read with other arguments.
+        not_a_tree: Where its nodes publish two parents of a frame, a loop, or a frame in itself.
+            Not refused: the doctor may be asked about such a scenario.
     """
 
     name: str
@@ -118,6 +121,7 @@ class Scenario:
     expect: tuple[Expectation, ...]
     source: str = field(repr=False)
     doctor: DoctorRules = NO_RULES
+    not_a_tree: tuple[Mistake, ...] = ()
 
 
 def _clock(duration: Duration) -> str:

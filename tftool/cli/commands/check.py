@@ -96,7 +96,7 @@ def check(
     from tftool.views.escaping import visible
 
     with _judge_of(programs or (), launched, force=force, verbose=verbose) as judge:
-        judged = [_judge(word, judge, recordings) for word in scenarios]
+        judged = [_judge(word, judge, recordings, own_nodes=launched is None) for word in scenarios]
     reports = [report for report, _ in judged]
     if for_programs:
         sys.stdout.write(json.dumps(judgements.as_rows(reports), indent=2) + "\n")
@@ -188,7 +188,7 @@ def _words(option: str, text: str) -> tuple[str, ...]:
 
 
 def _judge(
-    word: str, judge: "Callable[..., Verdict]", recordings: Path | None
+    word: str, judge: "Callable[..., Verdict]", recordings: Path | None, *, own_nodes: bool
 ) -> "tuple[Report, bool]":
     """Report on one scenario, and whether it could be read; what could not is told at once."""
     from tftool.cli.hosting import scenario_named
@@ -201,6 +201,8 @@ def _judge(
     except InputError as error:
         sys.stderr.write(f"tftool: {visible_lines(str(error))}\n")
         return Report(Path(word).stem or word, word, (), failure=str(error)), False
+    for mistake in scenario.not_a_tree if own_nodes else ():
+        sys.stderr.write(f"{visible_lines(str(mistake))}\n")
     if recordings is None:
         return judge(scenario).report(), True
     return _recorded(scenario, judge, recordings).report(), True
