@@ -73,6 +73,8 @@ def test_the_options_of_sessions_are_shown_when_asked(tftool):
 
 def test_the_nearest_option_is_named_first(tftool):
     assert "Did you mean --format" in tftool("tree", "--formt", "x").err
+    assert "Did you mean --json?" in tftool("tree", "--jsn").err
+    assert "Did you mean --at?" in tftool("echo", "--att", "5").err
 
 
 def test_one_option_is_spelt_alike_in_all_commands():

@@ -396,12 +396,24 @@ def _usage_sentence(error: "Any") -> tuple[str, str]:
     near = [one for one in getattr(error, "possibilities", None) or () if "help" not in one]
     if hasattr(error, "possibilities"):
         sentence = error.message
+        near = _nearest(str(getattr(error, "option_name", "")), near)
     if near:
         # click sorts them by the alphabet; here the nearest comes first.
         sentence = f"{error.message.rstrip('.')}. Did you mean {' or '.join(near)}?"
     for pattern, words in PLAINLY:
         sentence = re.sub(pattern, words, sentence)
     return command, f"{sentence} Try '{command} --help'."
+
+
+def _nearest(written: str, near: list[str]) -> list[str]:
+    """Those of the near options that are about as near as the best, best first."""
+    from difflib import SequenceMatcher
+
+    likeness = {one: SequenceMatcher(None, written, one).ratio() for one in near}
+    best = max(likeness.values(), default=0.0)
+    return sorted(
+        (one for one in near if likeness[one] > best - 0.1), key=lambda one: -likeness[one]
+    )
 
 
 def _complain(who: str, sentence: str) -> None:

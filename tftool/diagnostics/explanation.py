@@ -629,7 +629,7 @@ def _unknown(trace: _Trace, name: str) -> _Told:
     alike = alike_frames(model, name)
     remedies = []
     if alike:
-        why.append(f"in tf, {' and '.join(alike)} is near")
+        why.append(f"in tf, {' and '.join(alike)} {'is' if len(alike) == 1 else 'are'} near")
         remedies.append(Remedy("name", f"set frame_id of the driver to {alike[0]}"))
     if model.trees:
         parent = missing_join(model.trees[0], name)[0]

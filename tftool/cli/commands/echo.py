@@ -76,6 +76,7 @@ def echo(
         typer.Option(
             "--at-stamps-of",
             metavar="TOPIC",
+            rich_help_panel=WHEN,
             help="Ask at the stamps of a recorded topic's messages.",
         ),
     ] = None,

@@ -148,7 +148,7 @@ def _say_what_next(path: Path, example: str, count: int) -> None:
     _tell(
         f"Made {path}: {count} files.",
         (f"tftool launch {launch}", "run it; 'tftool demo --join' shows it"),
-        (f"pytest --ros-free {path}", "test it"),
+        (f"pytest --ros-free {path}", "test it, after 'pip install pytest'"),
         (f"tftool check {path / 'scenarios' / f'{example}.yaml'} --launch {launch}", "judge it"),
     )
 

@@ -9,7 +9,7 @@ import typer
 
 from tftool.cli.app import ExitStatus
 from tftool.cli.connection import Connection
-from tftool.cli.options import OUTPUT, AtOption, CacheTime, From, RunFor
+from tftool.cli.options import OUTPUT, AtOption, CacheTime, From, Json, RunFor
 from tftool.errors import InputError, UsageError
 from tftool.stamps import Duration, seconds
 
@@ -72,6 +72,7 @@ def tree(
             help="Where to write it; - is stdout.",
         ),
     ] = None,
+    as_json: Json = False,
     wide: Annotated[
         bool,
         typer.Option(
@@ -104,10 +105,16 @@ def tree(
     from tftool.cli.notices import notice
     from tftool.cli.rivals import rivalries
 
+    if as_json:
+        if form not in (None, TreeFormat.json):
+            raise UsageError(f"--json and --format {form.value} exclude each other.")
+        form = TreeFormat.json
     form = form or _form_of(output)
     if watch:
         if form is not TreeFormat.tree or output is not None or at is not None:
-            raise UsageError("--watch draws on the terminal: leave out --format, -o and --at.")
+            raise UsageError(
+                "--watch draws on the terminal: leave out --format, --json, -o and --at."
+            )
         _watch(
             lambda: open_session(connection, place, cache_time=cache_time, needs_messages=True),
             run_for,
