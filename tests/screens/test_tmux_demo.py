@@ -110,7 +110,7 @@ def test_left_alone_turtle1_draws_by_itself_until_a_key_is_pressed(terminal):
     screen = demo.shows("turtle1 draws by itself; a key stops it")
     assert "turtle1" in screen
     demo.press("?")
-    demo.until(lambda text: "by itself" not in text and "close these keys" in text, "the keys")
+    demo.until(lambda text: "a key stops it" not in text and "close these keys" in text, "the keys")
     demo.press("Escape")
     demo.shows("turtle1 draws by itself; a key stops it")
 

@@ -51,12 +51,12 @@ def start_chromium():
 class Page:
     """The page as a person uses it."""
 
-    def __init__(self, driver, stage, state=""):
+    def __init__(self, driver, stage, state="", *, patient=True):
         self.driver = driver
         driver.get("about:blank")
         # What an earlier page complained of is not this one's.
         driver.get_log("browser")
-        if "timeout=" not in state:
+        if patient and "timeout=" not in state:
             # On a busy machine a test may last longer than frames without data are shown.
             state = f"{state}&timeout=1000".lstrip("&")
         driver.get(f"{stage.url}#{state}")
