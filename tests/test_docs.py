@@ -22,6 +22,9 @@ def named(page):
     return str(page.relative_to(ROOT))
 
 
+FILE = re.compile(r"# [\w./-]+\.(py|yaml)\n")
+"""The first line of a block that is a file: its name."""
+
 WITH_BLOCKS = [page for page in sorted(DOCS.rglob("*.md")) if blocks(page)]
 
 
@@ -33,14 +36,14 @@ def test_a_page_can_be_followed_line_by_line(page, tmp_path, monkeypatch):
     monkeypatch.setenv("TFTOOL_SESSION_DIR", str(tmp_path / "sessions"))
     previous = None
     for kind, text in blocks(page):
-        first, _, rest = text.partition("\n")
+        first = text.partition("\n")[0]
         if kind == "console":
             follow(text)
         elif kind == "text" and previous is not None:
             assert said_by(previous) == text
-        elif re.fullmatch(r"# [\w./-]+\.(py|yaml)", first):
-            (tmp_path / first[2:]).write_text(rest, encoding="utf-8")
-        previous = text if kind == "python" else None
+        elif FILE.fullmatch(first + "\n"):
+            (tmp_path / first[2:]).write_text(text, encoding="utf-8")
+        previous = text if kind == "python" and not FILE.match(text) else None
 
 
 def test_every_program_of_a_page_has_its_output_below_it():
@@ -49,8 +52,8 @@ def test_every_program_of_a_page_has_its_output_below_it():
         kinds = [kind for kind, _ in blocks(page)]
         lonely = [
             at
-            for at, kind in enumerate(kinds)
-            if kind == "python" and kinds[at + 1 :][:1] != ["text"]
+            for at, (kind, text) in enumerate(blocks(page))
+            if kind == "python" and not FILE.match(text) and kinds[at + 1 :][:1] != ["text"]
         ]
         assert not lonely, page.name
 
@@ -89,10 +92,15 @@ def test_every_file_and_folder_named_is_there():
     }
 
     assert len(named) > 40
-    # A room is named without the package it lies in.
-    missing = [
-        word for word in named if not any((at / word).exists() for at in (ROOT, ROOT / "tftool"))
-    ]
+    # A room is named without the package it lies in; a page's own files stand in its blocks.
+    places = (ROOT, ROOT / "tftool", ROOT / "examples" / "learning_tf" / "learning_tf")
+    own = {
+        text.partition("\n")[0][2:]
+        for page in pages()
+        for _, text in blocks(page)
+        if FILE.match(text)
+    }
+    missing = [word for word in named - own if not any((place / word).exists() for place in places)]
     assert missing == []
 
 
