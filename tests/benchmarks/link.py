@@ -1,4 +1,4 @@
-"""How fast transforms cross from one process to another, over a real session.
+"""How fast transforms cross from one process to another, over a real session, and over DDS.
 
 The far end is a process of its own: `python -m tests.benchmarks.link READERS-WORD ...`
 is how this file starts it.
@@ -42,7 +42,15 @@ def sample_of(stamp, number):
     return TransformStamped(stamp, "world", FRAMES[number], POSE)
 
 
-async def _read(messages):
+DDS_DOMAIN = 87
+"""Of the measurements over DDS, which stay on the loopback."""
+
+
+def options(name, middleware):
+    return Options(name, DDS_DOMAIN, middleware="dds") if middleware == "dds" else Options(name)
+
+
+async def _read(messages, middleware):
     """Take so many messages; say how late each was and how long all took."""
     clock = WallClock()
     world = World(clock)
@@ -53,7 +61,7 @@ async def _read(messages):
         arrived.append(time.time_ns())
         delays.append(arrived[-1] - message.transforms[0].stamp)
 
-    with Link(Options("reader")) as link:
+    with Link(options("reader", middleware)) as link:
         world.tf.subscribe(heard)
         link.attach(world, role=Role.GUEST)
         sys.stdout.write("ready\n")
@@ -91,18 +99,18 @@ async def _send(link, world, size, count, period):
     await world.clock.sleep(seconds(0.2))
 
 
-def measure(*, size, count, period, readers=1):
+def measure(*, size, count, period, readers=1, middleware="zenoh"):
     """Send `count` messages of `size` transforms; give what each reader found."""
     with tempfile.TemporaryDirectory(prefix="tf") as folder:
         os.environ["TFTOOL_SESSION_DIR"] = folder
         world = World(WallClock())
-        with Link(Options("sender")) as link:
+        with Link(options("sender", middleware)) as link:
 
             async def work():
                 link.attach(world, role=Role.HOST)
                 far = [
                     subprocess.Popen(
-                        [sys.executable, "-m", "tests.benchmarks.link", str(count)],
+                        [sys.executable, "-m", "tests.benchmarks.link", str(count), middleware],
                         stdout=subprocess.PIPE,
                         text=True,
                     )
@@ -222,6 +230,19 @@ def report() -> str:
     lines.append(
         f"  100 Hz x 20 to 8 readers: {arrived[0]} to {arrived[-1]} of {int(100 * STEADY)} arrived"
     )
+    (robot,) = measure(size=100, count=int(100 * STEADY), period=seconds(0.01), middleware="dds")
+    (same,) = measure(size=100, count=int(100 * STEADY), period=seconds(0.01))
+    lines.append(
+        f"  over DDS, 100 Hz x 100: median {robot['median_ms']:.3f} ms, "
+        f"{robot['received']} of {int(100 * STEADY)} arrived (wanted: 2 ms, all); "
+        f"{robot['median_ms'] / same['median_ms']:.1f} times zenoh's"
+    )
+    (rush,) = measure(size=100, count=2500, period=seconds(0.0012), middleware="dds")
+    pace = rush["received"] * 100 / rush["seconds"]
+    lines.append(
+        f"  over DDS, 833 Hz x 100: {rush['received']} of 2500 arrived, {pace:,.0f} transforms/s "
+        "(wanted: all, 50,000)"
+    )
     at_once, one_by_one = paths()
     lines.append(
         f"  a path of 20,000 in one message: {at_once:,.0f} samples/s into the buffer at once, "
@@ -232,4 +253,4 @@ def report() -> str:
 
 if __name__ == "__main__":
     clock = WallClock()
-    run(clock, _read(int(sys.argv[1])))
+    run(clock, _read(int(sys.argv[1]), sys.argv[2]))
