@@ -182,6 +182,24 @@ def test_frames_of_a_large_recording_come_from_its_kept_columns_alone(
     assert offered("echo", "l") == []
 
 
+def test_a_short_recording_is_read_once_and_again_when_it_changes(
+    offered, tftool, recorded, monkeypatch
+):
+    from tftool.sources import cache_heads
+
+    assert tftool("export", "turtles", "-o", "other.mcap").status == 0
+    monkeypatch.setenv(completion.BEHIND, "run.mcap")
+    assert offered("echo", "l") == ["laser_link", "laser_point"]
+    assert len(list(cache_heads.default_folder().glob("*.columns"))) == 1
+
+    with monkeypatch.context() as closed:
+        closed.setattr("tftool.sources.recording.open_recording", None)
+        assert offered("echo", "l") == ["laser_link", "laser_point"]
+
+    recorded.with_name("other.mcap").replace(recorded)
+    assert offered("echo", "") == ["turtle1", "turtle2", "world"]
+
+
 def test_frames_of_a_description_are_its_links(offered, tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
     Path("arm.urdf").write_text(

@@ -206,8 +206,8 @@ def _frames_of_a_file(words: Sequence[str]) -> list[str] | None:
 
 
 def _read_frames(word: str) -> list[str]:
-    """Frames by a recording's kept columns; short ones, and descriptions, are read."""
-    from tftool.sources.cache_heads import frames_kept, key_of
+    """Frames by a recording's kept columns; a short one is read once, a description always."""
+    from tftool.sources.cache_heads import default_folder, frames_kept, key_of
     from tftool.sources.find import Kind, find
 
     found = find(word)
@@ -219,10 +219,12 @@ def _read_frames(word: str) -> list[str]:
         raise UsageError("no frames are known of it before it runs")
     kept = frames_kept(found)
     if kept is None and not key_of(found):
+        from tftool.sources.cache import ColumnCache
         from tftool.sources.recording import open_recording
 
         with open_recording(word) as recording:
             kept = sorted({name for edge in recording.edges for name in (edge.parent, edge.child)})
+            ColumnCache(default_folder()).store(key_of(found, any_size=True), recording.transforms)
     return kept or []
 
 

@@ -40,8 +40,12 @@ def default_folder() -> Path:
     return Path.home() / ".cache" / "tftool"
 
 
-def key_of(found: Found) -> str:
+def key_of(found: Found, *, any_size: bool = False) -> str:
     """What a recording's columns are kept under; "" where they are not worth it.
+
+    Args:
+        found: The recording.
+        any_size: Short ones too, of which only completion keeps columns: there reading costs most.
 
     Raises:
         OSError: If one of its files cannot be read.
@@ -57,7 +61,7 @@ def key_of(found: Found) -> str:
             last = file.read(_END)
         where = os.fsencode(os.path.abspath(path)).hex()
         told.append((where, status.st_size, status.st_mtime_ns, first.hex(), last.hex()))
-    if total < WORTHWHILE:
+    if total < WORTHWHILE and not any_size:
         return ""
     return hashlib.blake2b(json.dumps(told).encode(), digest_size=16).hexdigest()
 
@@ -113,9 +117,7 @@ def parsed_head(data: bytes, key: str) -> dict[str, Any]:
 def frames_kept(found: Found) -> list[str] | None:
     """The frames of a recording whose columns are kept, sorted; None where they are not."""
     try:
-        key = key_of(found)
-        if not key:
-            return None
+        key = key_of(found, any_size=True)
         with (default_folder() / f"{key}{SUFFIX}").open("rb") as file:
             first = file.read(len(MAGIC) + 12)
             head = parsed_head(first + file.read(head_size(first) - len(first)), key)
