@@ -198,13 +198,13 @@ def test_a_session_shows_them_as_they_come_where_their_frames_were(chromium, sta
         # Its transform comes behind the point.
         pose = TransformStamped(epoch + seconds(3), "world", "turtle", Transform((7.0, 0.0, 0.0)))
         world.broadcast([pose], "test")
-        many = cloud_of(CLASSES, np.full((200_000, 3), 2.0), frame="turtle")
+        many = cloud_of(CLASSES, np.full((20_000, 3), 2.0), frame="turtle")
         many.header.stamp.sec, many.header.stamp.nanosec = divmod(epoch + seconds(2), NANOSECONDS)
         world.publisher("test", "cloud", type(many), Quality(is_reliable=False)).publish(many)
 
     stage.do(late)
     assert shown(page, "/turtle3/turtle_point_stamped", 3.0) == (1, [7.5, 0.0, 0.0])
-    assert shown(page, "/cloud", 2.0) == (200_000, [7.0, 2.0, 2.0])
+    assert shown(page, "/cloud", 2.0) == (20_000, [7.0, 2.0, 2.0])
     page.find("#topics button").click()
     page.until(lambda: len(page.said("tftool.displays()")) == 2)
     assert page.complaints() == []
