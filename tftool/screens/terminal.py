@@ -38,8 +38,9 @@ LOOKS_PER_SECOND = 20
 PANELS_EVERY = 3
 """Of that many looks, the text beside the field is written anew in one."""
 
-REST = 4.0
-"""For how many times as long as a look took there is no other one."""
+REST = 6.0
+"""For how many times as long as a look took there is no other one: with the terminal's own
+painting of it, which takes 0.4 times as long again, the demo stays below a quarter of a core."""
 
 STEP, LEAP = seconds(0.1), seconds(1.0)
 
