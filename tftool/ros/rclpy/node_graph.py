@@ -139,20 +139,27 @@ class NodeGraph:
         self, node_name: str, node_namespace: str, no_demangle: bool = False
     ) -> NamesAndTypes:
         """What a ROS node publishes."""
-        return self.__of(node_name, node_namespace, lambda full: self.__held(full, PUBLISHER))
+        return _of_node(
+            self._tftool, node_name, node_namespace, lambda full: self.__held(full, PUBLISHER)
+        )
 
     def get_subscriber_names_and_types_by_node(
         self, node_name: str, node_namespace: str, no_demangle: bool = False
     ) -> NamesAndTypes:
         """What a ROS node listens to."""
-        return self.__of(node_name, node_namespace, lambda full: self.__held(full, SUBSCRIPTION))
+        return _of_node(
+            self._tftool, node_name, node_namespace, lambda full: self.__held(full, SUBSCRIPTION)
+        )
 
     def get_service_names_and_types_by_node(
         self, node_name: str, node_namespace: str
     ) -> NamesAndTypes:
         """What a node serves."""
-        return self.__of(
-            node_name, node_namespace, lambda full: self.__served(lambda node: node == full)
+        return _of_node(
+            self._tftool,
+            node_name,
+            node_namespace,
+            lambda full: self.__served(lambda node: node == full),
         )
 
     def get_client_names_and_types_by_node(
@@ -166,7 +173,7 @@ class NodeGraph:
                 for one in self.__clients(lambda node: node == full)
             )
 
-        return self.__of(node_name, node_namespace, asked)
+        return _of_node(self._tftool, node_name, node_namespace, asked)
 
     def __held(self, node: str, role: Role) -> Iterator[tuple[str, str]]:
         endpoints = self._tftool.world.endpoints
@@ -174,11 +181,6 @@ class NodeGraph:
             for end in endpoints.of(topic, role):
                 if end.node == node:
                     yield topic, end.interface
-
-    def __of(
-        self, name: str, namespace: str, find: Callable[[str], Iterable[tuple[str, str]]]
-    ) -> NamesAndTypes:
-        return _of_node(self._tftool, name, namespace, find)
 
 
 def get_action_names_and_types(node: Any) -> NamesAndTypes:
