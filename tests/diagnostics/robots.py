@@ -6,7 +6,8 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from tftool.diagnostics.judge import Diagnosis, judge
-from tftool.diagnostics.model import Material, Settings
+from tftool.diagnostics.material import Material
+from tftool.diagnostics.model import Settings
 from tftool.errors import DescriptionError
 from tftool.sources.contract import Edge, Headers, Publisher, RecordedTopic, Transforms
 from tftool.sources.robot import Robot as DescribedRobot

@@ -15,7 +15,7 @@ from tftool.cli.hosting import (
 )
 from tftool.cli.notices import notice
 from tftool.cli.options import LISTENING
-from tftool.diagnostics.model import Material
+from tftool.diagnostics.material import Material
 from tftool.diagnostics.scope import Scope
 from tftool.errors import UsageError
 from tftool.scenario.doctoring import NO_RULES, DoctorRules, heard_in, rules_beside

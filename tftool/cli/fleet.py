@@ -216,7 +216,8 @@ class Inventory:
 
     @staticmethod
     def _listed(source: str, path: str) -> list[Row]:
-        from tftool.diagnostics.model import Material, Model
+        from tftool.diagnostics.material import Material
+        from tftool.diagnostics.model import Model
         from tftool.sources.recording import open_recording
 
         with open_recording(path) as recording:

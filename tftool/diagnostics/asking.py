@@ -12,7 +12,8 @@ from tftool.diagnostics.catalogue import CHECKS
 from tftool.diagnostics.explanation import Explanation, Question, traced
 from tftool.diagnostics.findings import Finding
 from tftool.diagnostics.judge import judge
-from tftool.diagnostics.model import Material, Model, Settings, described_by
+from tftool.diagnostics.material import Material, described_by
+from tftool.diagnostics.model import Model, Settings
 from tftool.diagnostics.scope import Readable, Scope
 from tftool.frames.buffer import Buffer
 from tftool.sources.contract import SIMULATED_BELOW, Edge, Publisher, Stamps, Transforms

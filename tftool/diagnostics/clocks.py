@@ -6,7 +6,8 @@ from collections.abc import Iterator
 import numpy as np
 
 from tftool.diagnostics.findings import Confidence, Hit, Severity
-from tftool.diagnostics.model import Heard, Limits, Model, Track, unsorted_share
+from tftool.diagnostics.model import Limits, Model
+from tftool.diagnostics.streams import Heard, Track, unsorted_share
 from tftool.diagnostics.wording import several
 from tftool.sources.contract import SIMULATED_BELOW, Stamps
 from tftool.stamps import NANOSECONDS, seconds

@@ -8,7 +8,8 @@ from dataclasses import dataclass
 import numpy as np
 
 from tftool.diagnostics.findings import Fix, Hit, Severity
-from tftool.diagnostics.model import NEVER, WARM_UP, Heard, Limits, Model, Track, rate
+from tftool.diagnostics.model import WARM_UP, Limits, Model
+from tftool.diagnostics.streams import NEVER, Heard, Track, rate
 from tftool.sources.contract import Stamps
 from tftool.stamps import NANOSECONDS
 

@@ -15,9 +15,10 @@ import numpy as np
 
 from tftool.diagnostics.coverage import Waits, least_rate, rounded_up, waits_of
 from tftool.diagnostics.findings import Edge
-from tftool.diagnostics.model import NEVER, Heard, Model, Settings, Track
+from tftool.diagnostics.model import Model, Settings
 from tftool.diagnostics.names import alike_frames
 from tftool.diagnostics.shape import missing_join, static_publisher
+from tftool.diagnostics.streams import NEVER, Heard, Track
 from tftool.diagnostics.wording import dated, moment, span
 from tftool.errors import ExtrapolationException, InputError, TransformException
 from tftool.frames.buffer import Buffer

@@ -4,7 +4,7 @@ from collections.abc import Iterable
 
 import numpy as np
 
-from tftool.diagnostics.model import Material
+from tftool.diagnostics.material import Material
 from tftool.frames.sample import TransformStamped
 from tftool.sources.contract import Edge, Publisher, RecordedTopic, Transforms
 from tftool.stamps import Stamp

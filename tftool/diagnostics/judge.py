@@ -9,7 +9,8 @@ import numpy as np
 from tftool.diagnostics import clocks, coverage, description, names, publishers, shape, values
 from tftool.diagnostics.catalogue import CHECKS, FOLDS, NEEDS, Check
 from tftool.diagnostics.findings import Area, Confidence, Finding, Fix, Hit, Severity, Skipped
-from tftool.diagnostics.model import Limits, Material, Model, Settings
+from tftool.diagnostics.material import Material
+from tftool.diagnostics.model import Limits, Model, Settings
 from tftool.diagnostics.wording import filled, several
 from tftool.errors import UsageError
 

@@ -6,8 +6,9 @@ from collections.abc import Iterable, Iterator
 from difflib import get_close_matches
 
 from tftool.diagnostics.findings import Confidence, Fix, Hit, Severity
-from tftool.diagnostics.model import Heard, Limits, Model, last_part
+from tftool.diagnostics.model import Limits, Model
 from tftool.diagnostics.shape import base_of, quoted, static_publisher
+from tftool.diagnostics.streams import Heard, last_part
 
 _FAMILY = re.compile(
     r"\d+|(?<![a-z])(?:left|right|front|rear|back|upper|lower|top|bottom|fl|fr|rl|rr|[lrxyz])(?![a-z])"

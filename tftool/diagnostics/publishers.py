@@ -7,8 +7,9 @@ from collections.abc import Iterator, Sequence
 import numpy as np
 
 from tftool.diagnostics.findings import Confidence, Fix, Hit
-from tftool.diagnostics.model import Limits, Model, Places, Track, last_part, rate
+from tftool.diagnostics.model import Limits, Model
 from tftool.diagnostics.shape import quoted
+from tftool.diagnostics.streams import Places, Track, last_part, rate
 from tftool.geometry.batch import Floats, unit
 from tftool.geometry.quaternions import angle_between
 from tftool.stamps import NANOSECONDS

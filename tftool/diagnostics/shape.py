@@ -4,7 +4,8 @@ from collections import defaultdict
 from collections.abc import Iterator
 
 from tftool.diagnostics.findings import Confidence, Fix, Hit, Severity
-from tftool.diagnostics.model import Limits, Model, Tree, last_part, overlap
+from tftool.diagnostics.model import Limits, Model, Tree
+from tftool.diagnostics.streams import last_part, overlap
 from tftool.geometry.rigid import Transform
 
 _BASES = ("base_link", "base_footprint", "base")

@@ -5,8 +5,9 @@ from collections.abc import Iterator
 import numpy as np
 
 from tftool.diagnostics.findings import Confidence, Hit, Severity
-from tftool.diagnostics.model import ZERO_QUATERNION, Limits, Model, Track, last_part
+from tftool.diagnostics.model import Limits, Model
 from tftool.diagnostics.shape import base_of
+from tftool.diagnostics.streams import ZERO_QUATERNION, Track, last_part
 from tftool.diagnostics.wording import metres
 from tftool.geometry.batch import angles_between, unit
 from tftool.geometry.quaternions import angle_between

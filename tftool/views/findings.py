@@ -8,7 +8,8 @@ import numpy as np
 from tftool.diagnostics.catalogue import CHECKS, Check
 from tftool.diagnostics.findings import Area, Finding, Severity
 from tftool.diagnostics.judge import Diagnosis
-from tftool.diagnostics.model import Heard, Model, Stream, Track, rate
+from tftool.diagnostics.model import Model
+from tftool.diagnostics.streams import Heard, Stream, Track, rate
 from tftool.diagnostics.wording import filled, span
 from tftool.messages import Judgement, Report
 from tftool.views import judgements

@@ -125,7 +125,7 @@ def doctor(
     from tftool.cli.printing import write
     from tftool.diagnostics.findings import Severity
     from tftool.diagnostics.judge import refuse_unknown
-    from tftool.diagnostics.model import described_by
+    from tftool.diagnostics.material import described_by
     from tftool.diagnostics.scope import Scope
     from tftool.views import findings as view
 
