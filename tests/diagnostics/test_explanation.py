@@ -4,16 +4,10 @@ import pytest
 
 from tests.diagnostics.robots import LASTS, NO_TURN, START, Robot, robot, stands
 from tftool import Buffer, Transform, TransformStamped, diagnose, explain
-from tftool.diagnostics.explanation import (
-    Cause,
-    Explanation,
-    LinkVerdict,
-    Question,
-    message_of,
-    over_time,
-    traced,
-)
+from tftool.diagnostics.explanation import Explanation, over_time, traced
 from tftool.diagnostics.model import Model, Settings
+from tftool.diagnostics.reasons import Cause
+from tftool.diagnostics.tracing import LinkVerdict, Question, message_of
 from tftool.errors import InputError
 from tftool.stamps import seconds
 

@@ -9,12 +9,13 @@ import numpy.typing as npt
 
 from tftool.diagnostics import clocks, publishers
 from tftool.diagnostics.catalogue import CHECKS
-from tftool.diagnostics.explanation import Explanation, Question, traced
+from tftool.diagnostics.explanation import Explanation, traced
 from tftool.diagnostics.findings import Finding
 from tftool.diagnostics.judge import judge
 from tftool.diagnostics.material import Material, described_by
 from tftool.diagnostics.model import Model, Settings
 from tftool.diagnostics.scope import Readable, Scope
+from tftool.diagnostics.tracing import Question
 from tftool.frames.buffer import Buffer
 from tftool.sources.contract import SIMULATED_BELOW, Edge, Publisher, Stamps, Transforms
 from tftool.stamps import CACHE_TIME, LATEST, NANOSECONDS, Duration, Stamp

@@ -72,8 +72,9 @@ def explain(
     from tftool.cli.examining import LIVE, material_of
     from tftool.cli.hosting import named
     from tftool.cli.printing import write
-    from tftool.diagnostics.explanation import Question, message_of, over_time, traced
+    from tftool.diagnostics.explanation import over_time, traced
     from tftool.diagnostics.model import Model, Settings
+    from tftool.diagnostics.tracing import Question, message_of
     from tftool.sources.find import Kind
     from tftool.views import explanation as view
 
