@@ -29,10 +29,13 @@ from tftool.messages import (
     RotateAbsolute,
     Rotated,
     Rotating,
+    SetPen,
     Spawn,
     Spawned,
+    TeleportAbsolute,
     Twist2D,
 )
+from tftool.nodes.far_turtles import FarTurtles
 from tftool.nodes.turtlesim import Turtlesim
 from tftool.runtime.clock import WallClock, run
 from tftool.runtime.node import Node
@@ -402,6 +405,31 @@ def test_a_guest_drives_and_looks_at_the_hosts_turtle():
             await asyncio.gather(living, return_exceptions=True)
 
     play(drive())
+
+
+def test_a_guest_sees_the_hosts_background_and_the_strokes_of_its_pens():
+    async def look():
+        async with Two() as two:
+            simulator = Turtlesim(two.here, background=Color(150, 0, 10))
+            living = asyncio.ensure_future(live(two.here))
+            await until(lambda: two.here.has_service("turtle1/set_pen"))
+            await two.here.call("turtle1/set_pen", SetPen(255, 0, 0, 9, 0))
+            await two.here.call("turtle1/teleport_absolute", TeleportAbsolute(1.0, 1.0, 0.0))
+            await until(lambda: simulator.trail.segments)
+
+            far = FarTurtles(two.there)
+            looking = asyncio.ensure_future(live(two.there))
+            await until(lambda: far.trail.segments)
+            await until(lambda: far.background == Color(150, 0, 10))
+            (stroke,) = far.trail.segments
+            assert stroke[2:] == (1.0, 1.0, Color(255, 0, 0), 9)
+            # As little to be seen in lists as ROS 2's own hidden services.
+            assert {one.node for one in two.guest.graph.entities("node")} == {"turtlesim"}
+            living.cancel()
+            looking.cancel()
+            await asyncio.gather(living, looking, return_exceptions=True)
+
+    play(look())
 
 
 def test_a_guests_nodes_are_in_the_hosts_graph_while_they_live():

@@ -1,9 +1,13 @@
-"""A simulator seen from another process, by its poses alone."""
+"""A simulator seen from another process."""
 
 import pytest
 
-from tftool.messages import Pose2D, Twist2D
+from tftool.errors import LinkError
+from tftool.interfaces.classes import INTERFACES
+from tftool.messages import Clear, Color, Pose2D, SetPen, TeleportAbsolute, Twist2D
+from tftool.nodes.drawings import MOST_STROKES, DrawingService, FarDrawing
 from tftool.nodes.far_turtles import MOST, FarTurtles
+from tftool.nodes.trail import Segment, Trail
 from tftool.nodes.turtlesim import Turtlesim
 from tftool.runtime.clock import SimClock, run
 from tftool.runtime.node import Node
@@ -115,3 +119,141 @@ def test_another_simulator_begins_on_an_empty_sheet(world):
     # Left as it was until the next one comes.
     assert [(one.x0, one.x1) for one in before] == [(1.0, 2.0)]
     assert [(one.x0, one.x1) for one in far.trail.segments] == [(5.0, 6.0)]
+
+
+def strokes(trail):
+    """What is drawn, with the ends as 32 bits bring them over."""
+    return [
+        (*(pytest.approx(end, abs=1e-5) for end in one[:4]), *one[4:]) for one in trail.segments
+    ]
+
+
+def seen_after(world, *steps, look_at):
+    """What is seen of our simulator by one who first looks at a second."""
+    simulator, seen = Turtlesim(world), []
+    called = [
+        (second, lambda step=step: script.start_soon(world.call(*step))) for second, step in steps
+    ]
+    script = Script(world, *called, (look_at, lambda: seen.append(FarTurtles(world))))
+    lived(world, look_at + 2)
+    return simulator, seen[0]
+
+
+def to(x, y):
+    return "turtle1/teleport_absolute", TeleportAbsolute(x, y, 0.0)
+
+
+def test_pens_and_what_was_drawn_before_the_first_look_are_seen(world):
+    simulator, far = seen_after(
+        world,
+        (1, to(1.0, 1.0)),
+        (2, ("turtle1/set_pen", SetPen(255, 0, 7, 9, 0))),
+        (3, to(9.0, 1.0)),
+        (4, ("turtle1/set_pen", SetPen(0, 0, 0, 0, 1))),
+        (5, to(5.0, 5.0)),
+        (8, ("turtle1/set_pen", SetPen(0, 255, 0, 2, 0))),
+        (8.5, to(5.0, 9.0)),
+        look_at=7,
+    )
+
+    assert [one.color for one in far.trail.segments] == [
+        Color(179, 184, 255),
+        Color(255, 0, 7),
+        Color(0, 255, 0),
+    ]
+    assert list(map(tuple, far.trail.segments)) == strokes(simulator.trail)
+
+
+def test_a_wiped_sheet_is_wiped_here_too(world):
+    _, far = seen_after(world, (1, to(1.0, 1.0)), (4, ("clear", Clear())), look_at=3)
+
+    assert len(far.trail.segments) == 0
+
+
+def test_a_background_that_is_changed_is_seen(world):
+    simulator, far = Turtlesim(world, background=Color(1, 2, 3)), FarTurtles(world)
+    first = []
+    Script(
+        world,
+        (2, lambda: first.append(far.background)),
+        (3, lambda: simulator.set_parameter("background_g", 200)),
+    )
+
+    lived(world, 5)
+
+    assert first == [Color(1, 2, 3)]
+    assert far.background == Color(1, 200, 3)
+
+
+class StrangeSimulator(Node):
+    """As ROS 2's own: sends poses, answers for its parameters, and tells of no stroke."""
+
+    async def run(self):
+        kind = INTERFACES.find("rcl_interfaces", "srv", "GetParameters")
+        value = INTERFACES.message("rcl_interfaces/ParameterValue")
+        channels = {"background_r": 10, "background_g": 20, "background_b": 30}
+        self.serve(
+            "strange/get_parameters",
+            lambda asked: kind.Response(
+                values=[value(type=2, integer_value=channels[name]) for name in asked.names]
+            ),
+            kind,
+        )
+        start = self.clock.now()
+        async for now in self.every(seconds(0.5)):
+            self.publish("turtle1/pose", pose(1.0 if now < start + seconds(2) else 4.0))
+
+
+def test_of_another_simulator_the_background_is_seen_and_trails_by_the_poses(world):
+    StrangeSimulator(world, "strange")
+    far = FarTurtles(world)
+
+    lived(world, 4)
+
+    assert far.background == Color(10, 20, 30)
+    assert [tuple(one) for one in far.trail.segments] == [
+        (1.0, 5.0, 4.0, 5.0, Color(179, 184, 255), 3)
+    ]
+
+
+def test_a_simulator_that_refuses_to_answer_is_drawn_as_it_begins(world):
+    strange, far = StrangeSimulator(world, "strange"), FarTurtles(world)
+
+    def refuse(_):
+        raise LinkError("no server answered within 5 s")
+
+    strange.serve = lambda name, _, kind: world.serve(name, refuse, kind, node="strange")
+
+    lived(world, 4)
+
+    assert list(far.turtles) == ["turtle1"]
+    assert far.background == Color(69, 86, 255)
+
+
+def test_a_long_drawing_comes_in_several_answers_and_a_new_host_begins_anew(world):
+    theirs, ours = Trail(), Trail()
+    for number in range(2 * MOST_STROKES + 5):
+        theirs.draw(Segment(float(number), 0.0, 0.0, 0.0, Color(1, 2, 3), 4))
+    host, far = Node(world, "host"), FarDrawing(ours)
+    DrawingService(host, theirs)
+    lengths = []
+
+    async def ask(service):
+        far.take(await world.call(service, far.request()))
+        lengths.append((len(ours.segments), far.is_whole))
+
+    for _ in range(3):
+        run(world.clock, ask("host/_drawing"))
+    assert lengths == [
+        (MOST_STROKES, False),
+        (2 * MOST_STROKES, False),
+        (2 * MOST_STROKES + 5, True),
+    ]
+    assert [one.x0 for one in ours.segments] == [float(n) for n in range(2 * MOST_STROKES + 5)]
+
+    run(world.clock, world.clock.sleep_until(world.clock.now() + 1))
+    other = Trail()
+    other.draw(Segment(7.0, 0.0, 0.0, 0.0, Color(1, 2, 3), 4))
+    DrawingService(Node(world, "other"), other)
+    run(world.clock, ask("other/_drawing"))
+    assert list(map(tuple, ours.segments)) == strokes(other)

@@ -1,15 +1,22 @@
-"""Turtles of a simulator in another process, as far as their poses tell."""
+"""Turtles of a simulator in another process, as far as that tells of them."""
 
+import asyncio
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from types import MappingProxyType
-from typing import Final
+from typing import Any, ClassVar, Final
 
+from tftool.errors import TftoolError
+from tftool.interfaces.classes import INTERFACES
+from tftool.interfaces.parameters import value_of
 from tftool.interfaces.values import message_class
 from tftool.messages import Color, Pose2D
+from tftool.nodes.drawings import SERVICE, FarDrawing
 from tftool.nodes.trail import Segment, Trail
 from tftool.nodes.turtle import PEN_COLOR, PEN_WIDTH
-from tftool.nodes.turtlesim import BACKGROUND
+from tftool.nodes.turtlesim import BACKGROUND, BACKGROUND_PARAMETERS
+from tftool.runtime.endpoints import PUBLISHER
+from tftool.runtime.node import Node
 from tftool.runtime.world import World
 from tftool.stamps import Stamp, seconds
 
@@ -18,6 +25,15 @@ SILENT: Final = seconds(1)
 
 MOST: Final = 50
 """So many turtles are listened to: each sends 62 poses a second."""
+
+PERIOD: Final = seconds(0.05)
+"""How often the simulator is asked for new strokes while a turtle moves."""
+
+RESTING: Final = seconds(0.5)
+"""How often it is asked for its background, and while no turtle moves for strokes."""
+
+PATIENCE: Final = 2.0
+"""Seconds an answer may take."""
 
 _POSE: Final = "/pose"
 
@@ -39,54 +55,107 @@ class FarTurtle:
     wall_hits: int = 0
 
 
-class FarTurtles:
+class FarTurtles(Node):
     """A simulator as it is seen from another process: drawn as the simulator is.
 
-    Topics tell no pen and no background: those that turtlesim begins with are taken. The
-    trail is what was drawn since the first look.
+    The background is asked of the node that sends the poses, by its parameters; the strokes of
+    the pens too, where it is a simulator of ours. Topics of ROS 2's own turtlesim tell no pen:
+    there the trail is what turtles drew since the first look if all have the pen they begin with.
 
     Attributes:
-        trail: What the pens drew since.
+        trail: What the pens drew.
         background: The field's colour.
-        revision: A number that changes whenever a turtle moves.
+        revision: A number that changes whenever the picture does.
     """
 
-    def __init__(self, world: World) -> None:
+    is_shown: ClassVar[bool] = False
+
+    def __init__(self, world: World, name: str = "far_turtles") -> None:
         """Look at the turtles that are there or come, the first fifty of them."""
+        super().__init__(world, name)
         self.trail = Trail()
         self.background: Color = BACKGROUND
         self.revision = 0
-        self._world = world
         self._known: dict[str, FarTurtle] = {}
-        self._stops: dict[str, Callable[[], None]] = {}
-        world.watch(self._look, "far turtles")
+        self._subscriptions: dict[str, Callable[[], None]] = {}
+        self._drawing = FarDrawing(self.trail)
+        self._is_told = False
+        world.watch(self._look, name)
         self._look()
 
     @property
     def turtles(self) -> Mapping[str, FarTurtle]:
         """Every turtle that is heard of by its name, in the order of the names."""
-        since = self._world.clock.now() - SILENT
+        since = self.world.clock.now() - SILENT
         there = {name: one for name, one in sorted(self._known.items()) if one.heard >= since}
         return MappingProxyType(there)
 
+    async def run(self) -> None:
+        """Ask the simulator for what no topic tells."""
+        asked, drawn = -RESTING, -1
+        async for now in self.every(PERIOD, immediately=True):
+            simulator = self._simulator()
+            is_due = now >= asked + RESTING
+            if is_due:
+                asked = now
+                await self._ask_background(simulator)
+            if is_due or self.revision != drawn or not self._drawing.is_whole:
+                drawn = self.revision
+                await self._ask_strokes(simulator)
+
+    def _simulator(self) -> str:
+        """The node that sends the poses of the first turtle; "" where that is not known."""
+        for name in self.turtles:
+            for one in self.world.endpoints.of(name + _POSE, PUBLISHER):
+                return one.node
+        return ""
+
+    async def _ask_background(self, simulator: str) -> None:
+        kind: Any = INTERFACES.find("rcl_interfaces", "srv", "GetParameters")
+        request = kind.Request(names=list(BACKGROUND_PARAMETERS))
+        told = await self._ask(f"{simulator}/get_parameters", request)
+        channels = [] if told is None else [value_of(one) for one in told.values]
+        if len(channels) == 3 and all(type(one) is int for one in channels):
+            background = Color(*(min(max(one, 0), 255) for one in channels))
+            if background != self.background:
+                self.background = background
+                self.revision += 1
+
+    async def _ask_strokes(self, simulator: str) -> None:
+        request = self._drawing.request()
+        told = await self._ask(f"{simulator}/{SERVICE}", request)
+        self._is_told = told is not None
+        if told is not None:
+            self._drawing.take(told)
+
+    async def _ask(self, service: str, request: Any) -> Any:
+        """The answer; None where there is none, as from another release or after it has left."""
+        if not self.world.has_service(service):
+            return None
+        try:
+            async with asyncio.timeout(PATIENCE):
+                return await self.world.call(service, request)
+        except (TftoolError, TimeoutError):
+            return None
+
     def _look(self) -> None:
         pose = message_class(Pose2D)
-        for name, topic in tuple(self._world.topics().items()):
-            if len(self._stops) >= MOST:
+        for name, topic in tuple(self.world.topics().items()):
+            if len(self._subscriptions) >= MOST:
                 return
-            if name.endswith(_POSE) and topic.kind is pose and name not in self._stops:
+            if name.endswith(_POSE) and topic.kind is pose and name not in self._subscriptions:
                 turtle = name.removesuffix(_POSE)
                 # Noted first: to subscribe may call this again.
-                self._stops[name] = lambda: None
-                poses = self._world.value_topic(topic, Pose2D)
-                self._stops[name] = poses.subscribe(self._taker(turtle), "far turtles")
+                self._subscriptions[name] = lambda: None
+                poses = self.world.value_topic(topic, Pose2D)
+                self._subscriptions[name] = poses.subscribe(self._taker(turtle), self.name)
 
     def _taker(self, name: str) -> Callable[[Pose2D], None]:
         def take(pose: Pose2D) -> None:
-            now = self._world.clock.now()
+            now = self.world.clock.now()
             turtle = self._known.get(name)
             if turtle is None or turtle.heard < now - SILENT:
-                if not self.turtles:
+                if not self.turtles and not self._is_told:
                     # The first, or the first of another simulator, on an empty sheet.
                     self.trail.wipe()
                 self._known[name] = FarTurtle(name, pose, now)
@@ -95,7 +164,7 @@ class FarTurtles:
             before, turtle.pose, turtle.heard = turtle.pose, pose, now
             if pose != before:
                 self.revision += 1
-            if (pose.x, pose.y) != (before.x, before.y):
+            if (pose.x, pose.y) != (before.x, before.y) and not self._is_told:
                 ends = (before.x, before.y, pose.x, pose.y)
                 self.trail.draw(Segment(*ends, PEN_COLOR, PEN_WIDTH))
 

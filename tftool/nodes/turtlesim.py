@@ -7,6 +7,7 @@ from typing import ClassVar
 from tftool.errors import UsageError
 from tftool.messages import Clear, Color, Kill, Reset, Spawn, Spawned
 from tftool.motion.unicycle import CENTRE, TICK, Placement
+from tftool.nodes.drawings import DrawingService
 from tftool.nodes.parameter_services import ParameterServices
 from tftool.nodes.tick_queue import TickQueue
 from tftool.nodes.trail import Segment, Trail
@@ -25,7 +26,7 @@ BACKGROUND = Color(69, 86, 255)
 MOST_TURTLES = 1000
 """How many turtles there may be at once: every one is updated at every tick."""
 
-_BACKGROUND_PARAMETERS = ("background_r", "background_g", "background_b")
+BACKGROUND_PARAMETERS = ("background_r", "background_g", "background_b")
 
 
 class Turtlesim(Node):
@@ -73,7 +74,7 @@ class Turtlesim(Node):
         self.trail = Trail()
         self.revision = 0
         for parameter, value in zip(
-            _BACKGROUND_PARAMETERS, (background.r, background.g, background.b), strict=True
+            BACKGROUND_PARAMETERS, (background.r, background.g, background.b), strict=True
         ):
             self.declare_parameter(parameter, require_byte(value, parameter))
         self.declare_parameter("holonomic", holonomic)
@@ -96,7 +97,7 @@ class Turtlesim(Node):
     def background(self) -> Color:
         """The field's colour as the parameters say now, held within 0 to 255."""
         r, g, b = (
-            min(max(int(self.get_parameter(name)), 0), 255) for name in _BACKGROUND_PARAMETERS
+            min(max(int(self.get_parameter(name)), 0), 255) for name in BACKGROUND_PARAMETERS
         )
         return Color(r, g, b)
 
@@ -115,7 +116,7 @@ class Turtlesim(Node):
         Raises:
             UsageError: If there is no such parameter, or it takes other values.
         """
-        if name in _BACKGROUND_PARAMETERS and type(value) is int:
+        if name in BACKGROUND_PARAMETERS and type(value) is int:
             require_byte(value, name)
         super().set_parameter(name, value)
 
@@ -134,6 +135,7 @@ class Turtlesim(Node):
         ):
             self.serve(self._prefix + service, handler, kind)
         ParameterServices(self)
+        DrawingService(self, self.trail)
         start = self.clock.now()
         self._turtles, self._counter = {}, 0
         self._spawn(Placement(CENTRE, CENTRE, 0.0), "", start)
