@@ -19,6 +19,11 @@ class Panel(Widget):
         self._title = title
         self._strips: list[Strip] = []
 
+    def on_mount(self) -> None:
+        """Stand under its title."""
+        if self._title:
+            self.border_title = self._title
+
     def show(self, lines: list[Text] | list[list[Segment]]) -> None:
         """Show these lines from now on."""
         width, height = self.size

@@ -1,26 +1,22 @@
 """The screen of `tftool robot`: a slider for each joint, and the pose of a link beside them."""
 
-import asyncio
 from collections.abc import Callable, Sequence
 from typing import ClassVar
 
 from rich.text import Text
 from textual import events
-from textual.app import App, ComposeResult
+from textual.app import ComposeResult
 from textual.binding import Binding, BindingType
-from textual.driver import Driver
 
 from tftool.errors import TransformException
 from tftool.geometry.conversions import rpy_from_quaternion
 from tftool.runtime.world import World
-from tftool.screens.keyboard import tolerant
 from tftool.screens.look import Look, wrapped
-from tftool.screens.panel import Panel, themes
+from tftool.screens.panel import Panel
 from tftool.screens.panels import Hint, footer
 from tftool.screens.setting import Setting
 from tftool.screens.sliders import Slider, Sliders, tip_of
-from tftool.stamps import Stamp
-from tftool.views import theme
+from tftool.screens.world_app import PanelApp
 from tftool.views.fixed_width import fitted, padded
 
 LOOKS_PER_SECOND = 15
@@ -42,7 +38,7 @@ KEYS = """\
 """
 
 
-class RobotApp(App[None]):
+class RobotApp(PanelApp):
     """The screen of `tftool robot`.
 
     Args:
@@ -64,8 +60,8 @@ class RobotApp(App[None]):
     #keys { layer: above; dock: top; width: 56; display: none; border: round $accent; }
     .ascii #keys { border: ascii $accent; }
     """
-    ENABLE_COMMAND_PALETTE = False
-    ALLOW_SELECT = False
+    KEYS_WIDTH = 56
+    KEYS_TOLD = KEYS
     BINDINGS: ClassVar[list[BindingType]] = [
         Binding("up,k", "choose(-1)", show=False, priority=True),
         Binding("down,j", "choose(1)", show=False, priority=True),
@@ -79,12 +75,7 @@ class RobotApp(App[None]):
         Binding("R", "one('scatter')", show=False),
         Binding("tab", "link(1)", show=False, priority=True),
         Binding("shift+tab", "link(-1)", show=False, priority=True),
-        Binding("m", "shade", show=False),
-        Binding("question_mark,h", "keys", show=False),
         Binding("escape", "cancel", show=False),
-        Binding("q,Q", "leave", show=False, priority=True),
-        Binding("ctrl+c", "interrupt", show=False, priority=True),
-        Binding("ctrl+z", "suspend_process", show=False, priority=True),
     ]
 
     def __init__(
@@ -96,33 +87,14 @@ class RobotApp(App[None]):
         prefix: str = "",
         setting: Setting | None = None,
     ) -> None:
-        self.setting = setting or Setting()
-        super().__init__(ansi_color=not self.setting.colors)
-        self._world = world
+        super().__init__(world, setting)
         self.sliders = sliders
-        self.failure: Exception | None = None
-        self.interrupted = False
-        self.title = self.setting.title
-        self.ready = asyncio.Event()
         self.prefix = prefix
         self.link = link or tip_of(sliders.robot)
         self._links = list(sliders.robot.links)
-        self._light = self.setting.light
         self._first = 0
 
-    @property
-    def world(self) -> World:
-        """Where the robot's frames are."""
-        return self._world
-
-    def begin(self, stamp: Stamp) -> None:
-        """The world begins to live; nothing here counts from that."""
-
     # Building
-
-    def get_driver_class(self) -> type[Driver]:
-        """Give what reads the keys."""
-        return tolerant(super().get_driver_class())
 
     def compose(self) -> ComposeResult:
         """Make the panels."""
@@ -134,26 +106,7 @@ class RobotApp(App[None]):
 
     def on_mount(self) -> None:
         """Start looking."""
-        asyncio.get_running_loop().set_task_factory(None)
-        for one in themes():
-            self.register_theme(one)
-        self._shade()
-        self.screen.set_class(self.setting.ascii_only, "ascii")
-        for panel in self.query(Panel):
-            if panel._title:
-                panel.border_title = panel._title
-        self.call_after_refresh(self.ready.set)
         self.set_interval(1.0 / LOOKS_PER_SECOND, self.redraw)
-
-    def panel(self, name: str) -> Panel:
-        """One of the panels: header, joints, pose, footer."""
-        return self.query_one(f"#{name}", Panel)
-
-    @property
-    def look(self) -> Look:
-        """How the panels paint."""
-        palette = theme.LIGHT if self._light else theme.DARK
-        return Look(palette, self.setting.ascii_only)
 
     def on_resize(self, event: events.Resize) -> None:
         """Fit everything into the new size."""
@@ -163,12 +116,7 @@ class RobotApp(App[None]):
 
     def redraw(self) -> None:
         """Draw everything that changed, now."""
-        try:
-            self._draw()
-        except Exception as error:
-            # Kept for who runs the app: said on a restored terminal, it can be read.
-            self.failure = self.failure or error
-            self.exit()
+        self.guarded(self._draw)
 
     def _draw(self) -> None:
         if not self.is_running or not self.panel("header").is_attached:
@@ -237,7 +185,7 @@ class RobotApp(App[None]):
             look.ink(look.palette.text, bold=True),
         )
         try:
-            found = self._world.buffer.lookup_transform(root, link)
+            found = self.world.buffer.lookup_transform(root, link)
         except TransformException as error:
             return [heading, *wrapped(str(error), width, look.ink(look.palette.warning))][:height]
         x, y, z = found.transform.translation
@@ -325,34 +273,6 @@ class RobotApp(App[None]):
         place = self._links.index(self.link) + step
         self.link = self._links[place % len(self._links)]
         self.redraw()
-
-    def action_shade(self) -> None:
-        """Change between light and dark."""
-        self._light = not self._light
-        self._shade()
-        self.redraw()
-
-    def _shade(self) -> None:
-        self.theme = "tftool-light" if self._light else "tftool-dark"
-
-    def action_keys(self) -> None:
-        """Show or hide what every key does."""
-        panel = self.panel("keys")
-        panel.display = not panel.display
-        lines = KEYS.splitlines()
-        width, height = self.size
-        panel.styles.height = len(lines) + 2
-        panel.styles.offset = max(0, (width - 56) // 2), max(0, (height - len(lines) - 2) // 2)
-        self.call_after_refresh(lambda: panel.show([Text(line) for line in lines]))
-
-    def action_leave(self) -> None:
-        """End."""
-        self.exit()
-
-    def action_interrupt(self) -> None:
-        """End as an interrupt does: in raw mode Ctrl-C comes as a key."""
-        self.interrupted = True
-        self.exit()
 
 
 def _bar(one: Slider, width: int, look: Look) -> str:

@@ -3,43 +3,14 @@
 import asyncio
 import os
 from collections.abc import Coroutine
-from typing import Any, Protocol
+from typing import Any
 
 from tftool.errors import TftoolError
 from tftool.runtime.stopping import leave_screen
-from tftool.runtime.world import World
-from tftool.stamps import Stamp
+from tftool.screens.world_app import WorldApp
 
 
-class Screen(Protocol):
-    """A textual app that shows a world.
-
-    Attributes:
-        world: The world.
-        ready: Set once it shows.
-        failure: What it failed by.
-        interrupted: Whether Ctrl-C ended it.
-    """
-
-    ready: asyncio.Event
-    failure: Exception | None
-    interrupted: bool
-
-    @property
-    def world(self) -> World:
-        """The world."""
-
-    def begin(self, stamp: Stamp) -> None:
-        """The world begins to live now."""
-
-    def exit(self) -> None:
-        """End."""
-
-    async def run_async(self, *, headless: bool = False) -> object:
-        """Take the terminal until `exit`."""
-
-
-async def show(app: Screen, life: Coroutine[Any, Any, None], *, headless: bool = False) -> None:
+async def show(app: WorldApp, life: Coroutine[Any, Any, None], *, headless: bool = False) -> None:
     """Put the app on the terminal while its world lives, until one of them ends.
 
     Whatever ends it, the terminal is restored before this returns or raises.

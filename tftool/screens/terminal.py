@@ -11,28 +11,25 @@ from typing import ClassVar
 
 from rich.text import Text
 from textual import events
-from textual.app import App, ComposeResult
+from textual.app import ComposeResult
 from textual.binding import Binding, BindingType
 from textual.containers import Container
 from textual.content import Content
-from textual.driver import Driver
 
 from tftool.errors import TftoolError
 from tftool.nodes.idle_drawing import IdleDrawing
-from tftool.runtime.world import World
 from tftool.screens import keys, panels
 from tftool.screens.journal import Journal
-from tftool.screens.keyboard import tolerant
 from tftool.screens.layout import SMALLEST, arranged
-from tftool.screens.look import Look, wrapped
+from tftool.screens.look import wrapped
 from tftool.screens.pair_history import PairPlot
-from tftool.screens.panel import Panel, themes
+from tftool.screens.panel import Panel
 from tftool.screens.plane_view import PlaneView
 from tftool.screens.question import SceneQuestion
 from tftool.screens.scene import Scene, SceneMoment
 from tftool.screens.setting import Setting
+from tftool.screens.world_app import PanelApp
 from tftool.stamps import Duration, Stamp, seconds
-from tftool.views import theme
 
 LOOKS_PER_SECOND = 20
 PANELS_EVERY = 3
@@ -47,7 +44,7 @@ STEP, LEAP = seconds(0.1), seconds(1.0)
 Press = Callable[[str], object]
 
 
-class TurtleApp(App[None]):
+class TurtleApp(PanelApp):
     """The screen of `tftool demo` and `tftool teleop`.
 
     Args:
@@ -84,8 +81,8 @@ class TurtleApp(App[None]):
     .ascii #log { border: none; }
     .ascii #log:focus { border: ascii $accent; }
     """
-    ENABLE_COMMAND_PALETTE = False
-    ALLOW_SELECT = False
+    KEYS_WIDTH = 76
+    KEYS_TOLD = keys.KEYS
     BINDINGS: ClassVar[list[BindingType]] = [
         *(
             Binding(key, f"steer('{key}')", show=False, priority=True)
@@ -104,9 +101,6 @@ class TurtleApp(App[None]):
             Binding(f"shift+{key}", f"pan({x}, {y})", show=False, priority=True)
             for key, x, y in (("left", 6, 0), ("right", -6, 0), ("up", 0, 3), ("down", 0, -3))
         ),
-        Binding("q,Q", "leave", show=False, priority=True),
-        Binding("ctrl+c", "interrupt", show=False, priority=True),
-        Binding("ctrl+z", "suspend_process", show=False, priority=True),
         Binding("tab", "panel(1)", show=False, priority=True),
         Binding("shift+tab", "panel(-1)", show=False, priority=True),
         Binding("j", "pick(1)", show=False),
@@ -120,8 +114,6 @@ class TurtleApp(App[None]):
         Binding("left_curly_bracket", f"travel({-LEAP})", show=False),
         Binding("right_curly_bracket", f"travel({LEAP})", show=False),
         Binding("l,escape,end", "live", show=False),
-        Binding("m", "shade", show=False),
-        Binding("question_mark,h", "keys", show=False),
     ]
 
     def __init__(
@@ -131,20 +123,13 @@ class TurtleApp(App[None]):
         setting: Setting | None = None,
         idle: IdleDrawing | None = None,
     ) -> None:
-        self.setting = setting or Setting()
-        # Without this, textual shows greys where NO_COLOR asks for none.
-        super().__init__(ansi_color=not self.setting.colors)
+        super().__init__(scene.world, setting)
         self.scene = scene
-        self.failure: Exception | None = None
-        self.interrupted = False
-        self.title = self.setting.title
-        self.ready = asyncio.Event()
         self.chosen: str | None = None
         self._press = press
         self._idle = idle
         self._offered: Sequence[tuple[str, str]] = ()
         self._offer = 0
-        self._light = self.setting.light
         self._question = SceneQuestion(scene, self.setting.pair)
         self._question.at = self.setting.at
         self._stale = True
@@ -159,21 +144,12 @@ class TurtleApp(App[None]):
         self._journal = Journal(scene.world.log.records)
         self._unlisten = scene.world.log.listen(self._journal.add, "screen")
 
-    @property
-    def world(self) -> World:
-        """What it looks at."""
-        return self.scene.world
-
     def begin(self, stamp: Stamp) -> None:
         """Count time from now on: the world begins to live. What is all there began before."""
         if self.setting.at is None:
             self.scene.start = stamp
 
     # Building
-
-    def get_driver_class(self) -> type[Driver]:
-        """Give what reads the keys."""
-        return tolerant(super().get_driver_class())
 
     def compose(self) -> ComposeResult:
         """Make the panels; `_arrange` gives them their sizes."""
@@ -193,30 +169,9 @@ class TurtleApp(App[None]):
 
     def on_mount(self) -> None:
         """Start looking."""
-        # textual makes new tasks start eagerly where Python can; the nodes of the world on
-        # this loop are to run in the order they always run in.
-        asyncio.get_running_loop().set_task_factory(None)
-        for one in themes():
-            self.register_theme(one)
-        self._shade()
-        self.screen.set_class(self.setting.ascii_only, "ascii")
         self.screen.set_class(not self.setting.colors, "mono")
-        for panel in self.query(Panel):
-            if panel._title:
-                panel.border_title = panel._title
         self.panel("field").focus()
-        self.call_after_refresh(self.ready.set)
         self.set_interval(1.0 / LOOKS_PER_SECOND, self._tick)
-
-    def panel(self, name: str) -> Panel:
-        """One of the panels: header, field, tree, pair, log, footer."""
-        return self.query_one(f"#{name}", Panel)
-
-    @property
-    def look(self) -> Look:
-        """How the panels paint."""
-        palette = theme.LIGHT if self._light else theme.DARK
-        return Look(palette, self.setting.ascii_only)
 
     def on_resize(self, event: events.Resize) -> None:
         """Fit the panels into the new size."""
@@ -258,30 +213,22 @@ class TurtleApp(App[None]):
         if loop.time() < self._rest_until:
             return
         began = loop.time()
-        try:
-            self._count += 1
-            if self._idle is not None and (self._question.at is not None or self._is_over()):
-                # A person reads: nothing moves meanwhile.
-                self._idle.touch()
-            self.scene.look()
-            self._draw(panels_too=self._count % PANELS_EVERY == 0 or self._stale)
-        except Exception as error:
-            self._fail(error)
+        self.guarded(self._look)
         # A world of thousands of frames is drawn less often, so that it still lives.
         self._rest_until = loop.time() + REST * (loop.time() - began)
 
+    def _look(self) -> None:
+        self._count += 1
+        if self._idle is not None and (self._question.at is not None or self._is_over()):
+            # A person reads: nothing moves meanwhile.
+            self._idle.touch()
+        self.scene.look()
+        self._draw(panels_too=self._count % PANELS_EVERY == 0 or self._stale)
+
     def redraw(self) -> None:
         """Draw everything that changed, now."""
-        try:
-            self._stale = True
-            self._draw(panels_too=True)
-        except Exception as error:
-            self._fail(error)
-
-    def _fail(self, error: Exception) -> None:
-        # Kept for who runs the app: said on a restored terminal, it can be read.
-        self.failure = self.failure or error
-        self.exit()
+        self._stale = True
+        self.guarded(lambda: self._draw(panels_too=True))
 
     def _draw(self, *, panels_too: bool) -> None:
         if not self.is_running or not self.panel("header").is_attached:
@@ -549,25 +496,6 @@ class TurtleApp(App[None]):
         self._back = 0
         self.redraw()
 
-    def action_shade(self) -> None:
-        """Change between light and dark."""
-        self._light = not self._light
-        self._shade()
-        self.redraw()
-
-    def _shade(self) -> None:
-        self.theme = "tftool-light" if self._light else "tftool-dark"
-
-    def action_keys(self) -> None:
-        """Show or hide what every key does."""
-        panel = self.panel("keys")
-        panel.display = not panel.display
-        lines = keys.KEYS.splitlines()
-        width, height = self.size
-        panel.styles.height = len(lines) + 2
-        panel.styles.offset = max(0, (width - 76) // 2), max(0, (height - len(lines) - 2) // 2)
-        self.call_after_refresh(lambda: panel.show([Text(line) for line in lines]))
-
     def action_scenarios(self) -> None:
         """Show what else there is to be seen, or hide it."""
         if self.setting.scenarios is None:
@@ -587,12 +515,3 @@ class TurtleApp(App[None]):
     def _show_offered(self) -> None:
         panel = self.panel("scenarios")
         panel.show(panels.scenarios(self._offered, self._offer, *panel.size, self.look))
-
-    def action_leave(self) -> None:
-        """End."""
-        self.exit()
-
-    def action_interrupt(self) -> None:
-        """End as an interrupt does: in raw mode Ctrl-C comes as a key."""
-        self.interrupted = True
-        self.exit()

@@ -1,23 +1,18 @@
 """The screen of `tftool tree --watch`: the tree as it changes, scrolled, sorted and filtered."""
 
-import asyncio
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
-from typing import ClassVar
 
 from rich.text import Text
 from textual import events
-from textual.app import App, ComposeResult
-from textual.binding import Binding, BindingType
-from textual.driver import Driver
+from textual.app import ComposeResult
 
 from tftool.frames.sample import Snapshot
 from tftool.runtime.world import World
-from tftool.screens.keyboard import tolerant
 from tftool.screens.look import wrapped
 from tftool.screens.panel import Panel
 from tftool.screens.setting import Setting
-from tftool.stamps import Stamp
+from tftool.screens.world_app import WorldApp
 from tftool.views.compact_tree import CompactTree, TreeOrder, compact
 from tftool.views.fixed_width import fitted, plain
 from tftool.views.frame_tree import NOTHING
@@ -81,7 +76,7 @@ class TreeWindow:
         self.first = 0
 
 
-class TreeWatch(App[None]):
+class TreeWatch(WorldApp):
     """The screen of `tftool tree --watch`.
 
     Args:
@@ -96,12 +91,6 @@ class TreeWatch(App[None]):
     #rows { height: 1fr; }
     #footer { height: 1; }
     """
-    ENABLE_COMMAND_PALETTE = False
-    ALLOW_SELECT = False
-    BINDINGS: ClassVar[list[BindingType]] = [
-        Binding("ctrl+c", "interrupt", show=False, priority=True),
-        Binding("ctrl+z", "suspend_process", show=False, priority=True),
-    ]
 
     def __init__(
         self,
@@ -109,26 +98,13 @@ class TreeWatch(App[None]):
         marks: Callable[[], Marks],
         setting: Setting | None = None,
     ) -> None:
-        self.setting = setting or Setting()
-        # The terminal's own colours: what is drawn is text, and belongs among the user's text.
-        super().__init__(ansi_color=True)
-        self._world = world
+        # What is drawn is text, and belongs among the user's text.
+        super().__init__(world, setting, terminal_colors=True)
         self._marks_now = marks
         self.window = TreeWindow()
-        self.failure: Exception | None = None
-        self.interrupted = False
-        self.ready = asyncio.Event()
         self.news = ""
         self._types = False
         self._seen: tuple[Snapshot, Marks] | None = None
-
-    @property
-    def world(self) -> World:
-        """Whose frames."""
-        return self._world
-
-    def begin(self, stamp: Stamp) -> None:
-        """The world begins to live; nothing here counts from that."""
 
     def tell(self, sentence: str) -> None:
         """Show this in place of the keys from now on."""
@@ -137,10 +113,6 @@ class TreeWatch(App[None]):
 
     # Building
 
-    def get_driver_class(self) -> type[Driver]:
-        """Give what reads the keys."""
-        return tolerant(super().get_driver_class())
-
     def compose(self) -> ComposeResult:
         """Make the panels."""
         yield Panel("rows", can_focus=False)
@@ -148,8 +120,6 @@ class TreeWatch(App[None]):
 
     def on_mount(self) -> None:
         """Start looking."""
-        asyncio.get_running_loop().set_task_factory(None)
-        self.call_after_refresh(self.ready.set)
         self.set_interval(1.0 / LOOKS_PER_SECOND, self.look)
         self.call_after_refresh(self.look)
 
@@ -161,23 +131,18 @@ class TreeWatch(App[None]):
 
     def look(self) -> None:
         """Take in what is there now, and draw it."""
-        self._guarded(self._look)
+        self._shown(self._look)
 
     def draw(self) -> None:
         """Draw what was taken in last, as it is wanted now."""
-        self._guarded(self._draw)
+        self._shown(self._draw)
 
-    def _guarded(self, work: Callable[[], None]) -> None:
-        try:
-            if self.is_running and self.query("#footer"):
-                work()
-        except Exception as error:
-            # Kept for who runs the app: said on a restored terminal, it can be read.
-            self.failure = self.failure or error
-            self.exit()
+    def _shown(self, work: Callable[[], None]) -> None:
+        if self.is_running and self.query("#footer"):
+            self.guarded(work)
 
     def _look(self) -> None:
-        snapshot = self._world.buffer.snapshot(self._world.clock.now())
+        snapshot = self.world.buffer.snapshot(self.world.clock.now())
         self._seen = (snapshot, self._marks_now())
         self._draw()
 
@@ -263,8 +228,3 @@ class TreeWatch(App[None]):
         """Scroll back."""
         self.window.first = max(0, self.window.first - 3)
         self.draw()
-
-    def action_interrupt(self) -> None:
-        """End as Ctrl-C does."""
-        self.interrupted = True
-        self.exit()
