@@ -2,6 +2,7 @@
 
 import math
 from array import array
+from random import Random
 
 import numpy as np
 import pytest
@@ -151,6 +152,30 @@ def test_a_history_of_many_sizes_keeps_the_same_samples():
         ours, plain = twins.ask("samples", "b")
         assert ours.stamps.tolist() == plain.stamps.tolist()
         assert ours.poses.tobytes() == plain.poses.tobytes()
+
+
+def test_late_samples_are_put_where_they_belong_while_a_batch_reads():
+    from tftool.frames.batch.columns import Column
+
+    twins = Twins(seconds(1))
+    random = Random(4)
+    held = []
+    for number in range(1500):
+        # In order, late by some, before all others, far too late, and again what is there.
+        late = random.choice([0, 0, 0, random.randrange(40), 90, 130])
+        stamp = (100 + number // 2 - late) * 10**7 + random.choice([0, 0, number])
+        pose = Transform((float(number), 0.0, 0.0))
+        ours, plain = twins.ask("set_transform", TransformStamped(stamp, "a", "b", pose), "me")
+        assert ours == plain
+        if number % 10 == 0:
+            ours, plain = twins.ask("samples", "b")
+            assert ours.stamps.tolist() == plain.stamps.tolist()
+            assert ours.poses.tobytes() == plain.poses.tobytes()
+            # Some are read for a while, as by a batch in another thread.
+            column = Column(twins.pair[0]._tree.frames[0].link)
+            held = [*held[-(number % 3) :], (column, column.records.copy())]
+        assert all(np.array_equal(column.records, before) for column, before in held)
+    assert twins.logs[0] == twins.logs[1] != []
 
 
 def test_answers_are_of_the_types_they_always_were():

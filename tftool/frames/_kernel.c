@@ -597,48 +597,131 @@ METHOD(can_transform) {
 
 /* Inserting --------------------------------------------------------------- */
 
-/* Append a sample to a link: `History.insert` where it is newer than all others, of the same
-   origin, and prunes one sample at most. Returns whether it was done; never sets an error. */
-static int append(Link *link, int64_t stamp, int64_t origin, Pose *pose) {
+/* As many pruned records are left where they are, and there is as much room behind, at least and
+   as a part of all (a shift to the right): as in `history`. */
+#define LEAST_SLACK 32
+#define SLACK 3
+#define LEAST_ROOM 8
+#define ROOM 4
+
+/* Take words out of an array. Returns whether it let go of them, which none does that a batch
+   reads; never sets an error. */
+static int cut(PyObject *records, Py_ssize_t from, Py_ssize_t to) {
+    if (PySequence_DelSlice(records, from, to) == 0)
+        return 1;
+    PyErr_Clear();
+    return 0;
+}
+
+/* Have so many records of zeros more at the end of an array. Returns whether it grew, which none
+   does that a batch reads; never sets an error. */
+static int grow(PyObject *records, Py_ssize_t more) {
+    PyObject *zeros = PyObject_CallFunction((PyObject *)&PyBytes_Type, "n", RECORD * more);
+    PyObject *none = zeros == NULL ? NULL : PyObject_CallMethod(records, "frombytes", "O", zeros);
+    Py_XDECREF(zeros);
+    Py_XDECREF(none);
+    if (none == NULL)
+        PyErr_Clear();
+    return none != NULL;
+}
+
+/* Have room for a sample in a link's records, that no batch reads if the sample is not the newest.
+   Returns whether it could be had; never sets an error. */
+static int make_room(Link *link, int64_t stamp) {
+    Py_ssize_t room = PyObject_Size(link->records) / WORD;
+    if (link->start < 0 || link->count <= link->start || link->count > room) {
+        PyErr_Clear();
+        return 0;
+    }
+    if (link->start >= link->compact_at) {
+        /* What is pruned makes room for as many. */
+        const Py_ssize_t start = (Py_ssize_t)link->start, count = (Py_ssize_t)link->count - start;
+        if (!cut(link->records, 0, WORD * start))
+            return 0;
+        link->start = 0;
+        link->count = count;
+        link->compact_at = count >> SLACK > LEAST_SLACK ? count >> SLACK : LEAST_SLACK;
+        if (!grow(link->records, start))
+            return 0;
+    }
+    else if (stamp <= link->newest_stamp) {
+        /* One in front takes no room behind. */
+        if (stamp < link->oldest_stamp && link->count < room)
+            return cut(link->records, WORD * room - WORD, WORD * room);
+        return grow(link->records, 1);
+    }
+    else if (link->count == room)
+        return grow(link->records, LEAST_ROOM + (room >> ROOM));
+    return 1;
+}
+
+/* A moment so much later, or the last one there is. */
+static inline int64_t later(int64_t stamp, int64_t span) {
+    return stamp > INT64_MAX - span ? INT64_MAX : stamp + span;
+}
+
+/* Put a sample into a link: `History.insert` where no other one has its stamp, and all are of the
+   same origin. Returns whether it was done; never sets an error. */
+static int put(Link *link, int64_t stamp, int64_t origin, Pose *pose) {
     Py_buffer view;
     double *n = pose->n;
     const double square = n[3] * n[3] + n[4] * n[4] + n[5] * n[5] + n[6] * n[6];
     if (!(1.0 - ROUNDING < square && square < 1.0 + ROUNDING && n[0] + n[1] + n[2] < HUGE_VAL))
         return 0;
     if (link->is_static || link->mixed || link->borrowed || link->origins != Py_None
-        || link->origin != origin || stamp <= link->newest_stamp
-        || !read_records(link, PyBUF_WRITABLE, &view))
+        || link->origin != origin || link->limit < 0 || link->records == NULL
+        || !make_room(link, stamp) || !read_records(link, PyBUF_WRITABLE, &view))
         return 0;
     char *records = view.buf;
-    int fits = link->count < view.len / RECORD;
-    long long start = link->start, oldest = link->oldest_stamp, after = link->prune_after;
-    if (fits && link->newest_stamp > after) {
-        start++;
-        fits = start < link->count && start < link->compact_at;
-        if (fits) {
-            oldest = stamp_of(records, start);
-            after = oldest > INT64_MAX - link->limit ? INT64_MAX : oldest + link->limit;
-            fits = link->limit >= 0 && link->newest_stamp <= after;
-        }
+    const int64_t newest = link->newest_stamp;
+    Py_ssize_t start = (Py_ssize_t)link->start, count = (Py_ssize_t)link->count, place = count;
+    int64_t oldest = link->oldest_stamp, after = link->prune_after;
+    while (newest > after && start + 1 < count) {
+        oldest = stamp_of(records, ++start);
+        after = later(oldest, link->limit);
     }
+    int fits = newest <= after;
+    if (fits && stamp <= newest) {
+        const Py_ssize_t last = count - 1 - start;
+        fits = (uint64_t)newest - (uint64_t)stamp <= (uint64_t)link->limit;
+        if (stamp < oldest)
+            place = start - 1;
+        else if (fits && stamp < newest && last > 0) {
+            place = start + find(records + RECORD * start, last, stamp, guess(oldest, newest, last, stamp));
+            fits &= stamp_of(records, place++) != stamp;
+        }
+        else
+            fits = 0;
+    }
+    fits &= place >= 0 && (place < start || count < view.len / RECORD);
     if (fits) {
+        char *record = records + RECORD * place;
         canonical(n + 3);
-        char *record = records + RECORD * link->count;
+        if (place < start) {
+            oldest = stamp;
+            after = later(oldest, link->limit);
+            start = place;
+        }
+        else
+            memmove(record + RECORD, record, RECORD * (count++ - place));
         memcpy(record, &stamp, WORD);
         memcpy(record + WORD, n, sizeof pose->n);
         link->start = start;
+        link->count = count;
         link->oldest_stamp = oldest;
         link->prune_after = after;
-        link->newest_stamp = stamp;
-        link->count++;
     }
     PyBuffer_Release(&view);
     if (!fits)
         return 0;
     /* Last of all: what is let go of here may run code of others. */
-    PyObject *before = link->newest, *pair = link->newest_pair;
-    link->newest = NULL;
+    PyObject *pair = link->newest_pair, *before = NULL;
     link->newest_pair = Py_NewRef(Py_None);
+    if (stamp > newest) {
+        link->newest_stamp = stamp;
+        before = link->newest;
+        link->newest = NULL;
+    }
     Py_XDECREF(before);
     Py_XDECREF(pair);
     return 1;
@@ -667,7 +750,7 @@ static int insert(const Door *door, const Types *types, PyObject *sample, PyObje
     return same_text(PyTuple_GetItem(sender, 0), parent)
         && same_text(PyTuple_GetItem(sender, 1), authority)
         && read_stamp(PyTuple_GetItem(sender, 2), &origin)
-        && PyObject_TypeCheck(link, types->fields) && append((Link *)link, stamp, origin, &pose);
+        && PyObject_TypeCheck(link, types->fields) && put((Link *)link, stamp, origin, &pose);
 }
 
 METHOD(set_transform) {

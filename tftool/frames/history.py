@@ -79,10 +79,6 @@ _unpack_pair: Final = struct.Struct("q7dq7d").unpack_from
 _SLACK: Final = 3
 _LEAST_SLACK: Final = 32
 
-# Room for samples to come takes at most one part in sixteen, or where that is little, eight.
-_ROOM: Final = 4
-_LEAST_ROOM: Final = 8
-
 # A quaternion whose square lies between these is of length one but for rounding.
 SHORTEST: Final = 1.0 - 8e-16
 LONGEST: Final = 1.0 + 8e-16
@@ -427,10 +423,8 @@ class History(Fields):
                 self._prune_after = prune_after if prune_after < _LATEST_STAMP else _LATEST_STAMP
         records = self._own() if self._borrowed else self.records
         if IS_NATIVE:
-            # With room behind, for the kernel to write the next ones.
-            if WORDS * self.count == len(records):
-                records = self._make_room_behind()
-            records[WORDS * self.count : WORDS * self.count + WORDS] = array("q", record)
+            # In place of the room that the kernel makes behind.
+            self._splice(self.count, len(records) // WORDS, array("q", record))
         else:
             try:
                 records.frombytes(record)
@@ -533,12 +527,6 @@ class History(Fields):
         elif changes and place >= self._newest_parent_start:
             self._newest_parent_start = place + 1
         return PARENT_CHANGED if changes else STORED
-
-    def _make_room_behind(self) -> "array[int]":
-        """Have room for more samples behind the newest one."""
-        room = _LEAST_ROOM + (self.count >> _ROOM)
-        self._splice(self.count, self.count, array("q", bytes(RECORD * room)))
-        return self.records
 
     def _make_room_in_front(self) -> int:
         """The free place before the oldest sample; samples that arrive backwards go there."""
@@ -688,11 +676,7 @@ class History(Fields):
         if self.mixed and start >= self._newest_parent_start:
             self.mixed = False
         if start >= self._compact_at:
-            # With as much room behind: as a rule as many samples come until the next time.
-            records = _copied(self.records, start, self.count)
-            if IS_NATIVE:
-                records.frombytes(bytes(RECORD * start))
-            self.records, self._borrowed = records, False
+            self.records, self._borrowed = _copied(self.records, start, self.count), False
             self.count -= start
             if self.origins is not None:
                 del self.origins[:start]
