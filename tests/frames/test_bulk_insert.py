@@ -323,3 +323,33 @@ def test_a_recorded_half_turn_is_given_its_sign_though_w_is_zero():
 
     assert buffer.lookup_transform("world", "turtle1").transform.rotation == (0, 0, 1, 0)
     assert buffer.samples("turtle1").rotations.tolist() == [[0, 0, 1, 0]]
+
+
+@pytest.mark.parametrize("place", [0, 1, 8191, 8192, 8193, 9999])
+@pytest.mark.parametrize(
+    ("column", "number"),
+    [(1, np.nan), (2, -np.inf), (4, 1e-3), (6, np.nan), (7, -1.0), (7, 1.0 + 5e-16)],
+)
+def test_one_row_among_many_is_judged_as_by_columns(place, column, number):
+    rows = records_of([(stamp, Transform((1.0, 2.0, 3.0))) for stamp in range(1, 10_001)])
+    rows.view(np.float64)[place, column] = number
+    columns, borrowed = (Buffer(seconds(1), log=lambda level, text: None) for _ in range(2))
+    numbers = rows.view(np.float64)
+
+    borrowed.set_records("world", "turtle1", rows, "me")
+    columns.set_transforms("world", "turtle1", rows[:, 0], numbers[:, 1:4], numbers[:, 4:], "me")
+
+    assert remembered(borrowed, "turtle1") == remembered(columns, "turtle1")
+
+
+@pytest.mark.parametrize("place", [1, 8191, 8192, 9999])
+def test_rows_are_adopted_together_or_not_at_all(place):
+    rows = records_of([(stamp, Transform((1.0, 2.0, 3.0))) for stamp in range(1, 10_001)])
+    sound = rows.copy()
+    rows[place, 0] = rows[place - 1, 0]
+    buffer = Buffer()
+
+    assert not buffer.adopt_records("world", "turtle1", rows)
+    assert buffer.frames() == []
+    assert buffer.adopt_records("world", "turtle1", sound)
+    assert len(buffer.samples("turtle1")) == 10_000

@@ -28,7 +28,7 @@
 #define ROUNDING 8e-16      /* So far from 1 is the square of a unit quaternion at most. */
 
 /* What `tftool.frames.native` expects; a build of another interface is not used. */
-#define INTERFACE 2
+#define INTERFACE 3
 
 #if defined(__GNUC__)
 #define INLINE static inline __attribute__((always_inline))
@@ -1101,9 +1101,43 @@ done:
     return result;
 }
 
+/* Records that are kept as they are ---------------------------------------- */
+
+PyDoc_STRVAR(are_kept_doc, "are_kept(records, begin, end)\n--\n\n"
+"Whether these records can be a history's as they are; see `_kernel.pyi`.");
+
+static PyObject *are_kept(PyObject *Py_UNUSED(module), PyObject *const *args, Py_ssize_t count) {
+    Py_buffer view;
+    if (count != 3)
+        return PyErr_Format(PyExc_TypeError, "are_kept takes records and two numbers");
+    const Py_ssize_t begin = PyLong_AsSsize_t(args[1]), end = PyLong_AsSsize_t(args[2]);
+    if (PyErr_Occurred() || PyObject_GetBuffer(args[0], &view, PyBUF_SIMPLE) < 0)
+        return NULL;
+    if (begin < 0 || begin > end || end > view.len / RECORD) {
+        PyBuffer_Release(&view);
+        return PyErr_Format(PyExc_ValueError, "there are no such records");
+    }
+    const char *records = view.buf;
+    int kept = 1;
+    for (Py_ssize_t row = begin; row < end && kept; row++) {
+        Pose pose;
+        pose_of(records, row, &pose);
+        const double *n = pose.n, *turn = n + 3;
+        const double square = turn[0] * turn[0] + turn[1] * turn[1] + turn[2] * turn[2] + turn[3] * turn[3];
+        /* Where one of the four is no number, or infinite, neither is their square's sum near 1. */
+        kept = fabs(n[0]) <= DBL_MAX && fabs(n[1]) <= DBL_MAX && fabs(n[2]) <= DBL_MAX
+            && 1.0 - ROUNDING < square && square < 1.0 + ROUNDING
+            && !(leading(turn[0], turn[1], turn[2], turn[3]) < 0.0)
+            && (row == 0 || stamp_of(records, row) > stamp_of(records, row - 1));
+    }
+    PyBuffer_Release(&view);
+    return PyBool_FromLong(kept);
+}
+
 /* The module ------------------------------------------------------------- */
 
 static PyMethodDef methods[] = {
+    {"are_kept", (PyCFunction)(void (*)(void))are_kept, METH_FASTCALL, are_kept_doc},
     {"solve", (PyCFunction)(void (*)(void))solve, METH_FASTCALL, solve_doc},
     {NULL, NULL, 0, NULL},
 };

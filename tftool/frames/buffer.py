@@ -301,19 +301,32 @@ class Buffer(Door):
         """
         import numpy as np
 
-        from tftool.frames.batch import insert
-
-        link = (parent, child, authority)
-        known = len(self._tree.frames)
-        if not self._listening and insert.adopt(self._tree, self.max_frames, link, records):
-            self._solver.drop_paths()
-            named = [frame.name for frame in self._tree.frames[known:]]
-            self._tell((), False, authority, (tree.stripped(child), *named))
+        if self.adopt_records(parent, child, records, authority):
             return None
         numbers = records.view(np.float64)
         return self.set_transforms(
             parent, child, records[:, 0], numbers[:, 1:4], numbers[:, 4:], authority
         )
+
+    def adopt_records(
+        self, parent: str, child: str, records: "npt.NDArray[np.int64]", authority: str = ""
+    ) -> bool:
+        """As `set_records`, if nothing speaks against them: each is newer than the one before.
+
+        Returns:
+            Whether they were taken, all of them. Nothing was done if not.
+        """
+        from tftool.frames.batch import insert
+
+        known = len(self._tree.frames)
+        if self._listening or not insert.adopt(
+            self._tree, self.max_frames, (parent, child, authority), records
+        ):
+            return False
+        self._solver.drop_paths()
+        named = [frame.name for frame in self._tree.frames[known:]]
+        self._tell((), False, authority, (tree.stripped(child), *named))
+        return True
 
     def clear(self) -> None:
         """Forget all that moves; names, statics and pending requests stay."""

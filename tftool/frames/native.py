@@ -19,7 +19,7 @@ _Class = TypeVar("_Class", bound=type)
 SWITCH = "TFTOOL_PURE"
 """The environment variable that has everything run in plain Python, if it is not empty or 0."""
 
-_INTERFACE = 2
+_INTERFACE = 3
 """What these modules expect of a kernel; one that was built for others is left alone."""
 
 

@@ -17,13 +17,8 @@ from tftool.wire.rows import (
 MOST_EDGES: Final = 100_000
 """Edges of one recording; of what goes beyond, only the number is told."""
 
-_PER_LENGTH: Final = 16  # layouts of one length that are tried before messages are walked singly
-_TEMPLATE_BYTES: Final = 16_000_000
-_WORTH_A_TEMPLATE: Final = 4
-_FEW: Final = 256  # messages that wait for others: an array operation costs a microsecond
-_LITTLE_HEADER: Final = 0x00000100
 _NEVER: Final = 2**62, 0
-_MOST_AHEAD: Final = 16  # times as many rows as have come, at most, are made room for
+_MOST_AHEAD: Final = 128  # times as many rows as have come, at most, are made room for
 
 
 @dataclass(frozen=True, slots=True, eq=False)

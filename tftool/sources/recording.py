@@ -392,6 +392,10 @@ def _set_moving(
 ) -> None:
     authority = transforms.publishers[int(transforms.senders[edge.messages[-1]])].authority
     records, stamps = edge.records, edge.stamps
+    # Where the first one has no stamp 0 and each is newer, none has: they need not be looked at.
+    later = len(edge) and stamps[0] > 0
+    if later and buffer.adopt_records(edge.parent, edge.child, records, authority):
+        return
     if not stamps.all():
         text = f"'{edge.child}' moves, but has stamp 0: left out, as tf2 takes 0 for the latest"
         oddities[text] += len(edge) - int(np.count_nonzero(stamps))

@@ -11,9 +11,13 @@ import numpy.typing as npt
 from tftool.frames import refusals
 from tftool.frames.batch.columns import Column, Indices, Stamps, stamps_of
 from tftool.frames.history import LONGEST, PARENT_MASK, SHORTEST, WORDS, History, Sample
+from tftool.frames.native import IS_NATIVE
 from tftool.frames.tree import FrameTree, stripped
 from tftool.geometry import batch
 from tftool.geometry.batch import Floats
+
+if IS_NATIVE:
+    from tftool.frames import _kernel
 
 Flags: TypeAlias = npt.NDArray[np.bool_]
 """One yes or no for each row."""
@@ -198,6 +202,9 @@ def adopt(
         return False
     lent = words = _lent(records)
     for begin in range(0, len(records), _BLOCK):
+        end = min(begin + _BLOCK, len(records))
+        if IS_NATIVE and _kernel.are_kept(lent, begin, end):
+            continue
         # With the one before: what lies in the cache is looked at only once.
         stamps = records[max(begin - 1, 0) : begin + _BLOCK, 0]
         samples = records[begin : begin + _BLOCK].view(np.float64)[:, 1:]
@@ -229,11 +236,14 @@ def _lent(records: npt.NDArray[np.int64]) -> "array[int] | memoryview[int]":
 
 def _is_canonical(turns: Floats) -> bool:
     """Whether finite quaternions are as a history keeps them: of length one, of tf2's sign."""
-    square = np.einsum("ij,ij->i", turns, turns)
+    x, y, z, w = np.moveaxis(turns, -1, 0)
+    # Added in the order in which it is done one by one: it decides about the last bit.
+    with np.errstate(over="ignore", under="ignore"):
+        square = x * x + y * y + z * z + w * w
     if square.min() <= SHORTEST or square.max() >= LONGEST:
         return False
     # All four: of a half turn's w, zero, the other sign is no other number.
-    return bool(turns[:, 3].min() > 0.5 or (batch.canonical(turns) == turns).all())
+    return bool(w.min() > 0.5 or (batch.canonical(turns) == turns).all())
 
 
 def merge(history: History, origin: int, stamps: Stamps, samples: Floats) -> Flags:
