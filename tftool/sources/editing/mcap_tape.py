@@ -8,7 +8,7 @@ from typing import Any, Final
 
 from tftool.errors import InputError
 from tftool.sources.compressed import unpack, unpack_beginning
-from tftool.sources.container import File
+from tftool.sources.container import LATEST_STAMP, File
 from tftool.sources.editing.pieces import Piece
 from tftool.sources.editing.tape import Extras, Taken
 from tftool.sources.find import MCAP_MAGIC
@@ -22,7 +22,6 @@ _MESSAGE_HEAD = struct.Struct("<HIQQ")
 _FOOTER_SIZE: Final = 37
 _DATA_END_SIZE: Final = 13
 _LARGEST_SUMMARY: Final = 1 << 30
-_LATEST: Final = 2**63 - 1
 
 
 class McapTape:
@@ -250,8 +249,8 @@ class McapChunk:
         self._packed = min(packed, end - self._data)
         if packed != self._packed:
             self._cut = True
-        self.start: Stamp = min(start, _LATEST)
-        self.end: Stamp = min(stop, _LATEST)
+        self.start: Stamp = min(start, LATEST_STAMP)
+        self.end: Stamp = min(stop, LATEST_STAMP)
         tape.style["chunked"] = True
         tape.style["compression"] = self.method or "none"
         tape.style["with_chunk_crc"] = bool(self._crc)
@@ -377,7 +376,7 @@ def _message(data: bytes, first: int, last: int) -> Taken:
         raise struct.error("a message's record is shorter than its head")
     channel, sequence, log_time, publish_time = _MESSAGE_HEAD.unpack_from(data, first)
     payload = data[first + _MESSAGE_HEAD.size : last]
-    return Taken(channel, min(log_time, _LATEST), payload, publish_time, sequence)
+    return Taken(channel, min(log_time, LATEST_STAMP), payload, publish_time, sequence)
 
 
 def _records(data: bytes) -> Iterator[tuple[int, int, int]]:

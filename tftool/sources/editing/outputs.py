@@ -9,7 +9,7 @@ from typing import Any, Final
 
 from tftool.errors import InputError, TftoolError, UsageError
 from tftool.interfaces.schema import full_name
-from tftool.sources.container import TRANSIENT_LOCAL, offers_of
+from tftool.sources.container import LATEST_STAMP, TRANSIENT_LOCAL, offers_of
 from tftool.sources.editing.mcap_tape import McapChunk, McapTape
 from tftool.sources.editing.rosbag1_tape import Rosbag1Chunk, Rosbag1Tape
 from tftool.sources.editing.tape import Block, Taken, Tape
@@ -91,7 +91,7 @@ class EditedFile:
         self.counts: Counter[int] = Counter()
         self.digests: dict[tuple[str, str], int] = {}
         self.copied: dict[int, Copied] = {}
-        self.start: Stamp = 2**63 - 1
+        self.start: Stamp = LATEST_STAMP
         self.end: Stamp = 0
         self.left_out: dict[str, str] = {}
         self._mcap: McapWriter | None = None

@@ -15,40 +15,28 @@ from typing import Final
 
 import numpy as np
 
-from tftool.errors import InputError, TransformException, UsageError
-from tftool.frames.sample import TransformStamped
-from tftool.frames.tree import stripped
-from tftool.geometry.rigid import Transform
+from tftool.errors import InputError, UsageError
 from tftool.sources.contract import Progress
 from tftool.sources.editing.changes import (
-    LAYOUTS,
-    Changer,
     Edits,
-    LinkName,
-    Reparenting,
-    Window,
-    carries_statics,
-    carries_transforms,
-    fits,
 )
 from tftool.sources.editing.database import EditedDatabase, Unsound
+from tftool.sources.editing.heads import StaticHeads
 from tftool.sources.editing.inputs import EditedInput, open_input, open_tape
 from tftool.sources.editing.mcap_tape import McapChunk
 from tftool.sources.editing.outputs import EditedFile, digest
+from tftool.sources.editing.planning import changer_for
 from tftool.sources.editing.rosbag1_tape import Rosbag1Chunk
 from tftool.sources.editing.sqlite_tape import SqliteTape
-from tftool.sources.editing.tape import Block, Taken, Tape
+from tftool.sources.editing.tape import Block, Tape
 from tftool.sources.recording import Recording, open_recording
 from tftool.sources.writing.channel import Channel
 from tftool.sources.writing.containers import container_of
 from tftool.sources.writing.folder import FileFacts, metadata_text, write_metadata
-from tftool.sources.writing.ros2 import TRANSFORMS, ros2_channel
 from tftool.sources.writing.target import PART, Target, check_room, failed
 from tftool.stamps import Stamp
-from tftool.wire.splicing import TransformRow, TransformRows, encode_rows
 
 MOST_PARTS: Final = 10_000
-_LATEST: Final = 2**63 - 1
 _ROOM: Final = 1 << 20
 _AHEAD: Final = 3  # chunks that are examined before they are wanted
 
@@ -166,130 +154,23 @@ class _Job:
             self._is_folder and len(inputs) == 1 and first.is_folder and not edits.split_every
         )
         self.report = EditReport()
-        self._check_names()
-        window = self._window()
-        self._changer = Changer(edits, window, self._reparenting())
-        self._changer.topics = self._concerned()
+        self._changer = changer_for(edits, recordings)
         starts = [one.source.start for one in recordings if one.source.start]
         self._start: Stamp = min(starts, default=0)
-        if window is not None:
-            self._start = max(self._start, window.start)
+        if self._changer.window is not None:
+            self._start = max(self._start, self._changer.window.start)
         self._outputs: dict[int, EditedFile] = {}
         self._databases: list[EditedDatabase] = []
         self._order: list[int] = []
-        self._heads = bool(
-            edits.statics_first or edits.statics_from or edits.cuts or edits.split_every
+        self._heads = StaticHeads(
+            edits, self._tapes, self._changer, self._start, by_tape=self._by_tape, ros2=self._ros2
         )
-        self._statics: list[_Static] = []
-
-    # What the options name
-
-    def _check_names(self) -> None:
-        edits = self._edits
-        wanted: list[LinkName] = [*edits.drop, *edits.poses, *edits.reparent]
-        if not (wanted or edits.rename):
-            return
-        links = {(e.parent, e.child) for one in self._recordings for e in one.edges}
-        frames = {name for link in links for name in link}
-        for link in wanted:
-            if not any(fits(one, link) for one in links):
-                raise UsageError(_no_such_link(link, links))
-        for name in edits.rename:
-            if name not in frames:
-                raise UsageError(_no_such_frame(name, frames))
-        after = Counter(edits.name(name) for name in frames)
-        clash = [name for name, count in after.items() if count > 1]
-        if clash and edits.rename:
-            both = sorted(name for name in frames if edits.name(name) == clash[0])
-            raise UsageError(
-                f"Two frames would be called '{clash[0]}': {' and '.join(map(repr, both))}."
-            )
-
-    def _concerned(self) -> frozenset[str] | None:
-        """The topics of the links that are named; None where all links change."""
-        edits = self._edits
-        wanted = [*edits.drop, *edits.poses, *edits.reparent]
-        if not wanted or edits.names or edits.stamps or edits.statics_from:
-            return None
-        found: set[str] = set()
-        for recording in self._recordings:
-            transforms = recording.transforms
-            if recording.damage:
-                return None
-            for edge in transforms.edges:
-                if any(fits((edge.parent, edge.child), link) for link in wanted):
-                    senders = np.unique(transforms.senders_of(edge)).tolist()
-                    found |= {transforms.publishers[sender].topic for sender in senders}
-        return frozenset(found)
-
-    def _window(self) -> Window | None:
-        edits = self._edits
-        if not edits.cuts:
-            return None
-        low = edits.start if edits.start is not None else 0
-        high = edits.end if edits.end is not None else _LATEST
-        if high < low:
-            raise UsageError("--to lies before --from.")
-        moving = [(one, edge) for one in self._recordings for edge in one.edges if not edge.static]
-        spans: dict[LinkName, tuple[Stamp, Stamp]] = {}
-        offsets, logs = [], []
-        for recording, edge in moving:
-            log_times = recording.transforms.log_times_of(edge)
-            moments = log_times if edits.by_record_time else edge.stamps
-            first, last = _widened(moments, low, high)
-            link = edge.parent, edge.child
-            if link in spans:
-                first, last = min(first, spans[link][0]), max(last, spans[link][1])
-            spans[link] = first, last
-            kept = log_times[(moments >= first) & (moments <= last)]
-            if len(kept):
-                logs.append(int(kept.min()))
-            offsets.append(log_times - edge.stamps)
-        if edits.by_record_time or not offsets:
-            return Window(low, high, None, spans if edits.by_record_time else {})
-        offset = int(np.median(np.concatenate(offsets)))
-        end = high if high == _LATEST else high + offset
-        start = 0 if edits.start is None else low + offset
-        return Window(start, end, (low, high), spans)
-
-    def _reparenting(self) -> Reparenting | None:
-        edits = self._edits
-        if not edits.reparent:
-            return None
-        if len(self._recordings) > 1:
-            raise UsageError("--reparent works on one recording: join them first.")
-        recording = self._recordings[0]
-        static = {edge.child: edge.parent for edge in recording.edges if edge.static}
-        parents: dict[str, set[str]] = {}
-        for edge in recording.edges:
-            parents.setdefault(edge.child, set()).add(edge.parent)
-        frames = parents.keys() | {name for found in parents.values() for name in found}
-        for (parent, child), new in edits.reparent.items():
-            if new not in frames:
-                raise UsageError(_no_such_frame(new, frames))
-            if child in _above(new, parents):
-                raise UsageError(f"'{new}' hangs from '{child}': it cannot become its parent.")
-            is_static = static.get(child) == parent
-            if is_static and not _joined_by_statics(parent, new, static):
-                raise UsageError(
-                    f"'{child}' is static, and '{new}' moves against '{parent}': it cannot hang "
-                    "there and stay where it is."
-                )
-        buffer = recording.buffer
-
-        def found(link: LinkName, stamp: Stamp) -> Transform | None:
-            try:
-                return buffer.lookup_transform(edits.reparent[link], link[0], stamp).transform
-            except TransformException:
-                return None
-
-        return found
 
     # The runs
 
     def tried(self) -> EditReport:
         """What would be done."""
-        self._collect_statics()
+        self._heads.collect()
         done = 0
         for source, tape in enumerate(self._tapes):
             for block in tape.blocks():
@@ -340,7 +221,7 @@ class _Job:
                 self._forget_databases()
             else:
                 return
-        self._collect_statics()
+        self._heads.collect()
         total, done = sum(tape.size for tape in self._tapes), 0
         for source, tape in enumerate(self._tapes):
             for block in self._examined_ahead(tape):
@@ -400,7 +281,7 @@ class _Job:
         # for row by row.
         packed = self._mode == "message" or any(one.mode == "message" for one in self._inputs)
         damaged = any(one.damage for one in self._inputs) or any(tape.damage for tape in tapes)
-        if not alike or not one_to_one or packed or damaged or self._heads:
+        if not alike or not one_to_one or packed or damaged or self._heads.wanted:
             return []
         return tapes
 
@@ -490,21 +371,17 @@ class _Job:
             raise UsageError(f"That makes more than {MOST_PARTS} files: split less often.")
         path = self._path_in(part, len(self._outputs))
         tape = self._tapes[number if self._by_tape else 0]
-        latched = frozenset(one.channel.topic for one in self._statics)
-        if self._edits.statics_from:
-            latched |= {"/tf_static"}
         output = self._outputs[number] = EditedFile(
             path,
             self._container,
             tape,
             ros2=self._ros2,
             packs=self._mode == "message",
-            latched=latched if self._heads else frozenset(),
+            latched=self._heads.topics,
             first_free=self._first_free(),
         )
         self._order.append(number)
-        if self._heads:
-            self._write_head(number, output, self._start if start is None else start)
+        self._heads.write(number, output, self._start if start is None else start)
         return output
 
     def _first_free(self) -> int:
@@ -514,93 +391,6 @@ class _Job:
             used += tape.channels
             used += getattr(tape, "schemas", ())
         return max(used) + 1
-
-    # Statics
-
-    def _collect_statics(self) -> None:
-        if not self._heads:
-            return
-        edits = self._edits
-        for source, tape in enumerate(self._tapes):
-            for block in tape.blocks():
-                if block.channels is not None and block.whole:
-                    known = [tape.channels[number] for number in block.channels]
-                    if not any(map(carries_statics, known)):
-                        continue
-                for message in block.messages():
-                    channel = tape.channels[message.channel]
-                    if carries_statics(channel):
-                        self._take_statics(source, message, channel)
-        counts, self._changer.counts = self._changer.counts, Counter()
-        if edits.links or edits.statics_from:
-            edited = []
-            for one in self._statics:
-                row = self._changer.edited(one.row, one.log_time, static=True)
-                if row is not None:
-                    one.row = row
-                    edited.append(one)
-            self._statics = edited
-        self._changer.counts = counts
-
-    def _take_statics(self, source: int, message: Taken, channel: Channel) -> None:
-        with contextlib.suppress(InputError):
-            rows = TransformRows(LAYOUTS[channel.encoding], message.payload).rows
-            self._statics += [
-                _Static(source, message.channel, channel, message.log_time, row) for row in rows
-            ]
-
-    def _write_head(self, number: int, output: EditedFile, start: Stamp) -> None:
-        """The latest value of every static, in one message for each channel."""
-        edits = self._edits
-        start, end = max(start, self._start), _LATEST
-        if edits.split_every:
-            start = self._start + number * edits.split_every
-            end = start + edits.split_every - 1
-        if edits.cuts:
-            window = self._changer.window
-            assert window is not None
-            end = min(end, window.end)
-        chosen: dict[str, _Static] = {}
-        for one in self._statics:
-            if self._by_tape and not edits.cuts and one.source > number:
-                continue
-            child = stripped(one.row.child)
-            held = chosen.get(child)
-            # The last one up to the end; what comes up only behind it is better than nothing.
-            if held is None or one.log_time <= end or held.log_time > end >= one.log_time:
-                chosen[child] = one
-        groups: dict[tuple[int, int], list[_Static]] = {}
-        for one in chosen.values():
-            groups.setdefault((one.source, one.number), []).append(one)
-        added = [_row_of(sample) for sample in edits.statics_from]
-        for (source, own), group in sorted(groups.items()):
-            channel = group[0].channel
-            rows = [one.row for one in group] + added
-            added = []
-            payload = encode_rows(LAYOUTS[channel.encoding], rows)
-            message = Taken(own, start, payload, start, 0)
-            output.write(source, message, channel, self._tapes[source])
-        if added:
-            self._write_added(output, added, start)
-        output.writer.flush()
-        self._changer.counts["statics put first"] += len(chosen) + len(edits.statics_from)
-
-    def _write_added(self, output: EditedFile, rows: Sequence[TransformRow], start: Stamp) -> None:
-        """The statics of another recording, where this one has no topic for them."""
-        from tftool.sources.writing.converting import as_ros1
-
-        channel = ros2_channel("/tf_static", TRANSFORMS, static=True)
-        ros1 = output.container == "bag" or all(
-            channel.encoding == "ros1"
-            for tape in self._tapes
-            for channel in tape.channels.values()
-            if carries_transforms(channel)
-        )
-        if output.container == "bag" or (ros1 and output.container == "mcap" and not self._ros2):
-            channel = as_ros1(channel).channel
-        payload = encode_rows(LAYOUTS[channel.encoding], rows)
-        number = output.channel(channel)
-        output.append(number, Taken(number, start, payload, start, 0))
 
     # The end
 
@@ -721,30 +511,6 @@ def _examined(block: Block, examined: "Future[bool] | None") -> Block:
     return block
 
 
-@dataclass(slots=True)
-class _Static:
-    """One static transform as it was recorded."""
-
-    source: int
-    number: int
-    channel: Channel
-    log_time: Stamp
-    row: TransformRow
-
-
-def _row_of(sample: TransformStamped) -> TransformRow:
-    numbers = (*sample.transform.translation, *sample.transform.rotation)
-    return TransformRow(sample.stamp, sample.frame_id, sample.child_frame_id, numbers)
-
-
-def _widened(moments: "np.ndarray", low: Stamp, high: Stamp) -> tuple[Stamp, Stamp]:
-    """A span and one sample more at either end, so that both ends can be interpolated."""
-    before, behind = moments[moments <= low], moments[moments >= high]
-    first = int(before.max()) if len(before) else low
-    last = int(behind.min()) if len(behind) else high
-    return first, last
-
-
 def _packed(path: Path) -> Path:
     """A file compressed as a whole, in its place."""
     from tftool.sources.compressed import zstandard
@@ -756,51 +522,3 @@ def _packed(path: Path) -> Path:
             shutil.copyfileobj(source, writer, 1 << 20)
     path.unlink()
     return packed
-
-
-def _above(frame: str, parents: Mapping[str, set[str]]) -> set[str]:
-    """A frame and all it ever hung from."""
-    found, waiting = {frame}, [frame]
-    while waiting:
-        for parent in parents.get(waiting.pop(), ()):
-            if parent not in found:
-                found.add(parent)
-                waiting.append(parent)
-    return found
-
-
-def _joined_by_statics(one: str, other: str, static: Mapping[str, str]) -> bool:
-    """Whether two frames never move against each other."""
-
-    def up(frame: str) -> list[str]:
-        found = [frame]
-        while frame in static and static[frame] not in found:
-            frame = static[frame]
-            found.append(frame)
-        return found
-
-    return not set(up(one)).isdisjoint(up(other))
-
-
-def _no_such_link(link: LinkName, links: "set[LinkName]") -> str:
-    parent, child = link
-    others = sorted(p for p, c in links if c == child)
-    if others:
-        hint = f"'{child}' hangs from '{others[0]}': {others[0]}:{child}"
-    else:
-        hint = _near(child, {c for _, c in links})
-    return f"No link {parent}:{child} was recorded; {hint}."
-
-
-def _no_such_frame(name: str, frames: "set[str]") -> str:
-    return f"No frame '{name}' was recorded; {_near(name, frames)}."
-
-
-def _near(name: str, names: "set[str]") -> str:
-    import difflib
-
-    near = difflib.get_close_matches(name, sorted(names), n=3)
-    if near:
-        return f"did you mean {' or '.join(near)}?".rstrip("?")
-    shown = ", ".join(sorted(names)[:8])
-    return f"there are {shown}{' ...' if len(names) > 8 else ''}"
