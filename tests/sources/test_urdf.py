@@ -5,15 +5,14 @@ import subprocess
 import pytest
 
 from tftool.errors import DescriptionError, InputError
-from tftool.sources.urdf import (
+from tftool.sources.robot_description import (
     BoxShape,
     CapsuleShape,
     CylinderShape,
     MeshShape,
     SphereShape,
-    is_xacro,
-    load_description,
 )
+from tftool.sources.urdf import is_xacro, load_description
 from tftool.sources.urdf import parse_description as parse
 
 ARM = """<?xml version="1.0"?>

@@ -13,7 +13,7 @@ from tftool.diagnostics.shape import static_publisher
 from tftool.diagnostics.wording import several
 from tftool.errors import TransformException
 from tftool.sources.robot import Robot
-from tftool.sources.urdf import RobotJoint
+from tftool.sources.robot_description import RobotJoint
 
 
 @dataclass(frozen=True, slots=True)

@@ -10,7 +10,7 @@ from tftool.diagnostics.model import Limits, Model
 from tftool.geometry.batch import unit
 from tftool.geometry.quaternions import angle_between
 from tftool.sources.robot import Robot
-from tftool.sources.urdf import RobotJoint
+from tftool.sources.robot_description import RobotJoint
 
 _STATES = "start joint_state_publisher or the controller's broadcaster; or make the joint fixed"
 

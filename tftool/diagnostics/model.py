@@ -16,8 +16,8 @@ from tftool.sources.contract import (
     Stamps,
 )
 from tftool.sources.described import prefix_of
+from tftool.sources.robot_description import RobotJoint
 from tftool.sources.timeline import through_clock
-from tftool.sources.urdf import RobotJoint
 from tftool.stamps import CACHE_TIME, Duration, Stamp, seconds
 
 Limits = Mapping[str, float]

@@ -12,7 +12,8 @@ from tftool.runtime.clock import Phase
 from tftool.runtime.endpoints import Quality
 from tftool.runtime.node import Node
 from tftool.runtime.world import World
-from tftool.sources.urdf import RobotJoint, parse_description
+from tftool.sources.robot_description import RobotJoint
+from tftool.sources.urdf import parse_description
 from tftool.stamps import NANOSECONDS, Duration, Stamp, as_seconds, seconds
 
 if TYPE_CHECKING:

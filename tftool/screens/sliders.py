@@ -8,7 +8,7 @@ from typing import Protocol
 
 from tftool.errors import UsageError
 from tftool.sources.robot import Robot
-from tftool.sources.urdf import RobotJoint
+from tftool.sources.robot_description import RobotJoint
 
 STEPS = 50
 """Presses of an arrow from one limit to the other."""

@@ -17,7 +17,8 @@ from tftool.geometry import batch
 from tftool.geometry.conversions import quaternion_from_axis_angle
 from tftool.geometry.rigid import Transform
 from tftool.sources.joint_states import JointStates
-from tftool.sources.urdf import RobotDescription, RobotJoint, RobotLink, load_description
+from tftool.sources.robot_description import RobotDescription, RobotJoint, RobotLink
+from tftool.sources.urdf import load_description
 from tftool.stamps import Stamp
 
 Floats: TypeAlias = npt.NDArray[np.float64]

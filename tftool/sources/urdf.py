@@ -13,211 +13,37 @@ import re
 from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
-from typing import NoReturn, TypeAlias, TypeVar
+from typing import NoReturn, TypeVar
 from xml.parsers import expat
 
 from tftool.errors import DescriptionError, InputError, Mistake, UsageError
 from tftool.geometry.conversions import quaternion_from_rpy
 from tftool.geometry.rigid import Transform, Vector3
+from tftool.sources.robot_description import (
+    JOINT_TYPES,
+    LIMITED_TYPES,
+    BoxShape,
+    CapsuleShape,
+    CylinderShape,
+    JointLimit,
+    JointMimic,
+    LinkShape,
+    MeshShape,
+    RobotDescription,
+    RobotJoint,
+    RobotLink,
+    ShapeGeometry,
+    SphereShape,
+    Surface,
+)
 
 T = TypeVar("T")
 
 LARGEST = 64 * 1024 * 1024
 """Bytes a description may have."""
 
-JOINT_TYPES = ("fixed", "revolute", "continuous", "prismatic", "floating", "planar")
-
 _NUMBER = re.compile(r"[+-]?(\d+\.?\d*|\.\d+)([eE][+-]?\d+)?")
 _DECLARATION = re.compile(r"\s*<\?xml\b[^<>]*>")
-_LIMITED = ("revolute", "prismatic")
-
-
-@dataclass(frozen=True, slots=True)
-class BoxShape:
-    """A box around its origin.
-
-    Attributes:
-        size: Length along x, y and z, metres.
-    """
-
-    size: Vector3
-
-
-@dataclass(frozen=True, slots=True)
-class CylinderShape:
-    """A cylinder along z around its origin; metres."""
-
-    radius: float
-    length: float
-
-
-@dataclass(frozen=True, slots=True)
-class CapsuleShape:
-    """A cylinder along z with half a sphere on each end; metres, `length` without the ends."""
-
-    radius: float
-    length: float
-
-
-@dataclass(frozen=True, slots=True)
-class SphereShape:
-    """A sphere around its origin; metres."""
-
-    radius: float
-
-
-@dataclass(frozen=True, slots=True)
-class MeshShape:
-    """A surface in a file of its own.
-
-    Attributes:
-        filename: As written: `package://…`, `file://…`, or a path beside the description.
-        scale: Factors along x, y and z.
-    """
-
-    filename: str
-    scale: Vector3
-
-
-ShapeGeometry: TypeAlias = BoxShape | CylinderShape | CapsuleShape | SphereShape | MeshShape
-
-
-@dataclass(frozen=True, slots=True)
-class Surface:
-    """What a surface looks like.
-
-    Attributes:
-        name: Its name; may be empty.
-        color: Red, green, blue and opacity from 0 to 1; None where it is not given.
-        texture: File name of a picture, empty without one.
-    """
-
-    name: str
-    color: tuple[float, float, float, float] | None = None
-    texture: str = ""
-
-
-@dataclass(frozen=True, slots=True)
-class LinkShape:
-    """One visual or one collision shape of a link.
-
-    Attributes:
-        name: Its name, often empty.
-        origin: Its pose in the link.
-        geometry: What it is.
-        material: What it looks like; None for collisions and where none is named.
-    """
-
-    name: str
-    origin: Transform
-    geometry: ShapeGeometry
-    material: Surface | None = None
-
-
-@dataclass(frozen=True, slots=True)
-class RobotLink:
-    """One rigid part of a robot, which is one frame.
-
-    Attributes:
-        name: Its name, and its frame's.
-        visuals: What is drawn of it.
-        collisions: What it collides with.
-        mass: Kilograms; None without an inertial element.
-    """
-
-    name: str
-    visuals: tuple[LinkShape, ...] = ()
-    collisions: tuple[LinkShape, ...] = ()
-    mass: float | None = None
-
-
-@dataclass(frozen=True, slots=True)
-class JointLimit:
-    """How far and how fast a joint may move; radians or metres, and per second.
-
-    Attributes:
-        lower: Smallest position.
-        upper: Largest position.
-        effort: Newton metres, or newtons.
-        velocity: Largest speed.
-    """
-
-    lower: float
-    upper: float
-    effort: float
-    velocity: float
-
-
-@dataclass(frozen=True, slots=True)
-class JointMimic:
-    """A joint that follows another: position = multiplier · leader's position + offset."""
-
-    joint: str
-    multiplier: float = 1.0
-    offset: float = 0.0
-
-
-@dataclass(frozen=True, slots=True)
-class RobotJoint:
-    """What joins one link to its parent.
-
-    Attributes:
-        name: Its name.
-        type: One of `JOINT_TYPES`.
-        parent: The parent link.
-        child: The child link.
-        origin: The child's pose in the parent at position zero.
-        axis: Unit vector in the joint's frame about which it turns or along which it slides.
-        limit: None for a joint without.
-        mimic: What it follows, if anything.
-    """
-
-    name: str
-    type: str
-    parent: str
-    child: str
-    origin: Transform
-    axis: Vector3
-    limit: JointLimit | None = None
-    mimic: JointMimic | None = None
-
-    @property
-    def moves(self) -> bool:
-        """Whether it has one position: revolute, continuous or prismatic."""
-        return self.type in ("revolute", "continuous", "prismatic")
-
-    @property
-    def limits(self) -> tuple[float, float] | None:
-        """The least and the greatest position; None for a joint without, such as a wheel."""
-        if self.limit is None or self.type not in _LIMITED:
-            return None
-        return self.limit.lower, self.limit.upper
-
-    @property
-    def unit(self) -> str:
-        """What its position is counted in: rad or m."""
-        return "m" if self.type == "prismatic" else "rad"
-
-
-@dataclass(frozen=True, slots=True)
-class RobotDescription:
-    """A robot description: a tree of links.
-
-    Attributes:
-        name: The robot's name.
-        root: The link that is no joint's child.
-        links: By name, in the order of the file.
-        joints: By name, in the order of the file.
-        notes: What is odd and still readable, as sentences.
-        text: What it was read from, xacro expanded.
-    """
-
-    name: str
-    root: str
-    links: Mapping[str, RobotLink]
-    joints: Mapping[str, RobotJoint]
-    notes: tuple[str, ...] = ()
-    text: str = field(default="", repr=False)
 
 
 def load_description(
@@ -676,7 +502,7 @@ class _Reader:
     def _limit(self, joint: _Element, name: str, kind: str) -> JointLimit | None:
         element = joint.first("limit")
         if element is None:
-            if kind in _LIMITED:
+            if kind in LIMITED_TYPES:
                 self._note(joint, f"{kind} joint '{name}' needs a <limit effort=… velocity=…>")
             return None
         return JointLimit(

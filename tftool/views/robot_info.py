@@ -3,7 +3,7 @@
 from typing import Any
 
 from tftool.sources.robot import Robot
-from tftool.sources.urdf import RobotJoint
+from tftool.sources.robot_description import RobotJoint
 from tftool.views.escaping import visible
 from tftool.views.info import table
 

@@ -10,7 +10,7 @@ from tftool.screens.browser.meshes import SHAPES, MeshFolders, MeshRefused
 from tftool.screens.sliders import Positions, slide_range
 from tftool.sources.described import prefix_of
 from tftool.sources.robot import Robot
-from tftool.sources.urdf import (
+from tftool.sources.robot_description import (
     BoxShape,
     CapsuleShape,
     CylinderShape,
