@@ -60,12 +60,12 @@ class Listeners(Generic[*Values]):
 
     def call(self, *values: *Values) -> None:
         """Call every listener, those included that are withdrawn meanwhile."""
-        failures: list[tuple[str, Exception]] = []
+        failures: tuple[tuple[str, Exception], ...] = ()
         for callback, owner in self.registered:
             try:
                 callback(*values)
             except Exception as error:
-                failures.append((owner, error))
+                failures = (*failures, (owner, error))
         for failed, failure in failures:
             self._report(failed, failure)
 

@@ -1,6 +1,8 @@
 import pytest
 
 from tftool.errors import TftoolError
+from tftool.frames.sample import TransformStamped
+from tftool.geometry.rigid import Transform
 from tftool.interfaces.classes import INTERFACES
 from tftool.messages import (
     Clear,
@@ -16,7 +18,7 @@ from tftool.runtime.clock import SimClock, run
 from tftool.runtime.endpoints import Quality
 from tftool.runtime.node import Node
 from tftool.runtime.topics import GoalResult, Topic
-from tftool.runtime.world import World
+from tftool.runtime.world import TransformMessage, World
 from tftool.stamps import seconds
 
 
@@ -73,6 +75,39 @@ def test_a_forgotten_topic_starts_anew():
 
     assert "turtle1/pose" not in world.topics()
     assert world.topic("turtle1/pose", Pose2D).latest is None
+
+
+def test_a_publisher_goes_on_with_the_topic_that_took_the_place_of_its_own():
+    world = World(SimClock())
+    publisher = world.publisher("sim", "turtle1/pose", Pose2D)
+    publisher.publish(Pose2D(1, 1, 1))
+    before = world.topic("turtle1/pose", Pose2D)
+    world.remove_topic("turtle1/pose")
+    told = []
+    world.topic("turtle1/pose", Pose2D).subscribe(told.append)
+
+    assert publisher.subscribers == 1
+    publisher.publish(Pose2D(2, 2, 2))
+
+    assert told == [Pose2D(2, 2, 2)]
+    assert before.latest == Pose2D(1, 1, 1)
+    world.remove_topic("turtle1/pose")
+    publisher.publish(Pose2D(3, 3, 3))
+    assert world.topic("turtle1/pose", Pose2D).latest == Pose2D(3, 3, 3)
+
+
+def test_what_was_broadcast_can_be_read_whether_or_not_anything_listened():
+    world = World(SimClock())
+    sample = TransformStamped(1, "world", "turtle1", Transform())
+    told = []
+
+    world.broadcast([sample], "me")
+    assert world.tf.latest == TransformMessage((sample,), "me")
+
+    world.tf.subscribe(told.append)
+    later = sample._replace(stamp=2)
+    world.broadcast([later], "me")
+    assert told == [world.tf.latest] == [TransformMessage((later,), "me")]
 
 
 def test_a_stream_hands_over_values_in_order_and_loses_the_oldest_when_slow():

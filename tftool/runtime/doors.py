@@ -8,7 +8,7 @@ know them. `interfaces/values.py` says which value is which message.
 import asyncio
 import inspect
 from collections.abc import AsyncIterator, Callable
-from typing import Any, Generic, TypeVar
+from typing import Any, Final, Generic, TypeVar
 
 from tftool.interfaces import values
 from tftool.runtime.endpoints import Endpoint
@@ -24,6 +24,8 @@ from tftool.runtime.topics import (
 )
 
 T = TypeVar("T")
+
+_new: Final = tuple.__new__
 
 
 class ValueTopic(Generic[T]):
@@ -80,8 +82,11 @@ class ValueTopic(Generic[T]):
             raise TypeError(
                 f"topic '{self.name}' carries {self.kind.__name__}, not {type(value).__name__}"
             )
-        if not self.topic.publish_unmade(Unmade(value, self._pack), sender):
-            self.topic.publish(self.message_of(value), sender)
+        topic = self.topic
+        if topic.readers or topic.relay is not None:
+            topic.publish(self.message_of(value), sender)
+        else:
+            topic.tell(_new(Unmade, (value, self._pack)), sender)
 
     def message_of(self, value: T) -> Any:
         """The message that says the same as a value."""

@@ -158,17 +158,15 @@ class Node(Resident):
 
     def broadcast(self, *transforms: TransformStamped) -> bool:
         """Put transforms into the buffer, under this node's name; whether it took them all."""
-        self._enter_broadcaster("tf", TF)
+        if "tf" not in self._publishers:
+            self.publisher("tf", TransformMessage, TF)
         return self.world.broadcast(transforms, self.name)
 
     def broadcast_static(self, *transforms: TransformStamped) -> bool:
         """Put transforms that hold for all time into the buffer; whether it took them all."""
-        self._enter_broadcaster("tf_static", TF_STATIC)
+        if "tf_static" not in self._publishers:
+            self.publisher("tf_static", TransformMessage, TF_STATIC)
         return self.world.broadcast(transforms, self.name, static=True)
-
-    def _enter_broadcaster(self, topic: str, quality: Quality) -> None:
-        if topic not in self._publishers:
-            self.publisher(topic, TransformMessage, quality)
 
     def info(self, text: str) -> None:
         """Log what happens."""

@@ -8,7 +8,7 @@ import asyncio
 from collections import deque
 from collections.abc import AsyncIterator, Awaitable, Callable
 from dataclasses import dataclass
-from typing import Any, Generic, Literal, TypeVar
+from typing import Any, Generic, Literal, NamedTuple, TypeVar
 
 from tftool.listeners import Listeners, Report
 from tftool.runtime.endpoints import Endpoint
@@ -18,8 +18,7 @@ T = TypeVar("T")
 Status = Literal["succeeded", "aborted", "canceled"]
 
 
-@dataclass(slots=True)
-class Unmade:
+class Unmade(NamedTuple):
     """A value on a topic of messages, whose message is made when it is first asked for.
 
     Between nodes of ours it never is: to make every pose a message costs a fifth of a world.
@@ -47,18 +46,21 @@ class Topic(Generic[T]):
         far_subscribers: How many listen in other processes.
         is_far: Whether it is here only to be listed: other processes have it, and it was not
             asked for by its name here.
+        is_removed: Whether the world has forgotten it: another one may have its name by now.
+        readers: How many subscribers take messages and no `Unmade`.
     """
 
     __slots__ = (
-        "_readers",
         "_subscribers",
         "count",
         "far_subscribers",
         "held",
         "is_far",
+        "is_removed",
         "kind",
         "name",
         "on_demand",
+        "readers",
         "relay",
         "sender",
     )
@@ -68,13 +70,14 @@ class Topic(Generic[T]):
         self.name = name
         self.kind = kind
         self.held: T | Unmade | None = None
-        self._readers = 0
+        self.readers = 0
         self.count = 0
         self.on_demand: Callable[[], object] | None = None
         self.sender: Endpoint | None = None
         self.relay: Callable[[T], object] | None = None
         self.far_subscribers = 0
         self.is_far = False
+        self.is_removed = False
         self._subscribers: Listeners[T] = Listeners(report)
 
     @property
@@ -95,28 +98,22 @@ class Topic(Generic[T]):
             raise TypeError(
                 f"topic '{self.name}' carries {self.kind.__name__}, not {type(value).__name__}"
             )
-        self._tell(value, sender)
+        self.tell(value, sender)
 
-    def publish_unmade(self, value: Unmade, sender: Endpoint | None = None) -> bool:
-        """Publish a value without its message, where no subscriber reads messages.
+    def tell(self, value: "T | Unmade", sender: Endpoint | None = None) -> None:
+        """Publish what is known to be of the topic's kind.
 
-        Returns:
-            Whether it could; nothing was published if not.
+        It may be `Unmade` where there are no `readers`, and no relay.
         """
-        if self._readers or self.relay is not None:
-            return False
-        self._tell(value, sender)
-        return True
-
-    def _tell(self, value: Any, sender: Endpoint | None) -> None:
         self.held = value
         self.count += 1
+        told: Any = value
         relay = self.relay
         before, self.sender = self.sender, sender
         try:
-            self._subscribers.call(value)
+            self._subscribers.call(told)
             if relay is not None:
-                relay(value)
+                relay(told)
         finally:
             self.sender = before
 
@@ -129,7 +126,7 @@ class Topic(Generic[T]):
         publisher. One that takes `Unmade` as well keeps messages from being made for it.
         """
         withdraw = self._subscribers.add(callback, owner)
-        self._readers += not takes_unmade
+        self.readers += not takes_unmade
         is_there = True
         if self.on_demand is not None:
             self.on_demand()
@@ -138,7 +135,7 @@ class Topic(Generic[T]):
             nonlocal is_there
             if is_there:
                 is_there = False
-                self._readers -= not takes_unmade
+                self.readers -= not takes_unmade
                 withdraw()
                 if self.on_demand is not None:
                     self.on_demand()
@@ -148,7 +145,7 @@ class Topic(Generic[T]):
     @property
     def subscribers(self) -> int:
         """How many listen at the moment, those in other processes included."""
-        return len(self._subscribers) + self.far_subscribers
+        return len(self._subscribers.registered) + self.far_subscribers
 
     @property
     def near_subscribers(self) -> int:

@@ -29,7 +29,7 @@ from tftool.runtime.endpoints import (
 from tftool.runtime.log import Log
 from tftool.runtime.offers import Offer
 from tftool.runtime.resident import Resident, Supervision
-from tftool.runtime.topics import Acceptor, GoalHandle, Handler, Topic
+from tftool.runtime.topics import Acceptor, GoalHandle, Handler, Topic, Unmade
 from tftool.stamps import CACHE_TIME, Duration, Stamp
 
 T = TypeVar("T")
@@ -51,6 +51,10 @@ class TransformMessage:
     authority: str
 
 
+def _transform_message(sent: tuple[tuple[TransformStamped, ...], str]) -> TransformMessage:
+    return TransformMessage(*sent)
+
+
 class TopicPublisher(Generic[T]):
     """What one node publishes on one topic.
 
@@ -59,7 +63,7 @@ class TopicPublisher(Generic[T]):
         kind: The type of every value.
     """
 
-    __slots__ = ("_endpoint", "_withdraw", "_world", "kind", "name")
+    __slots__ = ("_door", "_endpoint", "_topic", "_withdraw", "_world", "kind", "name")
 
     def __init__(
         self, world: "World", node: str, name: str, kind: type[T], quality: Quality
@@ -72,19 +76,32 @@ class TopicPublisher(Generic[T]):
         self._endpoint, self._withdraw = world.enter(
             PUBLISHER, node, self.name, kind, quality, keeps=latched
         )
+        self._door: Topic[T] | ValueTopic[T] | None = None
+        self._topic: Topic[Any] | None = None
 
     def publish(self, value: T) -> None:
         """Publish a value, on a topic that is made anew where it was removed meanwhile."""
-        topic = self._world.topic(self.name, self.kind)
+        door = self._door
+        if door is None or self._topic is None or self._topic.is_removed:
+            door = self._open()
         if self._endpoint is not None and self._endpoint.kept is not None:
-            carried = topic.message_of(value) if isinstance(topic, ValueTopic) else value
+            carried = door.message_of(value) if isinstance(door, ValueTopic) else value
             self._endpoint.kept.append(carried)
-        topic.publish(value, self._endpoint)
+        door.publish(value, self._endpoint)
 
     @property
     def subscribers(self) -> int:
         """How many subscribe to the topic, those in other processes included."""
-        return self._world.topic(self.name, self.kind).subscribers
+        topic = self._topic
+        if topic is None or topic.is_removed:
+            return self._open().subscribers
+        return topic.subscribers
+
+    def _open(self) -> "Topic[T] | ValueTopic[T]":
+        """The topic as the world has it now."""
+        door = self._door = self._world.topic(self.name, self.kind)
+        self._topic = door.topic if isinstance(door, ValueTopic) else door
+        return door
 
     def close(self) -> None:
         """Publish no more: the node is no publisher of that topic any longer."""
@@ -284,7 +301,9 @@ class World:
         """Forget a topic; what is published on a `Topic` still held reaches no new subscriber."""
         name = name.removeprefix("/")
         self._doors.pop(name, None)
-        if self._topics.pop(name, None) is not None:
+        topic = self._topics.pop(name, None)
+        if topic is not None:
+            topic.is_removed = True
             self._changed()
 
     # Services and actions
@@ -477,10 +496,18 @@ class World:
             if accepted:
                 self.tf_static.publish(TransformMessage(tuple(held.values()), authority))
         else:
-            accepted = tuple(one for one in sent if self.buffer.set_transform(one, authority))
+            put = self.buffer.set_transform
+            accepted = tuple([one for one in sent if put(one, authority)])
             if accepted:
-                self.tf.publish(TransformMessage(accepted, authority))
+                self._publish_tf(accepted, authority)
         return len(accepted) == len(sent)
+
+    def _publish_tf(self, transforms: tuple[TransformStamped, ...], authority: str) -> None:
+        tf = self.tf
+        if tf.readers or tf.relay is not None:
+            tf.tell(TransformMessage(transforms, authority))
+        else:
+            tf.tell(Unmade((transforms, authority), _transform_message))
 
     def receive_static(
         self, transforms: Iterable[TransformStamped], authority: str
