@@ -72,6 +72,7 @@ def test_what_one_node_has_can_be_asked_by_its_name(node):
     assert node.get_publisher_names_and_types_by_node(*ask) == [
         ("/parameter_events", ["rcl_interfaces/msg/ParameterEvent"]),
         ("/robot/said", string),
+        ("/rosout", ["rcl_interfaces/msg/Log"]),
     ]
     assert node.get_subscriber_names_and_types_by_node(*ask) == [("/heard", string)]
     assert node.get_service_names_and_types_by_node(*ask) == [("/robot/go", trigger)]
@@ -126,7 +127,11 @@ def test_the_graph_can_be_asked(node):
     assert node.count_publishers("numbers") == node.count_subscribers("numbers") == 1
     assert node.count_subscribers("nothing") == 0
     assert "/probe/set_parameters" in dict(node.get_service_names_and_types())
-    assert [one.topic_name for one in node.publishers] == ["/parameter_events", "/numbers"]
+    assert [one.topic_name for one in node.publishers] == [
+        "/parameter_events",
+        "/rosout",
+        "/numbers",
+    ]
     assert [one.topic_name for one in node.subscriptions] == ["/numbers"]
     assert list(node.clients) == []
     assert len(list(node.services)) == 6

@@ -63,7 +63,11 @@ def test_a_parameter_without_a_value_cannot_be_read(node):
 
 
 def test_wrong_declarations_and_accesses_are_refused(node):
-    from rclpy.exceptions import ParameterAlreadyDeclaredException, ParameterNotDeclaredException
+    from rclpy.exceptions import (
+        InvalidParameterException,
+        ParameterAlreadyDeclaredException,
+        ParameterNotDeclaredException,
+    )
     from rclpy.parameter import Parameter
 
     node.declare_parameter("speed", 1.0)
@@ -73,8 +77,16 @@ def test_wrong_declarations_and_accesses_are_refused(node):
         node.set_parameters([Parameter("sped", value=1.0)])
     with pytest.raises(ParameterNotDeclaredException):
         node.describe_parameter("gone")
-    with pytest.raises(TypeError):
+    with pytest.raises(InvalidParameterException):
         node.declare_parameter("", 1)
+    with pytest.raises(TypeError, match="a string, not int"):
+        node.declare_parameter(1, 1)
+    with pytest.raises(TypeError, match="must be a ParameterDescriptor, not str"):
+        node.declare_parameter("described", 1, "what it is for")
+    with pytest.raises(TypeError, match="list of strings"):
+        node.list_parameters("speed", 0)
+    with pytest.raises(TypeError, match="an integer, not float"):
+        node.list_parameters([], 0.5)
     with pytest.raises(TypeError, match="not one of the allowed types"):
         node.declare_parameter("mixed", [1, "a"])
     with pytest.raises(ValueError, match="do not agree"):

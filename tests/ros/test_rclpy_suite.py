@@ -268,3 +268,130 @@ def test_a_parameter_without_a_value_gives_way_to_an_alternative(node):
         parameter_value_to_python(ParameterValue(type=42))
     with pytest.warns(UserWarning, match="'y' is declared by its name alone"):
         node.declare_parameters("", [("y",)])
+
+
+def test_who_spins_a_multithreaded_executor_calls_no_callback_itself(ros_runtime):
+    import rclpy
+    from rclpy.callback_groups import ReentrantCallbackGroup
+    from rclpy.executors import MultiThreadedExecutor
+    from rclpy.task import Future
+    from std_msgs.msg import Empty
+
+    rclpy.init()
+    node = rclpy.create_node("probe")
+    executor = MultiThreadedExecutor(num_threads=2)
+    executor.add_node(node)
+    begun, ended, heard = Future(), Future(), []
+
+    def long(message):
+        begun.set_result(None)
+        for _ in range(50):
+            ros_runtime.sleep(0.1)
+            if heard:
+                break
+        ended.set_result(bool(heard))
+
+    group = ReentrantCallbackGroup()
+    node.create_subscription(Empty, "long", long, 1, callback_group=group)
+    node.create_subscription(Empty, "short", heard.append, 1, callback_group=group)
+    node.create_publisher(Empty, "long", 1).publish(Empty())
+    executor.spin_until_future_complete(begun)
+    node.create_publisher(Empty, "short", 1).publish(Empty())
+    executor.spin_until_future_complete(ended)
+
+    assert ended.result()
+
+
+def test_wait_for_message_and_a_call_work_on_a_context_of_their_own(ros_runtime):
+    import rclpy
+    from rclpy.context import Context
+    from rclpy.wait_for_message import wait_for_message
+    from std_msgs.msg import Int32
+
+    context = Context()
+    rclpy.init(context=context)
+    node = rclpy.create_node("probe", context=context)
+
+    def publish():
+        publisher = node.create_publisher(Int32, "number", 1)
+        while not node.count_subscribers("number"):
+            ros_runtime.sleep(0.1)
+        publisher.publish(Int32(data=7))
+
+    ros_runtime.start(publish)
+
+    found, message = wait_for_message(Int32, node, "number", time_to_wait=10.0)
+
+    assert (found, message.data) == (True, 7)
+
+
+def test_the_end_of_a_context_or_of_a_rate_wakes_who_sleeps_by_it(ros_runtime):
+    import rclpy
+    from rclpy.clock import Clock
+    from rclpy.context import Context
+    from rclpy.duration import Duration
+    from rclpy.exceptions import ROSInterruptException
+
+    context = Context()
+    rclpy.init(context=context)
+    node = rclpy.create_node("probe", context=context)
+    slow, slower = node.create_rate(1e-6), node.create_rate(1e-6)
+    ends = {}
+
+    def sleep(name, wait):
+        def body():
+            try:
+                ends[name] = wait()
+            except ROSInterruptException:
+                ends[name] = "interrupted"
+
+        ros_runtime.start(body)
+
+    sleep("clock", lambda: Clock().sleep_for(Duration(seconds=1e6), context=context))
+    sleep("destroyed", slow.sleep)
+    sleep("shut down", slower.sleep)
+    ros_runtime.sleep(1.0)
+    assert node.destroy_rate(slow)
+    assert not node.destroy_rate(slow)
+    rclpy.shutdown(context=context)
+    ros_runtime.sleep(1.0)
+
+    assert ends == {"clock": False, "destroyed": None, "shut down": "interrupted"}
+    with pytest.raises(RuntimeError, match="destroyed"):
+        slow.sleep()
+
+
+def test_two_services_of_one_name_are_counted(node):
+    from std_srvs.srv import Trigger
+
+    node.create_service(Trigger, "ask", lambda request, response: response)
+    second = node.create_service(Trigger, "ask", lambda request, response: response)
+    assert node.count_services("ask") == 2
+    node.destroy_service(second)
+    assert node.count_services("ask") == 1
+
+
+def test_a_parameter_without_a_value_is_answered_with_no_values(node):
+    from rcl_interfaces.srv import GetParameters
+    from rclpy.parameter import Parameter
+
+    node.declare_parameter("unset", Parameter.Type.STRING)
+    node.declare_parameter("set", 3)
+    client = node.create_client(GetParameters, "probe/get_parameters")
+
+    def values(*names):
+        return client.call(GetParameters.Request(names=names), timeout_sec=5.0).values
+
+    assert [one.integer_value for one in values("set")] == [3]
+    assert values("set", "unset") == values("set", "gone") == []
+
+
+def test_what_is_no_text_is_no_argument(ros_runtime):
+    import rclpy
+    from rclpy.signals import SignalHandlerOptions, get_current_signal_handlers_options
+
+    with pytest.raises(UnicodeEncodeError):
+        rclpy.init(args=["node.py", "Ragnar\udcc3k"])
+    assert get_current_signal_handlers_options() == SignalHandlerOptions.NO
+    rclpy.init()
+    assert get_current_signal_handlers_options() == SignalHandlerOptions.ALL

@@ -71,5 +71,5 @@ def test_a_rate_paces_a_loop(node, ros_runtime):
 
     assert ros_runtime.elapsed() == 2.0
     rate.destroy()
-    with pytest.raises(Exception, match="shutdown"):
+    with pytest.raises(Exception, match="destroyed"):
         rate.sleep()

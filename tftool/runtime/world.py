@@ -341,6 +341,11 @@ class World:
         """Whether any node answers that service."""
         return name.removeprefix("/") in self._services
 
+    def count_services(self, name: str) -> int:
+        """How many nodes here would answer that service in turn; another process counts as one."""
+        plain = name.removeprefix("/")
+        return self.has_service(plain) + len(self._waiting.get(f"service {plain}", ()))
+
     def services(self) -> Mapping[str, Offer[Handler]]:
         """Every service by its name, read-only."""
         return MappingProxyType(self._services)

@@ -97,6 +97,7 @@ rclpy.qos: rclpy.qos: qos_profile_unknown qos_profile_best_available QoSPolicyKi
 rclpy.qos: rclpy.qos: qos_profile_sensor_data qos_profile_services_default
 rclpy.qos: rclpy.qos: qos_check_compatible QoSCompatibility
 rclpy.qos: rclpy.qos: qos_profile_parameters qos_profile_parameter_events
+rclpy.qos: rclpy.qos: qos_profile_rosout_default
 rclpy.qos: rclpy.qos: qos_profile_action_status_default
 rclpy.action: rclpy.action_client: ActionClient
 rclpy.action: rclpy.action_server: ActionServer GoalResponse CancelResponse
@@ -119,7 +120,7 @@ rclpy.lifecycle.node: rclpy.lifecycle: TransitionCallbackReturn
 rclpy.lifecycle.publisher: rclpy.lifecycle: LifecyclePublisher
 rclpy.lifecycle.managed_entity: rclpy.lifecycle: ManagedEntity SimpleManagedEntity
 rclpy.serialization: rclpy.serialization: serialize_message deserialize_message
-rclpy.signals: rclpy.signals: SignalHandlerOptions
+rclpy.signals: rclpy.signals: SignalHandlerOptions get_current_signal_handlers_options
 rclpy.utilities: rclpy.utilities: remove_ros_args ok get_default_context timeout_sec_to_nsec
 rclpy.utilities: rclpy.utilities: get_rmw_implementation_identifier shutdown try_shutdown
 rclpy.expand_topic_name: rclpy.validation: expand_topic_name

@@ -50,6 +50,7 @@ class RosOptions:
         remaps: Rules for topics, services and actions, the first that fits counts.
         parameters: (node pattern, name, value), later ones win.
         levels: Log levels by logger; "" is everybody's.
+        logs_to_rosout: Whether what nodes log is published on `/rosout`.
     """
 
     name: str | None = None
@@ -57,6 +58,7 @@ class RosOptions:
     remaps: list[Remap] = field(default_factory=list)
     parameters: list[tuple[str, str, Any]] = field(default_factory=list)
     levels: dict[str, str] = field(default_factory=dict)
+    logs_to_rosout: bool = True
 
     def parameters_for(self, name: str, namespace: str) -> dict[str, Any]:
         """The values given for a node, by parameter."""
@@ -230,6 +232,8 @@ _FLAGS = ("stdout-logs", "rosout-logs", "external-lib-logs")
 
 def _take(options: RosOptions, word: str, words: Iterable[str]) -> None:
     if word.startswith(("--enable-", "--disable-")) and word.endswith(_FLAGS):
+        if word.endswith("-rosout-logs"):
+            options.logs_to_rosout = word.startswith("--enable-")
         return
     known = _OPTIONS.get(word)
     if known is None:

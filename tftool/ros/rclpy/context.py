@@ -34,9 +34,12 @@ class Context:
         Raises:
             RuntimeError: If it has been started, or the domain is negative.
             UsageError: If what follows `--ros-args` is malformed.
+            UnicodeEncodeError: If an argument is no text.
         """
         if self._valid:
             raise RuntimeError("Context.init() must only be called once")
+        for word in args or ():
+            word.encode()  # as in ROS 2, what is no text is refused
         if args is not None and "--ros-args" in args and list(args) != self._program.argv:
             self.options, _ = names.parse(list(args))
         if domain_id is not None and domain_id < 0:
@@ -68,16 +71,17 @@ class Context:
         callbacks, self._on_shutdown = self._on_shutdown, []
         for callback in callbacks:
             callback()
-        for listener in self._listeners:
+        for listener in list(self._listeners):
             listener()
 
     def on_shutdown(self, callback: Callable[[], object]) -> None:
         """Have `callback` called at the end."""
         self._on_shutdown.append(callback)
 
-    def on_change(self, callback: Callable[[], object]) -> None:
-        """Have an executor told of the end."""
+    def on_change(self, callback: Callable[[], object]) -> Callable[[], None]:
+        """Have what waits told of the end; call what is returned to be told no more."""
         self._listeners.append(callback)
+        return lambda: self._listeners.remove(callback)
 
     def get_domain_id(self) -> int:
         """The domain it was started with, else ROS 2's default domain, 0.

@@ -172,14 +172,12 @@ class Executor:
             self._advance(self._tasks.popleft(), None)
             return True
         found = self._program.ask(lambda: self._next(deadline, future))
-        if self._failure is not None:
-            failure, self._failure = self._failure, None
-            raise failure
+        self._raise_failure()
         if found is None:
             self._program.looked_in_vain()
             return False
         entity, work = found
-        group = entity.callback_group
+        group = None if entity.passes_busy_group else entity.callback_group
         try:
             value = work()
         except BaseException:
@@ -190,6 +188,12 @@ class Executor:
         else:
             self._release(group)
         return True
+
+    def _raise_failure(self) -> None:
+        """Raise what has ended another thread of this executor."""
+        failure, self._failure = self._failure, None
+        if failure is not None:
+            raise failure
 
     def _release(self, group: Any) -> None:
         if group is not None:
@@ -223,9 +227,9 @@ class Executor:
     # On the loop's thread.
 
     async def _next(
-        self, deadline: Stamp | None, future: Future | None
+        self, deadline: Stamp | None, future: Future | None, takes: bool = True
     ) -> tuple[NodeEntity, Work] | None:
-        """The next thing to do; None when there is another reason to look up."""
+        """The next thing to do, if something is to be taken; None for a reason to look up."""
         clock = self._program.clock
         if self._finished:
             self._finished.clear()
@@ -235,11 +239,11 @@ class Executor:
             waker: asyncio.Future[None] = asyncio.get_running_loop().create_future()
             self._wakers.append(waker)
             try:
-                found = self._take()
+                found = self._take() if takes else None
                 if found is not None:
                     return found
                 if (
-                    self._tasks
+                    (takes and self._tasks)
                     or self._over
                     or self._failure is not None
                     or not self._context.ok()
@@ -247,7 +251,7 @@ class Executor:
                     or (deadline is not None and deadline <= clock.now())
                 ):
                     return None
-                due = self._due()
+                due = self._due() if takes else None
                 if deadline is not None and (due is None or deadline < due):
                     due = deadline
                 await self._pause(waker, due)
@@ -261,7 +265,7 @@ class Executor:
             while self._batch:
                 entity = self._batch.popleft()
                 if self._is_ready(entity):
-                    if entity.callback_group is not None:
+                    if entity.callback_group is not None and not entity.passes_busy_group:
                         entity.callback_group.beginning_execution(entity)
                     return entity, entity.take()
         return None
@@ -334,40 +338,62 @@ class SingleThreadedExecutor(Executor):
 
 
 class MultiThreadedExecutor(Executor):
-    """Several callbacks at a time, as far as their groups allow, each on a fiber of its own."""
+    """Several callbacks at a time, as far as their groups allow, each on a fiber of its own.
+
+    Who spins calls none of them itself: as in ROS 2, a callback that takes long keeps
+    `spin_until_future_complete` from returning no longer than its future does.
+    """
 
     def __init__(self, num_threads: int | None = None, *, context: Context | None = None) -> None:
         super().__init__(context=context)
         self._threads = max(1, num_threads or THREADS)
         self._workers = 0
+        self._let_go: Future | None = None
+        """Done when nobody spins any more; None while nobody does."""
 
     def spin(self) -> None:
         """Serve until shutdown."""
-        self._hire()
-        super().spin()
+        self._lead(Future(), None)
 
     def spin_until_future_complete(self, future: Future, timeout_sec: float | None = None) -> None:
         """Serve until a future is done, or the time is up."""
-        self._hire()
-        super().spin_until_future_complete(future, timeout_sec)
+        if self._let_go is not None:
+            # A callback waits: it may be what the last of the threads is busy with.
+            super().spin_until_future_complete(future, timeout_sec)
+        else:
+            self._lead(future, self._deadline(timeout_sec))
 
-    def _hire(self) -> None:
+    def _lead(self, future: Future, deadline: Stamp | None) -> None:
+        """Have the workers serve until a future is done."""
+        future.add_done_callback(lambda _: self._wake_from_anywhere())
+        let_go = self._let_go = Future()
+        self._program.ask(lambda: self._hire(let_go))
+        try:
+            while not (future.done() or future.cancelled() or self._late(deadline)):
+                if not self._context.ok() or self._over:
+                    return
+                self._program.ask(lambda: self._next(deadline, future, takes=False))
+                self._raise_failure()
+        finally:
+            self._let_go = None
+            let_go.set_result(None)
+
+    def _hire(self, let_go: Future) -> None:
         def work() -> None:
             try:
-                Executor.spin(self)
+                Executor.spin_until_future_complete(self, let_go)
             except KeyboardInterrupt:
                 pass
             except BaseException as error:
                 self._failure = error
+            finally:
+                self._workers -= 1
                 self._program.ask(self.wake)
 
-        def start() -> None:
-            while self._workers < self._threads - 1:
-                self._workers += 1
-                name = f"{self._program.name}#{self._workers}"
-                self._program.start_fiber(self._program.new_fiber(name, work))
-
-        self._program.ask(start)
+        for number in range(self._workers, self._threads):
+            self._workers += 1
+            name = f"{self._program.name}#{number + 1}"
+            self._program.start_fiber(self._program.new_fiber(name, work))
 
 
 def executor_of(owner: "program.Program") -> Executor:
@@ -380,6 +406,8 @@ def executor_of(owner: "program.Program") -> Executor:
 def wait_for(seat: NodeSeat, future: Future, timeout_sec: float | None) -> None:
     """Block until a future is done, serving the node meanwhile if no executor does."""
     executor = seat.executor or executor_of(seat.program)
+    if seat.executor is None and executor.context is not seat.context:
+        executor = SingleThreadedExecutor(context=seat.context)
     added = executor.serve(seat)
     try:
         executor.spin_until_future_complete(future, timeout_sec)

@@ -21,7 +21,9 @@ class CallbackGroup:
         raise NotImplementedError
 
     def beginning_execution(self, entity: Any) -> bool:
-        """Note that a callback starts."""
+        """Note that a callback starts; False where it must not, while another is in progress."""
+        if not self.can_execute(entity):
+            return False
         self.busy += 1
         return True
 

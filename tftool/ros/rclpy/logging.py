@@ -4,6 +4,7 @@ import inspect
 import os
 from enum import IntEnum
 from pathlib import Path
+from types import CodeType, FrameType
 from typing import Any
 
 from tftool.ros.host import program
@@ -30,7 +31,7 @@ class RcutilsLogger:
 
     def __init__(self, name: str = "") -> None:
         self.name = name
-        self._filters: dict[tuple[str, int, int], _Filter] = {}
+        self._calls: dict[tuple[CodeType, int] | None, _Call] = {}
 
     def get_child(self, name: str) -> "RcutilsLogger":
         """A logger named below this one.
@@ -54,7 +55,7 @@ class RcutilsLogger:
             if levels.get(name):
                 return LoggingSeverity(levels[name])
             name = name.rpartition(".")[0]
-        return LoggingSeverity(levels.get("") or LoggingSeverity.INFO)
+        return LoggingSeverity(levels.get("", LoggingSeverity.INFO))
 
     def is_enabled_for(self, severity: int) -> bool:
         """Whether a line of that level would be said."""
@@ -75,21 +76,44 @@ class RcutilsLogger:
 
         `once`, `skip_first` and `throttle_duration_sec` count per call in the code, and hold
         together: with two of them a line must pass both.
+
+        Raises:
+            ValueError: If one call in the code asks for another level, name or filter than
+                before: in ROS 2 it must not.
         """
         owner = program.running()
-        if owner is None or not self.is_enabled_for(severity):
+        if owner is None:
             return False
-        if once or skip_first or throttle_duration_sec:
-            place = _caller()
-            if place not in self._filters:
-                wait = 0 if throttle_duration_sec is None else seconds(throttle_duration_sec)
-                self._filters[place] = _Filter(once, skip_first, wait)
-            if not self._filters[place].passes(owner.clock.now()):
-                return False
+        frame = _caller_frame()
+        wait = 0 if throttle_duration_sec is None else seconds(throttle_duration_sec)
+        call = self._called(frame, int(severity), name or self.name, (once, skip_first, wait))
+        if not self.is_enabled_for(severity) or not call.passes(owner.clock.now()):
+            return False
         level = _LEVELS[int(severity)]
         speaker = name or self.name
-        owner.ask(lambda: owner.say(level, speaker, str(message)))
+        text = str(message)
+
+        def say() -> None:
+            owner.say(level, speaker, text)
+            rosout = _rosout_of(owner, speaker)
+            if rosout is not None:
+                rosout.tell(int(severity), speaker, text, place)
+
+        place = _place(frame)
+        owner.ask(say)
         return True
+
+    def _called(
+        self, frame: FrameType | None, severity: int, name: str, settings: tuple[bool, bool, int]
+    ) -> "_Call":
+        """One call in the code, as it was made before."""
+        # The last tells two calls on one line apart.
+        place = (frame.f_code, frame.f_lasti) if frame is not None else None
+        call = self._calls.get(place)
+        if call is None:
+            call = self._calls[place] = _Call(severity, name, settings)
+        call.require(severity, name, settings)
+        return call
 
     def debug(self, message: object, **kwargs: Any) -> bool:
         """Log something that helps to find a fault."""
@@ -114,14 +138,31 @@ class RcutilsLogger:
         return self.log(message, LoggingSeverity.FATAL, **kwargs)
 
 
-class _Filter:
-    """What one call in the code has let through so far."""
+class _Call:
+    """One call in the code: how it logs, and what it has let through so far."""
 
-    def __init__(self, once: bool, skip_first: bool, throttle: Duration) -> None:
+    def __init__(self, severity: int, name: str, settings: tuple[bool, bool, Duration]) -> None:
+        self._severity = severity
+        self._name = name
+        self._settings = settings
+        once, skip_first, throttle = settings
         self._left = 1 if once else None
         self._skip = skip_first
         self._throttle = throttle
         self._last: Stamp | None = None
+
+    def require(self, severity: int, name: str, settings: tuple[bool, bool, Duration]) -> None:
+        """See that it logs as before.
+
+        Raises:
+            ValueError: If it does not.
+        """
+        if severity != self._severity:
+            raise ValueError("Logger severity cannot be changed between calls.")
+        if name != self._name:
+            raise ValueError("Logger name cannot be changed between calls.")
+        if settings != self._settings:
+            raise ValueError("Logging filter parameters cannot be changed between calls.")
 
     def passes(self, now: Stamp) -> bool:
         """Whether a line may be said now; asked in ROS 2's order, so it counts as there."""
@@ -138,14 +179,28 @@ class _Filter:
         return True
 
 
-def _caller() -> tuple[str, int, int]:
+def _rosout_of(owner: program.Program, logger: str) -> Any:
+    """What publishes a logger's lines: that of the node whose logger is the nearest above it."""
+    told = [seat.rosout for seat in owner.nodes if seat.rosout is not None]
+    return max((one for one in told if one.speaks_for(logger)), key=_depth, default=None)
+
+
+def _depth(rosout: Any) -> int:
+    return len(rosout.logger)
+
+
+def _caller_frame() -> FrameType | None:
     frame = inspect.currentframe()
     while frame is not None and frame.f_code.co_filename == __file__:
         frame = frame.f_back
+    return frame
+
+
+def _place(frame: FrameType | None) -> tuple[str, str, int]:
+    """File, function and line of who logs."""
     if frame is None:
-        return "", 0, 0
-    # The last tells two calls on one line apart.
-    return frame.f_code.co_filename, frame.f_lineno, frame.f_lasti
+        return "", "", 0
+    return frame.f_code.co_filename, frame.f_code.co_name, frame.f_lineno
 
 
 _root_logger = RcutilsLogger()

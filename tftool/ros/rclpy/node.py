@@ -12,6 +12,7 @@ from tftool.ros.rclpy.context import Context, context_of
 from tftool.ros.rclpy.entities import GuardCondition, NodeEntity
 from tftool.ros.rclpy.exceptions import NotInitializedException
 from tftool.ros.rclpy.groups import CallbackGroup, MutuallyExclusiveCallbackGroup
+from tftool.ros.rclpy.logger_service import logger_services
 from tftool.ros.rclpy.logging import LoggingSeverity, RcutilsLogger
 from tftool.ros.rclpy.node_graph import NodeGraph
 from tftool.ros.rclpy.node_parameters import NodeParameters
@@ -19,6 +20,7 @@ from tftool.ros.rclpy.parameter_service import ServedParameters
 from tftool.ros.rclpy.qos import QoSProfile, profile_of
 from tftool.ros.rclpy.qos_events import EndpointWatch
 from tftool.ros.rclpy.qos_overriding_options import declare_overrides
+from tftool.ros.rclpy.rosout import RosoutPublisher
 from tftool.ros.rclpy.seat import NodeSeat
 from tftool.ros.rclpy.services import Client, Service, serve_own
 from tftool.ros.rclpy.time import Clock, Rate, ROSClock
@@ -73,8 +75,15 @@ class Node(NodeGraph, NodeParameters):
             automatically_declare_parameters_from_overrides,
             parameter_events.teller(self._tftool),
         )
+        if enable_rosout and options.logs_to_rosout:
+            seat = self._tftool
+            seat.rosout = seat.keep(
+                lambda: RosoutPublisher(seat, self._logger.name, rosout_qos_profile)
+            )
         if start_parameter_services:
             serve_own(self, parameter_services(ServedParameters(self)))
+        if enable_logger_service:
+            serve_own(self, logger_services())
 
     if not TYPE_CHECKING:  # to a type checker, every name would be one
 
@@ -267,7 +276,17 @@ class Node(NodeGraph, NodeParameters):
 
     def create_rate(self, frequency: float, clock: Clock | None = None) -> Rate:
         """Something to pace a loop with."""
-        return Rate(frequency, self._tftool.program, lambda rate: None)
+        rate = Rate(frequency, self._tftool.program, self._context)
+        self._tftool.rates.add(rate)
+        return rate
+
+    def destroy_rate(self, rate: Rate) -> bool:
+        """Give a rate up; whether it was one of this node."""
+        if rate not in self._tftool.rates:
+            return False
+        self._tftool.rates.remove(rate)
+        rate.destroy()
+        return True
 
     def __keep(self, make: Callable[[], E]) -> E:
         kept: E = self._tftool.keep(make)
@@ -277,7 +296,7 @@ class Node(NodeGraph, NodeParameters):
         return self._tftool.forget(entity)
 
     destroy_publisher = destroy_subscription = destroy_timer = __destroy
-    destroy_client = destroy_service = destroy_guard_condition = destroy_rate = __destroy
+    destroy_client = destroy_service = destroy_guard_condition = __destroy
 
     def destroy_node(self) -> None:
         """Withdraw everything."""

@@ -119,9 +119,9 @@ class NodeGraph:
                 yield name, interface_name(offer.kind)
 
     def count_services(self, service_name: str) -> int:
-        """How many serve a service: one or none."""
+        """How many serve a service; of another process's, one or none."""
         full = self._tftool.full(service_name, is_service=True)
-        return int(self.__look(lambda: self._tftool.world.has_service(full)))
+        return self.__look(lambda: self._tftool.world.count_services(full))
 
     def count_clients(self, service_name: str) -> int:
         """How many ROS nodes of this process have a client of a service."""

@@ -18,6 +18,7 @@ from tftool.ros.rclpy.exceptions import (
 )
 from tftool.ros.rclpy.parameters import Parameter
 from tftool.ros.rclpy.parameters import ParameterType as Type
+from tftool.ros.rclpy.validation import validate_parameter_name
 
 Setter = Callable[[list[Parameter]], Any]
 
@@ -102,16 +103,24 @@ class NodeParameters:
     def __declare_one(
         self, name: str, value: Any, descriptor: Any, ignore_override: bool
     ) -> Parameter:
-        if not isinstance(name, str) or not name:
-            raise TypeError("a parameter's name must be a non-empty string")
+        if not isinstance(name, str):
+            raise TypeError(f"a parameter's name must be a string, not {type(name).__name__}")
+        validate_parameter_name(name)
         if name in self._parameters:
             raise ParameterAlreadyDeclaredException(name)
+        kind_of_descriptor: Any = INTERFACES.message("rcl_interfaces/ParameterDescriptor")
         if descriptor is None:
-            descriptor = INTERFACES.message("rcl_interfaces/ParameterDescriptor")()
-        if isinstance(value, INTERFACES.message("rcl_interfaces/ParameterValue")):
-            raise ValueError(
-                "a ParameterValue declares nothing: give its value, or a Parameter.Type"
+            descriptor = kind_of_descriptor()
+        if not isinstance(descriptor, kind_of_descriptor):
+            raise TypeError(
+                f"a descriptor must be a ParameterDescriptor, not {type(descriptor).__name__}"
             )
+        if isinstance(value, INTERFACES.message("rcl_interfaces/ParameterValue")):
+            if not descriptor.dynamic_typing:
+                raise ValueError(
+                    "a ParameterValue declares nothing: give its value, or a Parameter.Type"
+                )
+            value = value_of(value)
         if isinstance(value, Type):
             kind, value = value, None
         elif isinstance(value, Parameter):
@@ -212,7 +221,16 @@ class NodeParameters:
         """The names below some prefixes, all without one.
 
         `depth` is how many levels below the prefix to list, 0 for all.
+
+        Raises:
+            TypeError: If the prefixes are no list or tuple of strings, or the depth no integer.
         """
+        if not isinstance(prefixes, (list, tuple)) or not all(
+            isinstance(one, str) for one in prefixes
+        ):
+            raise TypeError("the prefixes must be a list of strings")
+        if not isinstance(depth, int):
+            raise TypeError(f"the depth must be an integer, not {type(depth).__name__}")
         return list_result(self._parameters, prefixes, depth)
 
     def __known(self, name: str) -> None:

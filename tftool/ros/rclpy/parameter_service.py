@@ -3,7 +3,10 @@
 from collections.abc import Sequence
 from typing import Any
 
-from tftool.ros.rclpy.exceptions import ParameterNotDeclaredException
+from tftool.ros.rclpy.exceptions import (
+    ParameterNotDeclaredException,
+    ParameterUninitializedException,
+)
 from tftool.ros.rclpy.node_parameters import NodeParameters, set_result
 from tftool.ros.rclpy.parameters import Parameter
 
@@ -18,8 +21,11 @@ class ServedParameters:
         self._node = node
 
     def values(self, names: Sequence[str]) -> list[Any]:
-        """A ParameterValue for each name."""
-        return [self._node.get_parameter_or(name).get_parameter_value() for name in names]
+        """A ParameterValue for each name; none at all where one has no value, as in ROS 2."""
+        try:
+            return [one.get_parameter_value() for one in self._node.get_parameters(list(names))]
+        except (ParameterNotDeclaredException, ParameterUninitializedException):
+            return []
 
     def descriptors(self, names: Sequence[str]) -> list[Any]:
         """A ParameterDescriptor for each name that is known."""

@@ -32,6 +32,8 @@ class NodeSeat:
         ros_node: The node as the user holds it.
         executor: The executor that serves it, None while none does.
         was_served: Whether an executor has ever served it.
+        rosout: Publishes what its loggers say, None while nothing does.
+        rates: What paces its loops.
         entities: What can become ready, in the order it was made.
         authority: Who its transforms come from.
     """
@@ -54,6 +56,8 @@ class NodeSeat:
         self.ros_node = ros_node
         self.executor: Any = None
         self.was_served = False
+        self.rosout: Any = None
+        self.rates: set[Any] = set()
         self.entities: list[Any] = []
         self._destroyed = False
         self._node: ProgramNode = program.ask(self._join)

@@ -2,6 +2,9 @@
 
 from enum import IntEnum
 
+from tftool.ros.host import program
+from tftool.ros.rclpy.context import context_of
+
 
 class SignalHandlerOptions(IntEnum):
     """Which signals rclpy would handle."""
@@ -10,3 +13,9 @@ class SignalHandlerOptions(IntEnum):
     ALL = 1
     SIGINT = 2
     SIGTERM = 3
+
+
+def get_current_signal_handlers_options() -> SignalHandlerOptions:
+    """Which signals are handled: ROS 2's answer, all while the context is started."""
+    started = context_of(program.current()).ok()
+    return SignalHandlerOptions.ALL if started else SignalHandlerOptions.NO

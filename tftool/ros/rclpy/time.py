@@ -1,6 +1,6 @@
 """rclpy's times, durations, clocks and rates, on the world's clock."""
 
-from collections.abc import Callable
+import asyncio
 from enum import IntEnum
 from typing import Any
 
@@ -211,18 +211,25 @@ class Clock:
         return Time(nanoseconds=self._program.now(), clock_type=self._clock_type)
 
     def sleep_until(self, until: Time, context: Any = None) -> bool:
-        """Block until a moment; False if the program was ended meanwhile."""
+        """Block until a moment; False if the program or the context was ended meanwhile."""
         if until.clock_type != self._clock_type:
             raise ValueError("until's clock type does not match this clock's type")
-        _require_started(context)
-        self._program.sleep(until.nanoseconds - self._program.clock.now())
-        return not self._program.interrupted
+        return self._sleep(until.nanoseconds - self._program.clock.now(), context)
 
     def sleep_for(self, rel_time: Duration, context: Any = None) -> bool:
-        """Block for a while; False if the program was ended meanwhile."""
+        """Block for a while; False if the program or the context was ended meanwhile."""
+        return self._sleep(rel_time.nanoseconds, context)
+
+    def _sleep(self, duration: int, context: Any) -> bool:
         _require_started(context)
-        self._program.sleep(rel_time.nanoseconds)
-        return not self._program.interrupted
+        sleep = _Sleep(self._program)
+        stop = None if context is None else context.on_change(sleep.end)
+        try:
+            sleep.start(duration)
+        finally:
+            if stop is not None:
+                stop()
+        return not self._program.interrupted and (context is None or context.ok())
 
     def create_jump_callback(
         self, threshold: "JumpThreshold", *, pre_callback: Any = None, post_callback: Any = None
@@ -238,6 +245,38 @@ class Clock:
 
     def __repr__(self) -> str:
         return f"Clock(clock_type={self._clock_type.name})"
+
+
+class _Sleep:
+    """A pause of a program, which others may end early."""
+
+    def __init__(self, owner: Any) -> None:
+        self._owner = owner
+        self._timers: set[asyncio.Future[None]] = set()
+
+    def start(self, duration: int) -> None:
+        """Block for a while."""
+        if not self._owner.interrupted:
+            self._owner.ask(lambda: self._wait(max(0, duration)))
+
+    async def _wait(self, duration: int) -> None:
+        owner = self._owner
+        timer = owner.clock.timer(owner.clock.now() + duration, owner.turn, owner.rank)
+        self._timers.add(timer)
+        try:
+            await asyncio.wait({timer})
+        finally:
+            self._timers.discard(timer)
+            timer.cancel()
+
+    def end(self) -> None:
+        """Wake everybody."""
+
+        def wake() -> None:
+            for timer in list(self._timers):
+                timer.cancel()
+
+        self._owner.ask(wake)
 
 
 def _require_started(context: Any) -> None:
@@ -311,26 +350,42 @@ class JumpHandle:
 class Rate:
     """Sleeps so that a loop runs so many times a second."""
 
-    def __init__(self, frequency: float, owner: Any, destroy: Callable[["Rate"], object]) -> None:
+    def __init__(self, frequency: float, owner: Any, context: Any) -> None:
         if frequency <= 0:
             raise ValueError("frequency must be greater than 0")
         self._period = int(S_TO_NS / frequency)
         self._program = owner
         self._due = owner.clock.now() + self._period
-        self._destroy = destroy
+        self._context = context
+        self._sleep = _Sleep(owner)
+        self._stop = context.on_change(self._sleep.end)
         self._over = False
 
     def sleep(self) -> None:
-        """Block until the next moment of the grid."""
-        if self._over or self._program.interrupted:
-            raise ROSInterruptException
+        """Block until the next moment of the grid.
+
+        Raises:
+            ROSInterruptException: If the context is shut down, before or meanwhile.
+            RuntimeError: If the rate is destroyed.
+        """
+        if self._over:
+            raise RuntimeError("a rate that is destroyed cannot sleep")
+        self._require_context()
         now = self._program.clock.now()
         if self._due < now:
             self._due += -(-(now - self._due) // self._period) * self._period
-        self._program.sleep(self._due - now)
+        self._sleep.start(self._due - now)
+        if not self._over:
+            self._require_context()
         self._due += self._period
 
+    def _require_context(self) -> None:
+        if not self._context.ok():
+            raise ROSInterruptException
+
     def destroy(self) -> None:
-        """Give it up."""
-        self._over = True
-        self._destroy(self)
+        """Give it up, and wake who sleeps."""
+        if not self._over:
+            self._over = True
+            self._stop()
+            self._sleep.end()

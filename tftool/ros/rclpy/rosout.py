@@ -1,0 +1,49 @@
+"""A node's log on `/rosout`, for whoever listens there."""
+
+from typing import Any
+
+from tftool.interfaces.classes import INTERFACES
+from tftool.ros.host import values
+from tftool.ros.rclpy.qos import QoSProfile, qos_profile_rosout_default
+from tftool.ros.rclpy.seat import NodeSeat
+from tftool.ros.rclpy.topics import Publisher
+
+TOPIC = "rosout"
+
+
+class RosoutPublisher(Publisher):
+    """Publishes what the loggers of one node say.
+
+    Attributes:
+        logger: The name of the node's logger.
+    """
+
+    def __init__(self, seat: NodeSeat, logger: str, profile: QoSProfile | None) -> None:
+        """Publish from now on.
+
+        Args:
+            seat: The node's.
+            logger: The name of the node's logger; those of its children begin with it.
+            profile: How to publish, None as ROS 2 does.
+        """
+        kind: Any = INTERFACES.message("rcl_interfaces/Log")
+        super().__init__(seat, kind, f"/{TOPIC}", TOPIC, profile or qos_profile_rosout_default)
+        self.logger = logger
+
+    def speaks_for(self, logger: str) -> bool:
+        """Whether a logger is the node's, or below it."""
+        return logger == self.logger or logger.startswith(f"{self.logger}.")
+
+    def tell(self, level: int, logger: str, text: str, place: tuple[str, str, int]) -> None:
+        """Publish a line (on the loop's thread); `place` is its file, function and number."""
+        file, function, line = place
+        message = self.msg_type(
+            stamp=values.time_message(self.seat.now()),
+            level=level,
+            name=logger,
+            msg=text,
+            file=file,
+            function=function,
+            line=line,
+        )
+        self._send(message)
