@@ -19,14 +19,14 @@ MOST_STROKES: Final = 2000
 """In one answer; the next one has the next."""
 
 INTERFACES.add(
-    "tftool",
+    "tftool_interfaces",
     {
         ("srv", "Drawing"): "int64 began\nuint64 wipes\nuint64 drawn\n---\n"
         "int64 began\nuint64 wipes\nuint64 first\nuint64 drawn\nfloat32[] ends\nuint8[] pens\n"
     },
 )
 
-KIND: Final[Any] = INTERFACES.find("tftool", "srv", "Drawing")
+KIND: Final[Any] = INTERFACES.find("tftool_interfaces", "srv", "Drawing")
 """Asked: which sheet the asker has (when its simulator began, and how often it was wiped), and
 how many strokes of it. Told: which sheet there is, the strokes that follow from the `first` on
 (four numbers for the ends of each, then red, green, blue and width), and how many there are."""
