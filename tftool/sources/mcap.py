@@ -40,8 +40,12 @@ _STATISTICS: Final = 0x0B
 _DATA_END: Final = 0x0F
 
 _RECORD = struct.Struct("<BQ")
+_INDEX_HEAD = struct.Struct("<BQHI")
 _CHUNK_HEAD = struct.Struct("<QQQII")
 _MESSAGE_HEAD = struct.Struct("<HIQQ")
+_MESSAGE_RECORD = struct.Struct("<BQHIQ")
+_CHUNK_INDEX_HEAD = struct.Struct("<QQQQI")
+_SIZES = struct.Struct("<QQ")
 _U16, _U32, _U64 = struct.Struct("<H"), struct.Struct("<I"), struct.Struct("<Q")
 _ENTRY = struct.Struct("<HQ")
 
@@ -50,6 +54,8 @@ _FOOTER_SIZE = 37
 _LARGEST_SUMMARY = 1 << 30
 _SPARSE = 4096  # bytes that one message more is worth when reading them singly
 _BLOCK = 1 << 18
+_INDEX_AT_ONCE = 512
+_LARGEST_BATCH = 1 << 22  # bytes of messages that are read singly
 
 
 @dataclass(slots=True, eq=False)
@@ -174,7 +180,7 @@ class Mcap:
             elif code == _CHANNEL:
                 self._take_channel(summary[first:last])
             elif code == _CHUNK_INDEX:
-                chunks.append(_chunk_of_index(summary[first:last], size))
+                chunks.append(_chunk_of_index(summary, first, last, size))
             elif code == _STATISTICS:
                 has_statistics = True
                 (total,) = _U64.unpack_from(summary, first)
@@ -377,30 +383,37 @@ class Mcap:
         progress: Progress | None,
         head: int | None,
     ) -> Iterator[Batch]:
+        singly = _Singly(self._file, channels, head)
         for chunk, is_read in zip(self._chunks, read, strict=True):
+            batch = None
             if is_read:
                 try:
-                    batch = self._batch(chunk, chosen, channels, head, ahead)
+                    batch = self._batch(chunk, chosen, channels, singly, ahead)
                 except (InputError, struct.error) as error:
                     self._note(f"A chunk at byte {chunk.place} is damaged ({_reason(error)}).")
                     try:
                         batch = self._rest_of(chunk, channels)
                     except (InputError, struct.error) as worse:
                         self._note(f"A chunk at byte {chunk.place} is lost ({_reason(worse)}).")
-                        continue
-                if batch is not None and len(batch):
-                    yield batch
+            # What was read singly before it comes before it.
+            if singly.is_full or (batch is not None and len(singly)):
+                yield singly.taken()
+            if batch is not None and len(batch):
+                yield batch
             if progress is not None:
                 progress(chunk.place + chunk.packed, self.size)
+        if len(singly):
+            yield singly.taken()
 
     def _batch(
         self,
         chunk: _Chunk,
         chosen: set[int],
         channels: Indexes,
-        head: int | None,
+        singly: "_Singly",
         ahead: Ahead,
     ) -> Batch | None:
+        """A chunk's messages; None where there are none, or they were read singly."""
         if chunk.walked is not None:
             return self._rest_of(chunk, channels, ahead)
         parts = []
@@ -413,8 +426,9 @@ class Mcap:
             return None
         count = sum(len(pairs) for pairs, _ in parts)
         if chunk.method in ("", "none") and count * _SPARSE < chunk.packed:
-            places = np.sort(np.concatenate([pairs[:, 1] for pairs, _ in parts]))
-            return self._sparse(chunk.place + places, channels, head, chunk.place + chunk.packed)
+            places = sorted(place for pairs, _ in parts for place in pairs[:, 1].tolist())
+            singly.read(places, chunk.place, chunk.place + chunk.packed)
+            return None
         data = np.frombuffer(self._unpacked(chunk, ahead), dtype=np.uint8)
         found = [
             Batch(data, *_indexed(data, pairs, channel), np.full(len(pairs), channels[channel]))
@@ -463,47 +477,27 @@ class Mcap:
             return
         owners = np.frombuffer(self._loose.channels, dtype=np.uint16)
         places = np.frombuffer(self._loose.places, dtype=np.int64)[channels[owners] >= 0]
-        for begin in range(0, len(places), _SPARSE):
-            some = places[begin : begin + _SPARSE]
-            yield self._sparse(some, channels, head, self.size)
-            if progress is not None:
-                progress(int(some[-1]), self.size)
-
-    def _sparse(self, places: Stamps, channels: Indexes, head: int | None, end: int) -> Batch:
-        """Messages read one by one from where they lie in the file."""
-        pieces: list[bytes] = []
-        lengths, log_times, owners = array("q"), array("q"), array("H")
-        most = 1 << 62 if head is None else head + _IN_CHUNK
-        guess = 512
+        singly = _Singly(self._file, channels, head)
         for place in places.tolist():
-            piece = self._file.at(place, min(guess, end - place))
-            code, length = _RECORD.unpack_from(piece)
-            channel, _, log_time, _ = _MESSAGE_HEAD.unpack_from(piece, 9)
-            if code != _MESSAGE or length < 22 or place + 9 + length > end:
-                raise InputError("its message index points at something else")
-            whole = min(length + 9, most)
-            if whole > len(piece):
-                piece += self._file.at(place + len(piece), whole - len(piece))
-                guess = min(max(guess, whole + 64), 65_536)
-            pieces.append(piece[:whole])
-            lengths.append(whole - _IN_CHUNK)
-            log_times.append(min(log_time, LATEST_STAMP))
-            owners.append(channel)
-        sizes = np.frombuffer(lengths, dtype=np.int64)
-        starts = np.cumsum(sizes + _IN_CHUNK) - sizes
-        numbers = channels[np.frombuffer(owners, dtype=np.uint16)]
-        data = np.frombuffer(b"".join(pieces), dtype=np.uint8)
-        return Batch(data, starts, sizes, np.frombuffer(log_times, dtype=np.int64), numbers)
+            singly.read([place], 0, self.size)
+            if singly.is_full:
+                yield singly.taken()
+                if progress is not None:
+                    progress(place, self.size)
+        if len(singly):
+            yield singly.taken()
 
     def _pairs(self, channel: int, place: int) -> Stamps:
         """Log time and place of each message that a message index tells, shape (n, 2)."""
-        head = self._file.at(place, 15)
-        code, length = _RECORD.unpack_from(head)
-        (told,) = _U16.unpack_from(head, 9)
-        (count,) = _U32.unpack_from(head, 11)
+        # As a rule all of a short one at once.
+        head = self._file.up_to(place, _INDEX_AT_ONCE)
+        code, length, told, count = _INDEX_HEAD.unpack_from(head)
         if code != _MESSAGE_INDEX or told != channel or count > length - 6 or count % 16:
             raise InputError(f"no message index of its is at byte {place}")
-        return np.frombuffer(self._file.at(place + 15, count), dtype=np.int64).reshape(-1, 2)
+        if 15 + count > len(head):
+            head = head[:15] + self._file.at(place + 15, count)
+        pairs = np.frombuffer(head, dtype=np.int64, count=count // 8, offset=15)
+        return pairs.reshape(-1, 2)
 
     def _packed(self, chunk: _Chunk) -> Packed | None:
         """What of a chunk is unpacked ahead; nothing of one that is read in another way."""
@@ -531,6 +525,88 @@ class Mcap:
     def _note(self, damage: str) -> None:
         if damage not in self.damage and len(self.damage) < 20:
             self.damage.append(damage)
+
+
+class _Singly:
+    """Messages read one by one from where they lie in the file, until there are some."""
+
+    def __init__(self, file: File, channels: Indexes, head: int | None) -> None:
+        """Begin with none.
+
+        Args:
+            file: Where they lie.
+            channels: Of a channel the number of its stream.
+            head: If only so many bytes of each matter.
+        """
+        self._file = file
+        self._channels = channels
+        self._most = 1 << 62 if head is None else head + _IN_CHUNK
+        self._guess = 512
+        self._begin()
+
+    def _begin(self) -> None:
+        self._pieces: list[bytes] = []
+        self._bytes = 0
+        self._log_times = array("q")
+        self._owners = array("H")
+
+    def __len__(self) -> int:
+        return len(self._pieces)
+
+    @property
+    def is_full(self) -> bool:
+        """Whether they are to be taken before more are read."""
+        return len(self) >= _SPARSE or self._bytes >= _LARGEST_BATCH
+
+    def read(self, places: list[int], offset: int, end: int) -> None:
+        """Read messages.
+
+        Args:
+            places: Where they begin, counted from `offset`.
+            offset: A place in the file.
+            end: Another one, which none of them goes beyond.
+
+        Raises:
+            InputError: If something else is there; none of these is taken then.
+        """
+        before = len(self)
+        try:
+            for place in places:
+                self._read(offset + place, end)
+        except (InputError, struct.error):
+            for column in (self._pieces, self._log_times, self._owners):
+                del column[before:]
+            self._bytes = sum(map(len, self._pieces))
+            raise
+
+    def _read(self, place: int, end: int) -> None:
+        piece = self._file.at(place, min(self._guess, end - place))
+        code, length, channel, _, log_time = _MESSAGE_RECORD.unpack_from(piece)
+        whole = length + 9
+        if code != _MESSAGE or length < 22 or place + whole > end:
+            raise InputError("its message index points at something else")
+        whole = min(whole, self._most)
+        if whole > len(piece):
+            piece += self._file.at(place + len(piece), whole - len(piece))
+            self._guess = min(max(self._guess, whole + 64), 65_536)
+        self._log_times.append(min(log_time, LATEST_STAMP))
+        self._owners.append(channel)
+        self._pieces.append(piece[:whole])
+        self._bytes += whole
+
+    def taken(self) -> Batch:
+        """Those that were read since the last time."""
+        sizes = np.fromiter(map(len, self._pieces), dtype=np.int64, count=len(self))
+        ends = np.cumsum(sizes)
+        batch = Batch(
+            np.frombuffer(b"".join(self._pieces), dtype=np.uint8),
+            ends - sizes + _IN_CHUNK,
+            sizes - _IN_CHUNK,
+            np.frombuffer(self._log_times, dtype=np.int64),
+            self._channels[np.frombuffer(self._owners, dtype=np.uint16)],
+        )
+        self._begin()
+        return batch
 
 
 def _indexed(data: Bytes, pairs: Stamps, channel: int) -> tuple[Stamps, Stamps, Stamps]:
@@ -584,14 +660,17 @@ def _records(data: bytes) -> Iterator[tuple[int, int, int]]:
         yield code, first, position
 
 
-def _chunk_of_index(body: bytes, size: int) -> _Chunk:
-    start, end, place, length = struct.unpack_from("<QQQQ", body)
-    (count,) = _U32.unpack_from(body, 32)
-    indexes = _entries(body, 32, len(body))
-    position = 36 + count + 8
-    method, position = _text(body, position)
-    packed, unpacked = struct.unpack_from("<QQ", body, position)
-    records = place + 49 + len(method.encode())
+def _chunk_of_index(summary: bytes, first: int, last: int, size: int) -> _Chunk:
+    """The chunk of which a chunk index tells, which lies there in the summary."""
+    start, end, place, length, entries = _CHUNK_INDEX_HEAD.unpack_from(summary, first)
+    indexes = _entries(summary, first + 32, last)
+    text = first + 44 + entries
+    method, position = _text(summary, text, last)
+    if position + 16 > last:
+        raise InputError("a chunk's index is cut")
+    packed, unpacked = _SIZES.unpack_from(summary, position)
+    # Before them lie 45 bytes, and the name of the compression as it stands here.
+    records = place + 45 + position - text
     if records + packed > size or place + length > size:
         raise InputError(f"a chunk at byte {place} lies beyond the file's end")
     return _Chunk(records, packed, unpacked, method, start, end, indexes)
@@ -618,11 +697,11 @@ def _strings(body: bytes, place: int) -> dict[str, str]:
     return found
 
 
-def _text(body: bytes, place: int) -> tuple[str, int]:
-    """A text, and where it ends."""
+def _text(body: bytes, place: int, last: int | None = None) -> tuple[str, int]:
+    """A text, and where it ends; not behind `last`, if that is said."""
     (length,) = _U32.unpack_from(body, place)
     end = place + 4 + length
-    if end > len(body):
+    if end > (len(body) if last is None else last):
         raise InputError(f"a text announces {length} bytes")
     return body[place + 4 : end].decode("utf-8", "backslashreplace"), end
 
