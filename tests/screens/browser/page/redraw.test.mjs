@@ -20,6 +20,18 @@ test("data waits for the update interval, a person does not", () => {
   assert.equal(redraw.take(61_016, 60_000).picture, true);
 });
 
+test("where nothing moves a picture has time, unless something does meanwhile", () => {
+  const redraw = new Redraw(150);
+  redraw.take(0, 0);
+  redraw.data(false);
+  assert.equal(redraw.take(100, 0).picture, false);
+  assert.equal(redraw.take(400, 0).picture, true);
+  redraw.data(false);
+  redraw.data(true);
+  redraw.data(false);
+  assert.equal(redraw.take(416, 0).picture, true);
+});
+
 test("lists follow the picture, but not more often than they may", () => {
   const redraw = new Redraw(150);
   redraw.take(0, 0);

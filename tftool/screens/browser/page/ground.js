@@ -3,6 +3,9 @@
 import { BufferAttribute, BufferGeometry, Color, LineBasicMaterial, LineSegments } from "three";
 import { cellFor, linesOf } from "./scale.js";
 
+/** What can be drawn without all else. */
+export const LAYER = 1;
+
 const AXES = { x: "#c4474c", y: "#3f9a52" };
 
 export class Ground {
@@ -13,6 +16,7 @@ export class Ground {
     this.lines.frustumCulled = false;
     this.lines.renderOrder = -1;
     this.lines.position.z = -1e-4;
+    this.lines.layers.enable(LAYER);
     scene.add(this.lines);
     this.key = "";
     this.cell = 1;

@@ -20,7 +20,8 @@ for (const ring of [24, 40, 58, 80]) {
     PLACES.push([Math.cos(angle), Math.sin(angle), ring]);
   }
 }
-const MANY = 80; // names; among so many none is led far away
+/** Names; among so many none is led far away. */
+export const MANY = 80;
 const FEW = 12;
 const NEAREST = 4; // of the places need no line
 
@@ -48,6 +49,18 @@ class Grid {
 }
 
 /**
+ * A name at one of the places.
+ * @param {Wanted} wanted
+ * @param {number} place
+ * @returns {Stand}
+ */
+export function standAt({ x, y, width, height }, place) {
+  const [right, down, far] = PLACES[place];
+  const left = Math.round(x + right * (far + width / 2) - width / 2);
+  return { left, top: Math.round(y + down * (far + height / 2) - height / 2), place, moved: place >= NEAREST };
+}
+
+/**
  * Give every name a place; null for one that finds none. The first in the list choose first.
  * @param {Wanted[]} wanted
  * @param {number[] | null} [reserved] left, top, width and height of what no name may cover
@@ -57,12 +70,9 @@ export function arrange(wanted, reserved = null) {
   const grid = new Grid();
   if (reserved) grid.take(...reserved);
   const places = wanted.length > MANY ? FEW : PLACES.length;
-  return wanted.map(({ x, y, width, height, first, was }) => {
-    const stand = (place) => {
-      const [right, down, far] = PLACES[place];
-      const left = Math.round(x + right * (far + width / 2) - width / 2);
-      return { left, top: Math.round(y + down * (far + height / 2) - height / 2), place, moved: place >= NEAREST };
-    };
+  return wanted.map((one) => {
+    const { width, height, first, was } = one;
+    const stand = (place) => standAt(one, place);
     // A name that stood well stays: names that jump cannot be read.
     for (let turn = was ? -1 : 0; turn < places; turn++) {
       const place = turn < 0 ? (was ?? 0) : turn;

@@ -16,6 +16,7 @@ import { naturalPair, planar, trailsPay } from "./opening.js";
 import {
   $, fill, showBanner, showCounts, showEmpty, showFrame, showPair, showReach, showStatus, showTime, toast,
 } from "./panels.js";
+import { Pace } from "./pace.js";
 import { Picker } from "./picker.js";
 import { Redraw } from "./redraw.js";
 import { Robot } from "./robot.js";
@@ -26,7 +27,7 @@ import { Standalone, packed } from "./standalone.js";
 import { Timeline } from "./timeline.js";
 import { Tracks } from "./tracks.js";
 import { Tree } from "./tree.js";
-import { Wire } from "./wire.js";
+import { same, Wire } from "./wire.js";
 
 const FLIGHT = 350; // milliseconds
 const STEP = 0.1; // seconds one press of [ or ] goes
@@ -41,11 +42,12 @@ if (inside) keepFiles(inside);
 const given = read(location.hash || (inside?.header.view ?? ""));
 const choices = new Choices(given, matchMedia("(prefers-color-scheme: light)").matches ? "light" : "dark");
 const redraw = new Redraw();
+const pace = new Pace();
 const model = new Model();
 const bounds = new Bounds();
-const stage = new Stage($("under"), $("main"), $("over"));
+const stage = new Stage($("floor"), $("under"), $("main"), $("over"));
 stage.taken = given.camera !== undefined;
-const robot = new Robot(stage.scene, () => redraw.everything());
+const robot = new Robot(stage.scene, () => redraw.everything(), stage.plain);
 const tracks = new Tracks();
 const displays = new Displays(stage.scene, tracks, (topic) => {
   choices.mark("undrawn", topic, !choices.undrawn.has(topic));
@@ -138,7 +140,7 @@ const handlers = {
     // The numbers of a moment that is still shown outlive the buffer's memory of it.
     if (timeline.forgotten && !message.found && pair?.found) return;
     server.pair = message;
-    redraw.data();
+    redraw.data(false);
   },
   robot(message) {
     robot.show(message);
@@ -161,15 +163,16 @@ const handlers = {
   },
   range(message) {
     timeline.setReach(message);
-    redraw.data();
+    redraw.data(false);
   },
   poses(poses) {
     server.unacknowledged = poses.sequence;
     timeline.setReach(poses);
-    redraw.data();
+    redraw.data(false);
     if (!timeline.accepts(poses.at)) return; // late: another moment is looked at by now
     // The poses of a moment that is still shown outlive the buffer's memory of it.
     if (poses.at !== null && poses.at < poses.oldest && model.poses?.at === poses.at) return;
+    redraw.data(!same(poses, model.poses));
     model.setPoses(poses, performance.now());
   },
 };
@@ -209,20 +212,22 @@ function changed() {
 
 function render(now) {
   requestAnimationFrame(render);
+  if (pace.tick(now)) redraw.picture();
   timeline.tick(now);
   if (stage.flying) stage.advance(now);
   const due = redraw.take(now, choices.interval * 1000);
   if (due.picture) {
     if (model.poses?.revision !== model.revision) redraw.nothingShown();
     solve();
+    stage.scale = pace.draw(now);
     stage.resize();
     if (!stage.taken) follow();
     carry();
     paint();
   }
   course.ask(timeline.reach, choices);
-  if (due.picture || due.lists) course.draw(timeline, choices, server.pair?.found ? server.pair.chain : []);
   if (due.lists) {
+    course.draw(timeline, choices, server.pair?.found ? server.pair.chain : []);
     if (!due.picture) retell(model, shown.frames, timeline.past); // ages go on without a picture
     tree.refresh(shown.frames, choices, robot);
     words();
@@ -501,9 +506,15 @@ function save(address, name) {
   link.click();
 }
 
-function shot() {
+/** The picture as large as the window, whatever the pace. */
+function whole() {
+  stage.scale = 1;
   paint();
-  stage.picture().toBlob((blob) => {
+  return stage.picture();
+}
+
+function shot() {
+  whole().toBlob((blob) => {
     if (!blob) return;
     const address = URL.createObjectURL(blob);
     save(address, "tftool-view.png");
@@ -770,9 +781,7 @@ Object.assign(globalThis, {
     plain: () => stage.plain,
     trails: () => shown.lines.map(({ points }) => points.length),
     remembered: () => model.history.length,
-    picture() {
-      paint();
-      return stage.picture();
-    },
+    scale: () => stage.scale,
+    picture: whole,
   },
 });

@@ -2,6 +2,7 @@
 // What has to be drawn anew: marked where something changes, taken once per animation frame.
 
 const LISTS_EVERY = 150; // milliseconds between two refreshes of the lists
+const STILL_EVERY = 300; // milliseconds between two pictures in which nothing moves but time
 
 /** Dirty flags of the picture and of the lists beside it. */
 export class Redraw {
@@ -9,14 +10,19 @@ export class Redraw {
     this.listsEvery = listsEvery;
     this.pictureDue = true;
     this.atOnce = true; // regardless of the update interval
+    this.moved = true;
     this.listsDue = true;
     this.pictureAt = -Infinity;
     this.listsAt = -Infinity;
   }
 
-  /** New data: the picture follows when the update interval allows it. */
-  data() {
+  /**
+   * New data: the picture follows when the update interval allows it.
+   * @param {boolean} moved whether anything is elsewhere now; if not, the picture has time
+   */
+  data(moved = true) {
     this.pictureDue = true;
+    this.moved ||= moved;
   }
 
   /** Time has passed: the lists follow, and no picture. */
@@ -42,9 +48,10 @@ export class Redraw {
    * @param {number} interval least time between two pictures of data, milliseconds
    */
   take(now, interval) {
-    const picture = this.pictureDue && (this.atOnce || now - this.pictureAt >= interval);
+    const least = this.moved ? interval : Math.max(interval, STILL_EVERY);
+    const picture = this.pictureDue && (this.atOnce || now - this.pictureAt >= least);
     if (picture) {
-      this.pictureDue = this.atOnce = false;
+      this.pictureDue = this.atOnce = this.moved = false;
       this.listsDue = true;
       this.pictureAt = now;
     }

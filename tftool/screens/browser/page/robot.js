@@ -33,7 +33,7 @@ const MISSING = [0.95, 0.25, 0.3, 0.8];
 const MISSING_SIZE = 0.1; // metres
 const AXIS = "#ffd400";
 const AXIS_LENGTH = 0.2; // metres
-const SIDES = 24;
+const SIDES = { fine: 24, plain: 10 }; // of what is round
 
 /**
  * @typedef {{ kind: string, origin: number[], size?: number[], radius?: number, length?: number,
@@ -49,10 +49,12 @@ export class Robot {
   /**
    * @param {import("three").Scene} scene
    * @param {() => void} changed called when a mesh has come, or failed
+   * @param {boolean} plain whether the processor draws, to which every corner is dear
    */
-  constructor(scene, changed) {
+  constructor(scene, changed, plain) {
     this.scene = scene;
     this.changed = changed;
+    this.sides = plain ? SIDES.plain : SIDES.fine;
     this.group = new Group();
     this.group.visible = false;
     /** @type {Map<string, { number: number, all: Group, visuals: Group, collisions: Group, axes: Group, loose: boolean }>} */
@@ -146,7 +148,7 @@ export class Robot {
     holder.updateMatrix();
     holder.matrixAutoUpdate = false;
     link[kind].add(holder);
-    const geometry = solid(shape);
+    const geometry = solid(shape, this.sides);
     if (geometry && shape.kind !== "missing" && !shape.texture) {
       solids.add(link.number, geometry, holder.matrix, linear(color));
       return;
@@ -263,12 +265,13 @@ export class Robot {
 /**
  * The geometry of a shape that is no mesh; null for a mesh. Cylinders lie along z, as in ROS.
  * @param {Shape} shape
+ * @param {number} sides of what is round
  */
-function solid({ kind, size = [1, 1, 1], radius = 0, length = 0 }) {
+function solid({ kind, size = [1, 1, 1], radius = 0, length = 0 }, sides) {
   if (kind === "box") return new BoxGeometry(size[0], size[1], size[2]);
-  if (kind === "sphere") return new SphereGeometry(radius, SIDES, SIDES / 2);
-  if (kind === "cylinder") return new CylinderGeometry(radius, radius, length, SIDES).rotateX(Math.PI / 2);
-  if (kind === "capsule") return new CapsuleGeometry(radius, length, SIDES / 4, SIDES).rotateX(Math.PI / 2);
+  if (kind === "sphere") return new SphereGeometry(radius, sides, sides / 2);
+  if (kind === "cylinder") return new CylinderGeometry(radius, radius, length, sides).rotateX(Math.PI / 2);
+  if (kind === "capsule") return new CapsuleGeometry(radius, length, Math.ceil(sides / 4), sides).rotateX(Math.PI / 2);
   if (kind === "missing") return new BoxGeometry(MISSING_SIZE, MISSING_SIZE, MISSING_SIZE);
   return null;
 }

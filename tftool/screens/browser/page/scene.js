@@ -13,15 +13,14 @@ import {
   PerspectiveCamera,
   Quaternion,
   Scene,
-  TetrahedronGeometry,
   Vector3,
   WebGLRenderer,
 } from "three";
 import { OrbitControls } from "three/addons/controls/OrbitControls.js";
 import { FLAT, fitFlat, flatCamera, panOnly } from "./cameras.js";
-import { Crowd } from "./crowd.js";
-import { Ground } from "./ground.js";
-import { arrange } from "./labels.js";
+import { Crowd, SPIKES } from "./crowd.js";
+import { Ground, LAYER as GROUND } from "./ground.js";
+import { arrange, MANY, standAt } from "./labels.js";
 import { isTurtle } from "./opening.js";
 import { round, spelled } from "./scale.js";
 import { THEMES } from "./themes.js";
@@ -31,6 +30,7 @@ const AXES = ["#f0454b", "#3fc45c", "#3d84ff"];
 const SHAFT = "#cfbf57";
 const HEAD = "#ff3d94";
 const FEW = 60; // frames that are drawn in full even without a graphics card
+const ARRANGED_EVERY = 5; // pictures, with many names
 const GREY = new Color(0.7, 0.7, 0.7).convertSRGBToLinear().r; // what stale frames turn into
 
 /** Whether pictures are made by the processor, where every pixel and corner is dear. */
@@ -71,7 +71,14 @@ function fading(mesh) {
 }
 
 export class Stage {
-  constructor(under, main, over) {
+  /**
+   * @param {HTMLCanvasElement} floor where the grid is put aside
+   * @param {HTMLCanvasElement} under
+   * @param {HTMLCanvasElement} main
+   * @param {HTMLCanvasElement} over
+   */
+  constructor(floor, under, main, over) {
+    this.floor = floor;
     this.under = under;
     this.over = over;
     this.main = main;
@@ -104,11 +111,15 @@ export class Stage {
     }
     this.width = this.height = 0; // of the window, CSS pixels
     this.ratio = 1; // canvas pixels per CSS pixel
+    this.scale = 1; // of the pixels of what has depth, see pace.js
+    /** From where the grid was looked at in the last picture, and where it was put aside. */
+    this.looked = { from: new Matrix4(), through: new Matrix4(), key: "", aside: false };
     this.extent = 5; // how far the frames reach from the origin, metres
     /** Pixels that panels cover, at each side. */
     this.inset = { left: 0, right: 0, top: 0, bottom: 0 };
     /** @type {Map<string, number>} */
     this.stood = new Map(); // where names stood in the picture before
+    this.gone = ARRANGED_EVERY; // pictures since names found their places
     this.theme = THEMES.dark;
     this.capacity = 0;
     /** @type {any[]} */
@@ -145,11 +156,13 @@ export class Stage {
   resize() {
     const { clientWidth: width, clientHeight: height } = this.over;
     const ratio = this.plain ? 1 : Math.min(2, devicePixelRatio || 1);
+    const scaled = ratio * this.scale;
+    if (this.renderer.getPixelRatio() !== scaled) this.renderer.setPixelRatio(scaled);
     if (this.width === width && this.height === height && this.ratio === ratio) return;
     Object.assign(this, { width, height, ratio });
-    this.renderer.setPixelRatio(ratio);
+    this.looked.key = "";
     this.renderer.setSize(width, height, false);
-    for (const canvas of [this.under, this.over]) {
+    for (const canvas of [this.floor, this.under, this.over]) {
       canvas.width = Math.round(width * ratio);
       canvas.height = Math.round(height * ratio);
     }
@@ -304,19 +317,7 @@ export class Stage {
       make(new CylinderGeometry(1, 1, 1, 6, 1, true).translate(0, 0.5, 0), SHAFT),
       make(new ConeGeometry(1, 1, 10).translate(0, 0.5, 0), HEAD),
     ];
-    const spike = () => new ConeGeometry(1.4, 1, 3, 1, true).translate(0, 0.5, 0);
-    const simple = [
-      spike().rotateZ(-Math.PI / 2),
-      spike(),
-      spike().rotateX(Math.PI / 2),
-      new TetrahedronGeometry(1),
-      new CylinderGeometry(1, 1, 1, 3, 1, true).translate(0, 0.5, 0),
-      new ConeGeometry(1, 1, 4, 1, true).translate(0, 0.5, 0),
-    ];
-    this.meshes.forEach((mesh, at) => {
-      const flat = simple[at].index ? simple[at].toNonIndexed() : simple[at];
-      mesh.userData.corners = flat.attributes.position.array;
-    });
+    Object.values(SPIKES).forEach((corners, at) => (this.meshes[at].userData.corners = corners));
   }
 
   /** Draw. `frames`: [{pose, parent pose or null, grey, alpha}, …]; `look`: what is switched on. */
@@ -345,7 +346,7 @@ export class Stage {
       const { color, corners } = mesh.userData;
       const blend = (own) => own + (GREY - own) * frame.grey;
       if (together) {
-        this.crowd.add(corners, matrix, [blend(color.r), blend(color.g), blend(color.b)], frame.alpha * frame.dim);
+        this.crowd.add(corners, matrix, blend(color.r), blend(color.g), blend(color.b), frame.alpha * frame.dim);
         return;
       }
       mesh.setMatrixAt(index, matrix);
@@ -389,7 +390,32 @@ export class Stage {
       mesh.geometry.attributes.fade.needsUpdate = true;
     }
     this.camera.updateMatrixWorld();
+    if (this.plain) this.putAside(look.grid);
     this.renderer.render(this.scene, this.camera);
+  }
+
+  /** While one looks at the grid from the same place it is drawn once, on a canvas of its own. */
+  putAside(shown) {
+    const { looked, camera, ground, floor, renderer } = this;
+    const key = shown ? `${this.view} ${ground.key}` : "";
+    const rests = key === looked.key && camera.matrixWorld.equals(looked.from) && camera.projectionMatrix.equals(looked.through);
+    if (!rests) {
+      Object.assign(looked, { key, aside: false });
+      looked.from.copy(camera.matrixWorld);
+      looked.through.copy(camera.projectionMatrix);
+    } else if (key && !looked.aside) {
+      looked.aside = true;
+      renderer.setPixelRatio(this.ratio);
+      camera.layers.set(GROUND);
+      renderer.render(this.scene, camera);
+      camera.layers.set(0);
+      const pen = flat(floor);
+      pen.clearRect(0, 0, floor.width, floor.height);
+      pen.drawImage(this.main, 0, 0);
+      renderer.setPixelRatio(this.ratio * this.scale);
+    }
+    floor.hidden = !looked.aside;
+    if (looked.aside) ground.lines.visible = false;
   }
 
   /** Metres of a pixel where one looks, the place one looks at, and how far one sees or the frames reach. */
@@ -537,7 +563,12 @@ export class Stage {
       const [width, height] = [sign.width / this.ratio, sign.height / this.ratio];
       seen.push({ label, sign, x: spot[0], y: spot[1], width, height, first: label.first, was: this.stood.get(label.name) });
     }
-    const stands = arrange(seen, this.reserved);
+    // Among many, names go along with their frames, and find new places every few pictures.
+    const anew = seen.length <= MANY || ++this.gone >= ARRANGED_EVERY;
+    if (anew) this.gone = 0;
+    const stands = anew
+      ? arrange(seen, this.reserved)
+      : seen.map((one) => (one.was === undefined && !one.first ? null : standAt(one, one.was ?? 0)));
     this.reserved = null;
     this.stood.clear();
     pen.strokeStyle = this.theme.text;
@@ -657,7 +688,7 @@ export class Stage {
     const pen = flat(sheet);
     pen.fillStyle = this.theme.background;
     pen.fillRect(0, 0, sheet.width, sheet.height);
-    for (const layer of [this.under, this.main, this.over]) {
+    for (const layer of [this.floor, this.under, this.main, this.over]) {
       if (!layer.hidden) pen.drawImage(layer, 0, 0, sheet.width, sheet.height);
     }
     return sheet;

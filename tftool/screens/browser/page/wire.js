@@ -62,6 +62,19 @@ export class Poses {
   }
 }
 
+/**
+ * Whether every frame is where it was: at the same moment, or in the present both times.
+ * @param {Poses} one
+ * @param {Poses | null} other
+ */
+export function same(one, other) {
+  if (!other || one.at !== other.at || one.revision !== other.revision) return false;
+  for (let start = 0; start < one.numbers.length; start += FIELDS) {
+    for (let at = start; at < start + 7; at++) if (!Object.is(one.numbers[at], other.numbers[at])) return false;
+  }
+  return true;
+}
+
 export class Wire {
   /**
    * Handlers: open(), ended(reason), names(message),
