@@ -121,8 +121,9 @@ def doctor(
     # Heavy imports wait until this command is the chosen one.
     import json
 
-    from tftool.cli import fleet
+    from tftool.cli import fleet, fleet_tasks
     from tftool.cli.printing import write
+    from tftool.cli.workers import workers_of
     from tftool.diagnostics.findings import Severity
     from tftool.diagnostics.judge import refuse_unknown
     from tftool.diagnostics.material import described_by
@@ -147,8 +148,8 @@ def doctor(
     if output is not None:
         chosen, left_out = tuple(_words(select or ())), tuple(_words(ignore or ()))
         refuse_unknown(settings, chosen, left_out)
-        task = fleet.Examination(settings, chosen, left_out, scope)
-        workers = fleet.workers_of(processes, scheduler)
+        task = fleet_tasks.Examination(settings, chosen, left_out, scope)
+        workers = workers_of(processes, scheduler)
         counts = fleet.swept_into(places or (), output, workers, task, resume=resume)
         return _swept_status(counts, fails)
     if resume or processes > 1 or scheduler:
@@ -229,9 +230,9 @@ def _diagnosed(
 
 def _swept_status(counts: dict[str, int], fails: "Severity | None") -> ExitStatus:
     """Of many recordings, the worst."""
-    from tftool.cli import fleet
+    from tftool.cli import fleet_tasks
 
-    if fleet.UNREADABLE in counts:
+    if fleet_tasks.UNREADABLE in counts:
         return ExitStatus.UNREADABLE
     bad = [name for name in ("error", "warning", "note") if name in counts]
     found = fails is not None and any(_rank(name) <= fails.rank for name in bad)

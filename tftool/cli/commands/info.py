@@ -42,13 +42,14 @@ def info(
     tftool info robot.urdf
     tftool info 'runs/**/*.mcap' -j 8 -o runs.csv
     """
-    from tftool.cli import fleet
+    from tftool.cli import fleet, fleet_tasks
+    from tftool.cli.workers import workers_of
     from tftool.sources.remote import fetched
 
     if output is not None:
-        workers = fleet.workers_of(processes, scheduler)
-        counts = fleet.swept_into(places, output, workers, fleet.Inventory(), resume=resume)
-        return ExitStatus.UNREADABLE if fleet.UNREADABLE in counts else ExitStatus.DONE
+        workers = workers_of(processes, scheduler)
+        counts = fleet.swept_into(places, output, workers, fleet_tasks.Inventory(), resume=resume)
+        return ExitStatus.UNREADABLE if fleet_tasks.UNREADABLE in counts else ExitStatus.DONE
     if resume or scheduler:
         raise UsageError("--resume and --scheduler make rows: add -o FILE.")
     if len(places) > 1:
@@ -60,16 +61,17 @@ def info(
 
 def _compared(places: list[str], processes: int, *, for_programs: bool) -> ExitStatus:
     """Several recordings, a line each."""
-    from tftool.cli import fleet
+    from tftool.cli import fleet, fleet_tasks
+    from tftool.cli.workers import workers_of
     from tftool.views import info as view
 
-    workers = fleet.workers_of(processes, "")
-    counts, rows = fleet.sweep(fleet.expanded(places), None, workers, fleet.Inventory())
+    workers = workers_of(processes, "")
+    counts, rows = fleet.sweep(fleet.expanded(places), None, workers, fleet_tasks.Inventory())
     if for_programs:
         sys.stdout.write(json.dumps(rows, indent=2) + "\n")
     else:
         sys.stdout.write(view.as_lines(rows))
-    return ExitStatus.UNREADABLE if fleet.UNREADABLE in counts else ExitStatus.DONE
+    return ExitStatus.UNREADABLE if fleet_tasks.UNREADABLE in counts else ExitStatus.DONE
 
 
 def _one(connection: Connection, place: str, *, for_programs: bool) -> ExitStatus:
