@@ -4,14 +4,9 @@ import pytest
 
 from tests.cli.conftest import Simulated
 from tftool.cli.connection import Connection
-from tftool.cli.hosting import (
-    HEAD_START,
-    named,
-    observe,
-    open_empty_session,
-    open_session,
-    scenario_named,
-)
+from tftool.cli.hosting import HEAD_START, open_empty_session, open_session
+from tftool.cli.naming import named, scenario_named
+from tftool.cli.observing import observe
 from tftool.cli.options import At
 from tftool.errors import InputError, NodeFailed, UsageError
 from tftool.frames.buffer import Buffer

@@ -3,8 +3,8 @@
 import pytest
 
 from tftool.cli.commands.echo import Echo, Printer
-from tftool.cli.hosting import Session
 from tftool.cli.rivals import rivalries, twins
+from tftool.cli.session import Session
 from tftool.cli.waiting import FramePair
 from tftool.frames.buffer import Buffer
 from tftool.frames.sample import TransformStamped

@@ -5,7 +5,7 @@ import json
 import pytest
 
 from tftool.cli.commands.echo import Echo, Printer
-from tftool.cli.hosting import Session
+from tftool.cli.session import Session
 from tftool.cli.waiting import FramePair
 from tftool.errors import BackwardExtrapolationException, LookupException, TransformException
 from tftool.frames.sample import TransformStamped

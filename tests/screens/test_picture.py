@@ -8,7 +8,7 @@ from pathlib import Path
 import pytest
 
 from tests.screens.moving_picture import animated
-from tftool.cli.hosting import left_to_a_person, scenario_named
+from tftool.cli.naming import left_to_a_person, scenario_named
 from tftool.cli.onscreen import simulator_of
 from tftool.nodes.idle_drawing import IdleDrawing
 from tftool.runtime.clock import Phase, SimClock, run

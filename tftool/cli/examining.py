@@ -4,17 +4,12 @@ from dataclasses import replace
 from typing import TYPE_CHECKING
 
 from tftool.cli.connection import Connection
-from tftool.cli.hosting import (
-    LISTEN,
-    NO_SESSION,
-    Session,
-    join_session,
-    named,
-    open_session,
-    scenario_named,
-)
+from tftool.cli.hosting import NO_SESSION, join_session, open_session
+from tftool.cli.naming import named, scenario_named
 from tftool.cli.notices import notice
+from tftool.cli.observing import LISTEN
 from tftool.cli.options import LISTENING
+from tftool.cli.session import Session
 from tftool.diagnostics.material import Material
 from tftool.diagnostics.scope import Scope
 from tftool.errors import UsageError

@@ -173,7 +173,7 @@ def expanded(words: Sequence[str]) -> list[str]:
     Raises:
         InputError: If a glob or a folder of the web names nothing, or cannot be listed.
     """
-    from tftool.cli.hosting import named
+    from tftool.cli.naming import named
     from tftool.sources.find import METADATA, Kind
     from tftool.sources.remote import is_url, listed
 

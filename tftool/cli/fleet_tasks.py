@@ -59,10 +59,8 @@ FACTS: Mapping[str, ColumnKind] = {
 }
 """What a row of a recording tells."""
 
-
 NONE_FOUND = "none"
 """The id of the one row of a recording in which nothing was found."""
-
 
 UNREADABLE = "unreadable"
 """The id of the one row of a recording that cannot be read."""

@@ -9,18 +9,12 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from tftool.cli.connection import Connection
-from tftool.cli.hosting import (
-    LISTEN,
-    NO_SESSION,
-    Session,
-    StoredFrames,
-    join_session,
-    named,
-    open_session,
-    refuse_to_share,
-)
+from tftool.cli.hosting import NO_SESSION, StoredFrames, join_session, open_session, refuse_to_share
+from tftool.cli.naming import named
 from tftool.cli.notices import notice
+from tftool.cli.observing import LISTEN
 from tftool.cli.options import LISTENING
+from tftool.cli.session import Session
 from tftool.errors import LinkError, UsageError
 from tftool.sources.find import Kind
 from tftool.stamps import Duration, Stamp, as_seconds

@@ -19,14 +19,11 @@ from tftool.stamps import NANOSECONDS
 
 Mask = npt.NDArray[np.bool_]
 
-
 Places = npt.NDArray[np.intp]
 """Rows of a track, shape (n,)."""
 
-
 NEVER = np.iinfo(np.int64).max
 """The arrival of what never arrives."""
-
 
 ZERO_QUATERNION = 1e-12
 """A rotation whose squared length is below this has no direction: tf2 drops it."""

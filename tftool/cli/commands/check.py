@@ -191,7 +191,7 @@ def _judge(
     word: str, judge: "Callable[..., Verdict]", recordings: Path | None, *, own_nodes: bool
 ) -> "tuple[Report, bool]":
     """Report on one scenario, and whether it could be read; what could not is told at once."""
-    from tftool.cli.hosting import scenario_named
+    from tftool.cli.naming import scenario_named
     from tftool.errors import InputError
     from tftool.messages import Report
     from tftool.views.escaping import visible_lines

@@ -92,7 +92,8 @@ def demo(
     tftool demo carrot --source-frame carrot1
     tftool demo time_travel --rate 2 --set delay=3
     """
-    from tftool.cli.hosting import HOME, named, scenario_named
+    from tftool.cli.hosting import HOME
+    from tftool.cli.naming import named, scenario_named
     from tftool.cli.onscreen import has_terminal
 
     if listing:
@@ -161,8 +162,10 @@ class _Showing:
             chosen: The scenario.
             wanted: Its name, where it was asked for; None to show what runs here, if it does.
         """
-        from tftool.cli.hosting import left_to_a_person, look_around, shared
+        from tftool.cli.hosting import look_around
+        from tftool.cli.naming import left_to_a_person
         from tftool.cli.onscreen import driver_of, run_app, simulator_of
+        from tftool.cli.session import shared
         from tftool.scenario import builtin
         from tftool.scenario.play import Watch, build
         from tftool.screens.setting import Setting

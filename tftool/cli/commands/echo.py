@@ -141,7 +141,8 @@ def echo(
     tftool echo map laser_link robot --at 12.5
     tftool echo turtle2 turtle1 --offset -5 --fixed-frame world
     """
-    from tftool.cli.hosting import A_MOMENT, NO_SESSION, named, open_session
+    from tftool.cli.hosting import A_MOMENT, NO_SESSION, open_session
+    from tftool.cli.naming import named
     from tftool.cli.notices import notice
     from tftool.cli.redrawing import Redrawing, can_redraw
     from tftool.cli.waiting import FramePair

@@ -70,7 +70,7 @@ def explain(
     """
     # Heavy imports wait until this command is the chosen one.
     from tftool.cli.examining import LIVE, material_of
-    from tftool.cli.hosting import named
+    from tftool.cli.naming import named
     from tftool.cli.printing import write
     from tftool.diagnostics.explanation import over_time, traced
     from tftool.diagnostics.model import Model, Settings

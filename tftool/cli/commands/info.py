@@ -76,7 +76,7 @@ def _compared(places: list[str], processes: int, *, for_programs: bool) -> ExitS
 
 def _one(connection: Connection, place: str, *, for_programs: bool) -> ExitStatus:
     """All there is to say of one recording or description."""
-    from tftool.cli.hosting import named
+    from tftool.cli.naming import named
     from tftool.cli.notices import notice
     from tftool.cli.recorded import read, told_of_odometry
     from tftool.sources.find import Kind

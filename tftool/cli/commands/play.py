@@ -93,7 +93,8 @@ def play(
     tftool play run.mcap --from 12.5 --to 20 --rate 0.5 --loop
     tftool play run.bag --restamp now --all
     """
-    from tftool.cli.hosting import look_around, named
+    from tftool.cli.hosting import look_around
+    from tftool.cli.naming import named
     from tftool.runtime.clock import run
     from tftool.sources.recording import Recording
     from tftool.sources.timeline import Timeline
@@ -182,8 +183,8 @@ class _Showing:
 
     async def play(self, pace: "Clock", link: "Link | None") -> None:
         """Play, and share it."""
-        from tftool.cli.hosting import shared
         from tftool.cli.playing import Display, keyboard, press
+        from tftool.cli.session import shared
         from tftool.runtime.clock import FollowedClock
         from tftool.runtime.supervisor import beside, live
         from tftool.runtime.world import World

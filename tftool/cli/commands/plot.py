@@ -30,7 +30,7 @@ from tftool.stamps import Duration, Stamp, as_seconds, seconds
 if TYPE_CHECKING:
     from rich.text import Text
 
-    from tftool.cli.hosting import Session
+    from tftool.cli.session import Session
     from tftool.trajectories.sampling import Trajectory
     from tftool.views.line_plot import PlotLook
 

@@ -12,7 +12,7 @@ from tftool.errors import UsageError
 from tftool.stamps import Duration
 
 if TYPE_CHECKING:
-    from tftool.cli.hosting import Session
+    from tftool.cli.session import Session
     from tftool.nodes.joints import JointStatePublisher
     from tftool.screens.setting import Setting
     from tftool.sources.robot import Robot
@@ -63,7 +63,8 @@ def robot(
     tftool robot arm.urdf --follow --no-screen
     """
     from tftool.cli.described import load_described, tell_beyond
-    from tftool.cli.hosting import kind_in_words, named, open_empty_session
+    from tftool.cli.hosting import open_empty_session
+    from tftool.cli.naming import kind_in_words, named
     from tftool.cli.onscreen import has_terminal
     from tftool.nodes.joints import JointStatePublisher, RobotStatePublisher
     from tftool.sources.find import Kind

@@ -10,7 +10,7 @@ from tftool.cli.app import ExitStatus
 from tftool.cli.connection import Connection
 
 if TYPE_CHECKING:
-    from tftool.cli.hosting import Session
+    from tftool.cli.session import Session
     from tftool.notation.static_arguments import StaticArguments
 
 Metres = Annotated[str | None, typer.Option(metavar="METRES")]

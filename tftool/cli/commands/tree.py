@@ -19,7 +19,7 @@ if TYPE_CHECKING:
     from rich.console import Console
     from rich.text import Text
 
-    from tftool.cli.hosting import Session
+    from tftool.cli.session import Session
     from tftool.frames.sample import Snapshot
     from tftool.runtime.log import LogRecord
     from tftool.runtime.world import World
@@ -101,8 +101,9 @@ def tree(
     tftool tree robot -o robot.svg --at 12.5
     tftool tree --watch
     """
-    from tftool.cli.hosting import observe, open_session
+    from tftool.cli.hosting import open_session
     from tftool.cli.notices import notice
+    from tftool.cli.observing import observe
     from tftool.cli.rivals import rivalries
 
     if as_json:

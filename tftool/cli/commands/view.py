@@ -16,7 +16,8 @@ from tftool.stamps import Duration, as_seconds
 if TYPE_CHECKING:
     from collections.abc import Callable, Sequence
 
-    from tftool.cli.hosting import Session, StoredFrames
+    from tftool.cli.hosting import StoredFrames
+    from tftool.cli.session import Session
     from tftool.runtime.world import World
     from tftool.screens.browser.robots import ShownRobot
     from tftool.screens.browser.server import PageServer
@@ -96,7 +97,8 @@ def view(
         if error.name is None or error.name.partition(".")[0] != "websockets":
             raise
         raise UsageError("'view' needs an extra: pip install 'tftool-tf2[view]'") from error
-    from tftool.cli.hosting import named, open_session
+    from tftool.cli.hosting import open_session
+    from tftool.cli.naming import named
     from tftool.cli.notices import notice
     from tftool.screens.browser.meshes import MeshFolders
     from tftool.screens.browser.robots import ShownRobot
@@ -200,7 +202,7 @@ def _robot_of(
     connection: Connection, stored: "StoredFrames", meshes: "Sequence[Path]"
 ) -> "ShownRobot | None":
     """The robot of a description, or that of a recording."""
-    from tftool.cli.hosting import named
+    from tftool.cli.naming import named
     from tftool.screens.browser.meshes import MeshFolders
     from tftool.screens.browser.robots import ShownRobot
 
@@ -220,7 +222,8 @@ def _alive(
 ) -> "tuple[Session, ShownRobot]":
     """A world with one robot, whose joints the page moves."""
     from tftool.cli.described import load_described, tell_beyond
-    from tftool.cli.hosting import Session, lived, refuse_to_share
+    from tftool.cli.hosting import refuse_to_share
+    from tftool.cli.session import Session, lived
     from tftool.nodes.joints import JointStatePublisher, RobotStatePublisher
     from tftool.runtime.world import World
     from tftool.screens.browser.meshes import MeshFolders
