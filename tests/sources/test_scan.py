@@ -112,3 +112,60 @@ def test_refuses_an_index_that_points_at_no_message():
     for place, channel in ((5, 8), (4, 7), (6, 7), (2**63, 7), (2**64 - 1, 7)):
         assert not SCAN.indexed(chunk, struct.pack("<QQ", 11, place), *arrays, channel)
     assert not SCAN.indexed(chunk[:-1], struct.pack("<QQ", 11, 5), *arrays, 7)
+
+
+def ros1_message(connection, payload, code=b"\x02"):
+    """A message's record in a ROS 1 chunk: its code is at byte 7 of its header, its owner at 17."""
+    fields = [b"op=" + code, b"conn=" + struct.pack("<I", connection), b"time=" + bytes(8)]
+    header = b"".join(struct.pack("<I", len(one)) + one for one in fields)
+    return struct.pack("<I", len(header)) + header + struct.pack("<I", len(payload)) + payload
+
+
+@needs_scan
+def test_refuses_a_ros_1_index_that_points_at_no_message():
+    first, second = ros1_message(7, b"abc"), ros1_message(7, b"defgh")
+    chunk = np.frombuffer(b"\x00" * 5 + first + second, dtype=np.uint8)
+    place, head = 5 + len(first), 4 + 8 + 13 + 17
+    arrays = [np.zeros(2, dtype=np.int64) for _ in range(3)]
+    index = struct.pack("<6I", 1, 2, 5, 3, 4, place)
+
+    assert SCAN.pointed(chunk, index, *arrays, 7, 7, 17)
+    assert [one.tolist() for one in arrays] == [
+        [5 + head + 4, place + head + 4],
+        [3, 5],
+        [10**9 + 2, 3 * 10**9 + 4],
+    ]
+    for wrong in (0, 4, 6, place + 1, len(chunk) - 8, len(chunk), 2**32 - 1):
+        index = struct.pack("<6I", 1, 2, 5, 3, 4, wrong)
+        assert not SCAN.pointed(chunk, index, *arrays, 7, 7, 17)
+    index = struct.pack("<6I", 1, 2, 5, 3, 4, place)
+    assert not SCAN.pointed(chunk[:-1], index, *arrays, 7, 7, 17)
+    assert not SCAN.pointed(chunk, index, *arrays, 8, 7, 17)
+    for code, owner in ((6, 17), (7, 16), (2**31, 17), (7, 2**31), (7, head - 4 - 3)):
+        assert not SCAN.pointed(chunk, index, *arrays, 7, code, owner)
+    assert not SCAN.pointed(chunk, index, *(one[:1] for one in arrays), 7, 7, 17)
+
+
+@needs_scan
+@pytest.mark.parametrize("size", [0, 1, 3, 4, 7, 8, 9, 15, 16, 17, 40])
+def test_tells_names_apart_by_each_of_their_bytes(size):
+    names = {"x" * size} | {"x" * k + "y" + "x" * (size - k - 1) for k in range(size)}
+    messages = [cdr([(1, "map", name), (2, name, "map")]) for name in sorted(names)] * 3
+
+    plain, native = both(CDR, messages)
+
+    same(plain, native)
+    assert sorted(edge.child for edge in native.edges if edge.parent == "map") == sorted(names)
+
+
+@needs_scan
+def test_threads_that_scan_for_themselves_do_not_disturb_each_other():
+    from concurrent.futures import ThreadPoolExecutor
+
+    messages = [cdr([(k, f"frame_{k % 97:03}", "map")]) for k in range(3000)]
+
+    with ThreadPoolExecutor(4) as pool:
+        found = list(pool.map(lambda _: both(CDR, messages, at_once=1000), range(8)))
+
+    for plain, native in found:
+        same(plain, native)

@@ -1,6 +1,7 @@
 """Recorded messages in, transforms out: columns per edge that grow as a file is read."""
 
 from collections import Counter
+from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any, Final
 
@@ -56,6 +57,18 @@ class Batch:
             self.log_times[which],
             self.senders[which],
         )
+
+
+def in_order(batches: Sequence[Batch]) -> Batch:
+    """Batches of one buffer as one, in the order in which the messages lie there."""
+    if len(batches) == 1:
+        return batches[0]
+    starts, lengths, log_times, senders = (
+        np.concatenate([getattr(one, name) for one in batches])
+        for name in ("starts", "lengths", "log_times", "senders")
+    )
+    order = np.argsort(starts, kind="stable")
+    return Batch(batches[0].buffer, starts, lengths, log_times, senders).chosen(order)
 
 
 class _Column:

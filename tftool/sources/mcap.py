@@ -14,7 +14,7 @@ from typing import Final
 import numpy as np
 
 from tftool.errors import InputError
-from tftool.sources.columns import Batch, words_at
+from tftool.sources.columns import Batch, in_order, words_at
 from tftool.sources.compressed import Ahead, Packed, unpack, unpack_beginning
 from tftool.sources.container import (
     LATEST_STAMP,
@@ -430,18 +430,12 @@ class Mcap:
             singly.read(places, chunk.place, chunk.place + chunk.packed)
             return None
         data = np.frombuffer(self._unpacked(chunk, ahead), dtype=np.uint8)
-        found = [
-            Batch(data, *_indexed(data, pairs, channel), np.full(len(pairs), channels[channel]))
-            for pairs, channel in parts
-        ]
-        if len(found) == 1:
-            return found[0]
-        starts, lengths, log_times, senders = (
-            np.concatenate([getattr(one, name) for one in found])
-            for name in ("starts", "lengths", "log_times", "senders")
+        return in_order(
+            [
+                Batch(data, *_indexed(data, pairs, channel), np.full(len(pairs), channels[channel]))
+                for pairs, channel in parts
+            ]
         )
-        order = np.argsort(starts, kind="stable")
-        return Batch(data, starts, lengths, log_times, senders).chosen(order)
 
     def _rest_of(
         self, chunk: _Chunk, channels: Indexes, ahead: Ahead | None = None

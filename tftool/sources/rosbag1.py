@@ -9,12 +9,13 @@ from array import array
 from collections.abc import Collection, Iterator
 from dataclasses import dataclass, field
 from pathlib import Path
-from typing import Final
+from typing import Final, TypeAlias
 
 import numpy as np
+import numpy.typing as npt
 
 from tftool.errors import InputError
-from tftool.sources.columns import Batch, words_at
+from tftool.sources.columns import Batch, in_order, words_at
 from tftool.sources.compressed import Ahead, Packed, unpack, unpack_beginning
 from tftool.sources.container import (
     MOST_STREAMS,
@@ -23,9 +24,14 @@ from tftool.sources.container import (
     MessageStream,
     Offers,
 )
-from tftool.sources.contract import Indexes, Progress, Stamps
+from tftool.sources.contract import Progress, Stamps
 from tftool.sources.find import ROS1_MAGIC
 from tftool.stamps import NANOSECONDS
+from tftool.wire.native import SCAN
+from tftool.wire.rows import Bytes
+
+Entries: TypeAlias = npt.NDArray[np.uint32]
+"""Of each message seconds, nanoseconds, and where its record begins, shape (n, 3)."""
 
 _MESSAGE: Final = b"\x02"
 _BAG: Final = b"\x03"
@@ -295,27 +301,14 @@ class Rosbag1:
         parts = self._indexes(chunk, chosen)
         if not parts:
             return None
-        entries = np.concatenate([one for _, one in parts])
-        owners = np.concatenate(
-            [np.full(len(one), number, dtype=np.int32) for number, one in parts]
-        )
-        places = entries[:, 2].astype(np.int64)
-        if len(parts) > 1:
-            order = np.argsort(places, kind="stable")
-            entries, places, owners = entries[order], places[order], owners[order]
-        log_times = entries[:, 0].astype(np.int64) * NANOSECONDS + entries[:, 1]
         data = np.frombuffer(self._unpacked(chunk, ahead), dtype=np.uint8)
-        if not len(places):
-            return None
-        size = len(data)
-        heads = self._within(places, data, 4)
-        bodies = places + 4 + heads
-        lengths = self._within(bodies, data, 4)
-        starts = bodies + 4
-        if (heads > _LARGEST_HEADER).any() or (starts + lengths > size).any():
-            raise InputError("its index points outside of it")
-        self._check_owners(data, places, heads, owners)
-        return Batch(data, starts, lengths, log_times, owners)
+        return in_order(
+            [
+                Batch(data, *_indexed(data, entries, connection), senders)
+                for connection, entries in parts
+                for senders in [np.full(len(entries), chosen[connection], dtype=np.int32)]
+            ]
+        )
 
     def _locate(self, chunk: _Chunk) -> None:
         """Find out where a chunk's data lies, if that is not known."""
@@ -323,29 +316,8 @@ class Rosbag1:
             header, place, packed = self._record_head(chunk.position)
             self._look_at(chunk, header, place, packed, False)
 
-    def _within(self, places: Stamps, data: "np.ndarray", count: int) -> Stamps:
-        if len(data) < count or int(places.max()) > len(data) - count:
-            raise InputError("its index points outside of it")
-        return words_at(data, places, "<u4").astype(np.int64)
-
-    def _check_owners(
-        self, data: "np.ndarray", places: Stamps, heads: Stamps, owners: Indexes
-    ) -> None:
-        """Refuse an index that does not point at messages of its connections."""
-        first = int(places[0])
-        header = data[first + 4 : first + 4 + int(heads[0])].tobytes()
-        code, connection = header.find(b"op="), header.find(b"conn=")
-        if code < 0 or connection < 0 or (heads != heads[0]).any():
-            raise InputError("its index points at something else")
-        told = words_at(data, places + 4 + connection + 5, "<u4")
-        expected = np.empty(len(self.streams), dtype=np.int64)
-        for number, stream in self._numbers.items():
-            expected[stream] = number
-        if (data[places + 4 + code + 3] != _MESSAGE[0]).any() or (told != expected[owners]).any():
-            raise InputError("its index points at something else")
-
-    def _indexes(self, chunk: _Chunk, chosen: dict[int, int]) -> list[tuple[int, "np.ndarray"]]:
-        """The index records behind a chunk: for each chosen stream seconds, nanoseconds, place."""
+    def _indexes(self, chunk: _Chunk, chosen: dict[int, int]) -> list[tuple[int, Entries]]:
+        """The index records behind a chunk: chosen connections with messages, and what is told."""
         position = chunk.place + chunk.packed
         expected = len(chunk.counts) * 64 + 12 * sum(chunk.counts.values()) + 64
         data = self._file.up_to(position, min(expected, _LARGEST_INDEX))
@@ -358,8 +330,10 @@ class Rosbag1:
             missing.discard(connection)
             if connection in chosen:
                 count = (last - first) // 12
+                if not count:
+                    continue
                 table = np.frombuffer(data, dtype="<u4", count=3 * count, offset=first)
-                found.append((chosen[connection], table.reshape(-1, 3)))
+                found.append((connection, table.reshape(-1, 3)))
         if not missing.isdisjoint(chosen):
             raise InputError("its index is incomplete")
         return found
@@ -416,6 +390,55 @@ class Rosbag1:
     def _note(self, damage: str) -> None:
         if damage not in self.damage and len(self.damage) < 20:
             self.damage.append(damage)
+
+
+def _indexed(data: Bytes, entries: Entries, connection: int) -> tuple[Stamps, Stamps, Stamps]:
+    """Where a connection's messages begin, their lengths, and their log times.
+
+    Args:
+        data: A chunk's records.
+        entries: What its index tells of each message.
+        connection: Whose messages they are.
+
+    Raises:
+        InputError: If the index points at something else.
+    """
+    first = int(entries[0, 2])
+    head = int(_within(np.array([first]), data)[0])
+    header = data[first + 4 : first + 4 + min(head, _LARGEST_HEADER)].tobytes()
+    code, owner = header.find(b"op=") + 3, header.find(b"conn=") + 5
+    if code < 3 or owner < 5 or not code < len(header) >= owner + 4 or len(header) != head:
+        raise InputError("its index points at something else")
+    if SCAN is not None:
+        found = tuple(np.empty(len(entries), dtype=np.int64) for _ in range(3))
+        if SCAN.pointed(data, np.ascontiguousarray(entries), *found, connection, code, owner):
+            starts, lengths, log_times = found
+            return starts, lengths, log_times
+    places = entries[:, 2].astype(np.int64)
+    heads = _within(places, data)
+    bodies = places + 4 + heads
+    lengths = _within(bodies, data)
+    starts = bodies + 4
+    if (heads > _LARGEST_HEADER).any() or (starts + lengths > len(data)).any():
+        raise InputError("its index points outside of it")
+    if (
+        (heads != head).any()
+        or (data[places + 4 + code] != _MESSAGE[0]).any()
+        or (words_at(data, places + 4 + owner, "<u4") != connection).any()
+    ):
+        raise InputError("its index points at something else")
+    return starts, lengths, entries[:, 0].astype(np.int64) * NANOSECONDS + entries[:, 1]
+
+
+def _within(places: Stamps, data: Bytes) -> Stamps:
+    """The numbers of four bytes at some places.
+
+    Raises:
+        InputError: If one lies outside.
+    """
+    if len(data) < 4 or int(places.max()) > len(data) - 4:
+        raise InputError("its index points outside of it")
+    return words_at(data, places, "<u4").astype(np.int64)
 
 
 def _records(data: bytes, partial: bool = False) -> Iterator[tuple[dict[bytes, bytes], int, int]]:

@@ -13,10 +13,11 @@
 #define Py_LIMITED_API 0x030B0000
 #include <Python.h>
 #include <stdint.h>
+#include <stdlib.h>
 #include <string.h>
 
 /* What `tftool.wire.native` expects; a build of another interface is not used. */
-#define INTERFACE 1
+#define INTERFACE 2
 
 #define SMALLEST 72              /* Bytes of a transform with empty names: stamp, two lengths, doubles. */
 #define LONGEST_NAME 4096        /* As in `rows`. */
@@ -25,6 +26,9 @@
 #define RECORD 64                /* Bytes of a record: a stamp, and seven doubles. */
 #define HEAD 31                  /* Bytes of an MCAP message's record before its payload. */
 #define MESSAGE 5                /* Its code. */
+#define ENTRY 12                 /* Bytes of an entry in a ROS 1 chunk's index. */
+#define ROS1_MESSAGE 2           /* The code of a message's record there. */
+#define LARGEST_HEADER (1 << 20) /* And the bytes of its header at most. */
 #define LEAF 0x0d                /* The first byte of a page of sqlite with rows of a table. */
 
 static inline uint32_t u32_at(const uint8_t *bytes) {
@@ -59,6 +63,7 @@ typedef struct {
     uint32_t *slots; /* Of a hash: the number of a pair, plus one; 0 where there is none. */
     uint8_t *bytes;
     uint32_t count, room, mask, used, size;
+    int busy; /* Whether a thread scans, which does not hold Python's lock meanwhile. */
 } Pairs;
 
 /* Where a transform was found. */
@@ -82,17 +87,31 @@ static uint32_t hash_of(const uint8_t *bytes, uint32_t size, uint64_t hash) {
     return (uint32_t)(hash ^ hash >> 32);
 }
 
+/* Whether names are the same: mostly a few words, for which no function need be called. */
+static inline int same(const uint8_t *one, const uint8_t *other, uint32_t size) {
+    if (size < 8) {
+        uint32_t differ = 0;
+        for (uint32_t i = 0; i < size; i++)
+            differ |= one[i] ^ other[i];
+        return differ == 0;
+    }
+    for (uint32_t i = 0; i + 8 < size; i += 8) {
+        if (u64_at(one + i) != u64_at(other + i))
+            return 0;
+    }
+    return u64_at(one + size - 8) == u64_at(other + size - 8);
+}
+
 static inline int is_pair(const Pairs *self, const Pair *pair, const uint8_t *parent,
                           uint32_t parent_size, const uint8_t *child, uint32_t child_size) {
     const uint8_t *bytes = self->bytes + pair->place;
     return pair->parent == parent_size && pair->child == child_size
-        && memcmp(bytes, parent, parent_size) == 0
-        && memcmp(bytes + parent_size, child, child_size) == 0;
+        && same(bytes, parent, parent_size) && same(bytes + parent_size, child, child_size);
 }
 
 /* Twice as much room in one of the arrays; returns whether there is. */
 static int grow(void **array, uint64_t bytes) {
-    void *larger = PyMem_Realloc(*array, (size_t)bytes);
+    void *larger = realloc(*array, (size_t)bytes);
     if (larger != NULL)
         *array = larger;
     return larger != NULL;
@@ -245,6 +264,7 @@ static PyObject *scan(PyObject *object, PyObject *const *arguments, Py_ssize_t c
     const char *starts = views[1].buf, *lengths = views[2].buf;
     const Py_ssize_t messages = views[1].len / 8;
     PyObject *result = NULL, *found = NULL, *odd = NULL, *told = NULL;
+    uint32_t *odds = NULL;
     uint64_t room = 0;
     int fits = views[2].len / 8 == messages && size <= UINT32_MAX && messages <= INT32_MAX;
     for (Py_ssize_t k = 0; k < messages && fits; k++) {
@@ -256,13 +276,19 @@ static PyObject *scan(PyObject *object, PyObject *const *arguments, Py_ssize_t c
         PyErr_SetString(PyExc_ValueError, "a message lies outside of the buffer");
         goto done;
     }
+    if (self->busy) {
+        PyErr_SetString(PyExc_RuntimeError, "another thread scans with these pairs");
+        goto done;
+    }
     found = PyByteArray_FromStringAndSize(NULL, (Py_ssize_t)(room * sizeof(Found)));
-    odd = PyByteArray_FromStringAndSize(NULL, 0);
-    if (found == NULL || odd == NULL)
+    if (found == NULL)
         goto done;
     Found *rows = (Found *)PyByteArray_AsString(found), *row = rows;
     uint32_t last = UINT32_MAX;
-    Py_ssize_t odds = 0, odd_room = 0;
+    Py_ssize_t odd_count = 0, odd_room = 0;
+    int failed = 0;
+    self->busy = 1;
+    Py_BEGIN_ALLOW_THREADS
     for (Py_ssize_t k = 0; k < messages; k++) {
         const int64_t transforms = walk(self, views[0].buf, (uint64_t)i64_at(starts, k),
                                         (uint64_t)i64_at(lengths, k), is_cdr, (uint32_t)k, &last, row);
@@ -270,16 +296,24 @@ static PyObject *scan(PyObject *object, PyObject *const *arguments, Py_ssize_t c
             row += transforms;
             continue;
         }
-        if (odds == odd_room) {
+        if (odd_count == odd_room) {
             odd_room = odd_room ? 2 * odd_room : 64;
-            if (PyByteArray_Resize(odd, odd_room * 4) < 0)
-                goto done;
+            if (!grow((void **)&odds, (uint64_t)odd_room * sizeof *odds)) {
+                failed = 1;
+                break;
+            }
         }
-        const uint32_t number = (uint32_t)k;
-        memcpy(PyByteArray_AsString(odd) + 4 * odds++, &number, 4);
+        odds[odd_count++] = (uint32_t)k;
     }
+    Py_END_ALLOW_THREADS
+    self->busy = 0;
+    if (failed) {
+        PyErr_NoMemory();
+        goto done;
+    }
+    odd = PyByteArray_FromStringAndSize((const char *)odds, odd_count * (Py_ssize_t)sizeof *odds);
     told = PyByteArray_FromStringAndSize(NULL, (Py_ssize_t)self->count * (Py_ssize_t)sizeof(Told));
-    if (told == NULL || PyByteArray_Resize(odd, odds * 4) < 0)
+    if (told == NULL || odd == NULL)
         goto done;
     Told *of_pair = (Told *)PyByteArray_AsString(told);
     memset(of_pair, 0, self->count * sizeof *of_pair);
@@ -290,6 +324,7 @@ static PyObject *scan(PyObject *object, PyObject *const *arguments, Py_ssize_t c
     if (PyByteArray_Resize(found, (row - rows) * (Py_ssize_t)sizeof(Found)) == 0)
         result = PyTuple_Pack(3, found, told, odd);
 done:
+    free(odds);
     Py_XDECREF(found);
     Py_XDECREF(odd);
     Py_XDECREF(told);
@@ -304,7 +339,7 @@ static PyObject *names(PyObject *object, PyObject *argument) {
     const long long number = PyLong_AsLongLong(argument);
     if (number == -1 && PyErr_Occurred())
         return NULL;
-    if (number < 0 || number >= self->count) {
+    if (self->busy || number < 0 || number >= self->count) {
         PyErr_SetString(PyExc_IndexError, "there is no such pair");
         return NULL;
     }
@@ -316,9 +351,9 @@ static PyObject *names(PyObject *object, PyObject *argument) {
 static void pairs_dealloc(PyObject *object) {
     Pairs *self = (Pairs *)object;
     PyTypeObject *type = Py_TYPE(object);
-    PyMem_Free(self->pairs);
-    PyMem_Free(self->slots);
-    PyMem_Free(self->bytes);
+    free(self->pairs);
+    free(self->slots);
+    free(self->bytes);
     freefunc release = PyType_GetSlot(type, Py_tp_free);
     release(object);
     Py_DECREF(type);
@@ -403,20 +438,22 @@ static PyObject *fill(PyObject *module, PyObject *const *arguments, Py_ssize_t c
     const uint8_t *buffer = views[0].buf;
     const uint64_t size = (uint64_t)views[0].len;
     const Py_ssize_t rows = views[1].len / (Py_ssize_t)sizeof(Found), messages = views[2].len / 4;
+    const char *wrong = NULL;
+    Py_BEGIN_ALLOW_THREADS
     for (Py_ssize_t k = 0; k < rows; k++) {
         Found found;
         memcpy(&found, (const char *)views[1].buf + k * (Py_ssize_t)sizeof found, sizeof found);
         if (found.pair >= (uint64_t)pairs || found.message >= (uint64_t)messages
             || (uint64_t)found.stamp + 8 > size || (uint64_t)found.numbers + 56 > size) {
-            PyErr_SetString(PyExc_ValueError, "it was found in another buffer");
-            goto done;
+            wrong = "it was found in another buffer";
+            break;
         }
         if (targets[found.pair].owner < 0)
             continue;
         Target *target = &targets[targets[found.pair].owner];
         if (target->count == target->room) {
-            PyErr_SetString(PyExc_ValueError, "a target is too short");
-            goto done;
+            wrong = "a target is too short";
+            break;
         }
         char *record = (char *)target->records.buf + RECORD * target->count;
         const int64_t stamp = (int64_t)(int32_t)u32_at(buffer + found.stamp) * 1000000000
@@ -424,6 +461,11 @@ static PyObject *fill(PyObject *module, PyObject *const *arguments, Py_ssize_t c
         memcpy(record, &stamp, 8);
         memcpy(record + 8, buffer + found.numbers, 56);
         memcpy((char *)target->messages.buf + 4 * target->count++, (const char *)views[2].buf + 4 * (size_t)found.message, 4);
+    }
+    Py_END_ALLOW_THREADS
+    if (wrong != NULL) {
+        PyErr_SetString(PyExc_ValueError, wrong);
+        goto done;
     }
     result = Py_NewRef(Py_None);
 done:
@@ -470,6 +512,51 @@ static PyObject *indexed(PyObject *module, PyObject *const *arguments, Py_ssize_
         memcpy((char *)views[2].buf + 8 * k, &start, 8);
         memcpy((char *)views[3].buf + 8 * k, &bytes, 8);
         memcpy((char *)views[4].buf + 8 * k, &log_time, 8);
+        fits = 1;
+    }
+    release_all(views, 5);
+    return PyBool_FromLong(fits);
+}
+
+PyDoc_STRVAR(pointed_doc, "Where the messages of a ROS 1 chunk's index lie; see `_scan.pyi`.");
+
+static PyObject *pointed(PyObject *module, PyObject *const *arguments, Py_ssize_t count) {
+    (void)module;
+    static const int flags[] = {PyBUF_SIMPLE, PyBUF_SIMPLE, PyBUF_WRITABLE, PyBUF_WRITABLE, PyBUF_WRITABLE};
+    Py_buffer views[5];
+    if (count != 8) {
+        PyErr_SetString(PyExc_TypeError, "pointed takes a chunk, an index, three arrays, and three numbers");
+        return NULL;
+    }
+    const unsigned long connection = PyLong_AsUnsignedLong(arguments[5]), code = PyLong_AsUnsignedLong(arguments[6]),
+                        owner = PyLong_AsUnsignedLong(arguments[7]);
+    if (PyErr_Occurred() || !read_all(arguments, views, flags, 5))
+        return NULL;
+    const uint8_t *data = views[0].buf;
+    const uint64_t size = (uint64_t)views[0].len;
+    const Py_ssize_t messages = views[1].len / ENTRY;
+    uint64_t head = 0;
+    int fits = views[2].len / 8 >= messages && views[3].len / 8 >= messages && views[4].len / 8 >= messages;
+    for (Py_ssize_t k = 0; k < messages && fits; k++) {
+        const uint8_t *entry = (const uint8_t *)views[1].buf + ENTRY * k;
+        const uint64_t place = u32_at(entry + 8);
+        fits = 0;
+        if (place + 8 > size)
+            break;
+        const uint64_t length = u32_at(data + place);
+        /* All headers are laid out like the first one. */
+        head = k ? head : length;
+        if (length != head || head > LARGEST_HEADER || head > size - place - 8 || code >= head
+            || owner >= head || head - owner < 4)
+            break;
+        const uint8_t *header = data + place + 4;
+        const uint64_t bytes = u32_at(header + head);
+        if (header[code] != ROS1_MESSAGE || u32_at(header + owner) != connection || bytes > size - place - 8 - head)
+            break;
+        const int64_t told[] = {(int64_t)(place + 8 + head), (int64_t)bytes,
+                                (int64_t)u32_at(entry) * 1000000000 + u32_at(entry + 4)};
+        for (int column = 0; column < 3; column++)
+            memcpy((char *)views[2 + column].buf + 8 * k, &told[column], 8);
         fits = 1;
     }
     release_all(views, 5);
@@ -584,6 +671,7 @@ static PyObject *rows(PyObject *module, PyObject *const *arguments, Py_ssize_t c
 static PyMethodDef methods[] = {
     {"fill", (PyCFunction)(void (*)(void))fill, METH_FASTCALL, fill_doc},
     {"rows", (PyCFunction)(void (*)(void))rows, METH_FASTCALL, rows_doc},
+    {"pointed", (PyCFunction)(void (*)(void))pointed, METH_FASTCALL, pointed_doc},
     {"indexed", (PyCFunction)(void (*)(void))indexed, METH_FASTCALL, indexed_doc},
     {NULL, NULL, 0, NULL},
 };

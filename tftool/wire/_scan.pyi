@@ -16,8 +16,11 @@ class Pairs:
             is the first; which messages are odd, uint32: those are for `walk`, and nothing of
             them is in the first two.
 
+        Other threads of Python run meanwhile; the buffer must not change.
+
         Raises:
             ValueError: If a message lies outside of the buffer, or that has more than 4 GiB.
+            RuntimeError: If another thread does the same right now.
         """
 
     def names(self, number: int, /) -> tuple[bytes, bytes]:
@@ -31,6 +34,8 @@ def fill(
     /,
 ) -> None:
     """`Template.cut` of what `Pairs.scan` found.
+
+    Other threads of Python run meanwhile; nothing of it must change.
 
     Args:
         buffer: The same as there.
@@ -57,6 +62,34 @@ def indexed(
 
     Returns:
         False, with anything in the arrays, where it points at what is no message of the channel.
+    """
+
+def pointed(
+    chunk: object,
+    index: object,
+    starts: object,
+    lengths: object,
+    log_times: object,
+    connection: int,
+    code: int,
+    owner: int,
+    /,
+) -> bool:
+    """Where the messages that a ROS 1 chunk's index tells lie, into three int64 arrays.
+
+    Args:
+        chunk: Its records.
+        index: Of each message seconds, nanoseconds, and where its record begins, uint32.
+        starts: Where to write where each message begins.
+        lengths: Likewise how long it is.
+        log_times: Likewise when it was received.
+        connection: Whose messages they are.
+        code: The byte of the first one's header that says what record it is.
+        owner: The byte of it at which the number of its connection begins.
+
+    Returns:
+        False, with anything in the arrays, where it points at what is no message of the
+        connection, or one whose header is laid out in another way.
     """
 
 def rows(

@@ -8,7 +8,7 @@ from tftool.frames.native import SWITCH
 if TYPE_CHECKING:
     from types import ModuleType
 
-_INTERFACE = 1
+_INTERFACE = 2
 """What these modules expect of a scan; one that was built for others is left alone."""
 
 
