@@ -18,7 +18,8 @@ VARIABLE: Final = "_TFTOOL_COMPLETE"
 """Set by the scripts; holds the name of the shell."""
 
 BEHIND: Final = "_TFTOOL_COMPLETE_BEHIND"
-"""Set by the scripts of shells that tell it: the words behind the one typed, a word a line."""
+"""The words behind the one typed, a word a line. fish's script sets none: while it completes,
+fish's `commandline` ends with the word that is typed."""
 
 SCRIPTS: Final = {
     "bash": """\
