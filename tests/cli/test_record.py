@@ -92,7 +92,10 @@ def test_a_finding_of_the_doctors_ends_it_and_is_said(here, tftool):
     ("words", "told"),
     [
         (["-o", "run.bag"], "'.mcap' does"),
-        (["-o", "run.mcap", "--max-duration", "2"], "folder: 'run', not 'run.mcap'"),
+        (
+            ["-o", "run.mcap", "--max-duration", "2"],
+            "into a folder: name one, without '.mcap' (-o run)",
+        ),
         (["-o", "run", "--max-size", "lots"], "--max-size takes a number"),
         (["-o", "run", "--max-size", "5k"], "less than a file needs"),
         (["-o", "run", "--ring", "5", "--max-size", "5M"], "--ring writes one file"),

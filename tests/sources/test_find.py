@@ -56,6 +56,8 @@ def test_a_database_is_known_by_its_content(tmp_path):
         (b"version https://git-lfs.github.com/spec/v1\noid sha256:0", "git lfs pull"),
         (b"\x1f\x8b\x08" + bytes(40), "gunzip"),
         (bytes(40), "neither a recording"),
+        (b"\xc3\x28\x81 noise without a zero or a control character", "neither a recording"),
+        (b"\x07\x1f about: noise", "neither a recording"),
     ],
 )
 def test_what_is_no_source_is_refused_with_what_it_is(tmp_path, content, told):
@@ -138,3 +140,10 @@ def test_a_folder_of_something_else_is_refused(tmp_path):
 
     with pytest.raises(InputError, match=r"No recording .* which has 1 entry"):
         find(str(tmp_path))
+
+
+def test_a_scenario_of_signs_that_are_cut_where_the_first_bytes_end_is_one(tmp_path):
+    for start in range(4):
+        (tmp_path / "s.yaml").write_text("x" * start + "€" * 3000, encoding="utf-8")
+
+        assert find(str(tmp_path / "s.yaml")).kind is Kind.SCENARIO

@@ -417,6 +417,6 @@ def _nearest(written: str, near: list[str]) -> list[str]:
 
 
 def _complain(who: str, sentence: str) -> None:
-    from tftool.views.escaping import visible_lines
+    from tftool.cli.notices import complain
 
-    sys.stderr.write(f"{who}: {visible_lines(sentence.rstrip())}\n")
+    complain(who, sentence)

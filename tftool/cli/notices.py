@@ -20,7 +20,17 @@ _NUMBER = re.compile(r"-?\d+(?:\.\d+)?(?:e[+-]?\d+)?")
 
 def notice(sentence: str) -> None:
     """Tell the user something that is no result; a terminal gets it broken between words."""
-    _write(_fitting(sentence))
+    _write(fitting(sentence))
+
+
+def complain(who: str, sentence: str) -> None:
+    """Tell the user what went wrong, whatever names are in the sentence.
+
+    Args:
+        who: The command.
+        sentence: What it was.
+    """
+    notice(f"{who}: {visible_lines(sentence.rstrip())}")
 
 
 def _write(text: str) -> None:
@@ -28,17 +38,26 @@ def _write(text: str) -> None:
     sys.stderr.flush()
 
 
-def _fitting(sentence: str) -> str:
+def fitting(sentence: str) -> str:
+    """Give a text as stderr shows it whole: on a terminal broken between words.
+
+    Lines that begin with a blank stay as they are: excerpts of files, and tracebacks.
+    """
     try:
         width = os.get_terminal_size(sys.stderr.fileno()).columns
     except (OSError, ValueError):
         # No terminal, or one that does not say how wide it is.
         return sentence
-    if width < 20 or len(sentence) < width // 2:
+    # No sign is wider than two cells.
+    if width < 20 or all(len(line) <= width // 2 for line in sentence.split("\n")):
         return sentence
     from tftool.views.fixed_width import wrap_words
 
-    return "\n".join(piece for line in sentence.split("\n") for piece in wrap_words(line, width))
+    return "\n".join(
+        piece
+        for line in sentence.split("\n")
+        for piece in ([line] if line.startswith(" ") else wrap_words(line, width))
+    )
 
 
 def is_news(record: "LogRecord") -> bool:
@@ -60,10 +79,12 @@ def tell_record(record: "LogRecord", *, label: str = "") -> None:
         label: The program it comes from, where there are several.
     """
     line = visible_lines(str(record).rstrip())
+    label = f"[{label}] " if label else ""
+    line = fitting(label + line)[len(label) :]
     color = _COLORS.get(record.level)
     if color is not None and wants_color(os.environ, is_terminal=sys.stderr.isatty()):
         line = f"\033[{color}m{line}\033[0m"
-    _write(f"[{label}] {line}" if label else line)
+    _write(label + line)
 
 
 class FoldedLog:

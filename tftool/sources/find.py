@@ -26,6 +26,8 @@ MOST_FILES = 10_000
 _HEAD = 4096
 _MCAP_MANGLED = (b"\x89MCAP0\n", b"\x89MCAP0\r\r\n")
 _OLD_BAG = b"#ROSRECORD"
+_CONTROL = re.compile(rb"[\x00-\x08\x0e-\x1a\x1c-\x1f]")
+"""What no text has: control characters but for blanks, line ends and the escape of colours."""
 _LFS = b"version https://git-lfs"
 _OTHERS = {
     b"\x1f\x8b": "a gzip archive: unpack it first (gunzip)",
@@ -163,11 +165,8 @@ def _kind_of_text(path: Path, head: bytes) -> Kind:
     text = head
     if text.startswith((b"\xff\xfe", b"\xfe\xff")):
         text = head.decode("utf-16", "replace").encode()
-    if b"\x00" in text:
-        raise InputError(
-            f"'{path}' is neither a recording (MCAP, rosbag2, ROS 1 bag), nor a robot "
-            "description (URDF, xacro), nor a scenario (YAML)."
-        )
+    if _CONTROL.search(text):
+        raise _nothing(path)
     start = text.removeprefix(b"\xef\xbb\xbf").lstrip()
     if start.startswith(b"<"):
         root = re.search(rb"<([A-Za-z_][\w.:-]*)", start)
@@ -175,7 +174,27 @@ def _kind_of_text(path: Path, head: bytes) -> Kind:
     is_launched = re.search(rb"^(launch\s*:|def generate_launch_description)", start, re.MULTILINE)
     is_scenario = re.search(rb"^(nodes|about|expect)\s*:", start, re.MULTILINE)
     is_script = b"static_transform_publisher" in start and not is_scenario
-    return Kind.STATICS if is_launched or is_script else Kind.SCENARIO
+    if is_launched or is_script:
+        return Kind.STATICS
+    if not (is_scenario or _is_text(text)):
+        raise _nothing(path)
+    return Kind.SCENARIO
+
+
+def _is_text(head: bytes) -> bool:
+    """Whether a file that begins so is UTF-8; a sign may be cut where the head ends."""
+    try:
+        head.decode()
+    except UnicodeDecodeError as error:
+        return len(head) == _HEAD and error.start >= _HEAD - 3
+    return True
+
+
+def _nothing(path: Path) -> InputError:
+    return InputError(
+        f"'{path}' is neither a recording (MCAP, rosbag2, ROS 1 bag), nor a robot "
+        "description (URDF, xacro), nor a scenario (YAML)."
+    )
 
 
 def _is_metadata(path: Path) -> bool:

@@ -207,7 +207,9 @@ def test_what_is_there_is_replaced_only_when_asked_to(tmp_path):
 def test_names_that_cannot_hold_it_are_refused(tmp_path):
     with pytest.raises(UsageError, match=r"'\.mcap' does"):
         RollingRecording(tmp_path / "a.bag")
-    with pytest.raises(UsageError, match="Several files go into a folder"):
+    with pytest.raises(
+        UsageError, match=r"several files, into a folder: name one, without '.mcap'"
+    ):
         RollingRecording(tmp_path / "a.mcap", RecordLimits(duration=1))
     with pytest.raises(InputError, match="there is no folder"):
         RollingRecording(tmp_path / "nowhere" / "a.mcap")

@@ -88,6 +88,7 @@ def check(
     """
     # Heavy imports wait until this command is the chosen one.
     import json
+    from dataclasses import replace
 
     from rich.console import Console
 
@@ -105,6 +106,12 @@ def check(
         if not (verbose or console.is_terminal):
             # A log may be searched by line: what is one sentence stays in one.
             console.width = LOG_WIDTH
+        if console.is_terminal and sys.stderr.isatty():
+            # The terminal has the whole sentence already.
+            reports = [
+                report if readable else replace(report, failure="cannot be read")
+                for report, readable in judged
+            ]
         # Written by us: rich ends the process with 1 when a reader (`| head`) is gone.
         with console.capture() as table:
             console.print(judgements.render_all(reports) if verbose else judgements.render(reports))
@@ -192,6 +199,7 @@ def _judge(
 ) -> "tuple[Report, bool]":
     """Report on one scenario, and whether it could be read; what could not is told at once."""
     from tftool.cli.naming import scenario_named
+    from tftool.cli.notices import complain, notice
     from tftool.errors import InputError
     from tftool.messages import Report
     from tftool.views.escaping import visible_lines
@@ -199,10 +207,10 @@ def _judge(
     try:
         scenario = scenario_named(word)
     except InputError as error:
-        sys.stderr.write(f"tftool: {visible_lines(str(error))}\n")
+        complain("tftool", str(error))
         return Report(Path(word).stem or word, word, (), failure=str(error)), False
     for mistake in scenario.not_a_tree if own_nodes else ():
-        sys.stderr.write(f"{visible_lines(str(mistake))}\n")
+        notice(visible_lines(str(mistake)))
     if recordings is None:
         return judge(scenario).report(), True
     return _recorded(scenario, judge, recordings).report(), True

@@ -197,9 +197,9 @@ def _diagnosed(
 
     from tftool.cli.examining import material_of, rules_of
     from tftool.cli.fleet import expanded
+    from tftool.cli.notices import complain
     from tftool.diagnostics.judge import judge
     from tftool.sources.remote import fetched
-    from tftool.views.escaping import visible_lines
 
     chosen, left_out = _words(select), _words(ignore)
     words = [place for place in places if place is not None]
@@ -213,7 +213,7 @@ def _diagnosed(
         except InputError as error:
             if len(sources) == 1:
                 raise
-            sys.stderr.write(f"tftool doctor: {visible_lines(str(error))}\n")
+            complain("tftool doctor", str(error))
             rows.append((word or "", str(error)))
             continue
         if path != (word or ""):

@@ -89,10 +89,14 @@ def _one(connection: Connection, place: str, *, for_programs: bool) -> ExitStatu
         return ExitStatus.DONE
     if not found.kind.is_recording:
         word = visible(place)
-        plays = f"'tftool check {word}' plays it, " if found.kind is Kind.SCENARIO else ""
+        if found.kind is Kind.SCENARIO:
+            raise UsageError(
+                f"'{word}' is no recording and no robot description. As a scenario, 'tftool check "
+                f"{word}' plays it, and 'tftool tree {word}' shows its frames."
+            )
         raise UsageError(
-            f"'{word}' is a {found.kind.value} and no recording: {plays}"
-            f"'tftool tree {word}' shows its frames."
+            f"'{word}' is a {found.kind.value} and no recording: 'tftool tree {word}' shows its "
+            "frames."
         )
     recording: Recording = read(found, connection.robot, connection.recording)
     with recording:

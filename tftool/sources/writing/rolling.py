@@ -101,7 +101,10 @@ class RollingRecording:
         if path.suffix not in ("", ".mcap"):
             raise UsageError(f"'{path.name}' names no container that is recorded: '.mcap' does.")
         if self._limits.splits and not self._is_folder:
-            raise UsageError(f"Several files go into a folder: '{path.stem}', not '{path.name}'.")
+            raise UsageError(
+                "--max-size and --max-duration write several files, into a folder: name one, "
+                f"without '{path.suffix}' (-o {path.with_suffix('')})."
+            )
         self.messages = self.transforms = 0
         self.files: list[str] = []
         self._facts: list[FileFacts] = []
