@@ -10,7 +10,7 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from decimal import ROUND_HALF_UP, Decimal, InvalidOperation
 from pathlib import Path
-from typing import Annotated
+from typing import Annotated, Any
 
 import typer
 
@@ -198,6 +198,19 @@ OUTPUT = "Output"
 MANY = "Many recordings"
 """Headings of the help under which options are listed; "Options" is that of all others."""
 
+
+def output_file(words: str) -> Any:
+    """The option `-o FILE` of a command; `words` say what it writes there."""
+    return typer.Option("-o", "--output", metavar="FILE", rich_help_panel=OUTPUT, help=words)
+
+
+def decimals(words: str) -> Any:
+    """The option `--precision N` of a command that prints numbers; `words` say of what."""
+    return typer.Option(
+        "--precision", "-p", min=0, max=17, metavar="N", rich_help_panel=OUTPUT, help=words
+    )
+
+
 From = Annotated[
     str | None,
     typer.Argument(
@@ -306,6 +319,10 @@ RunFor = Annotated[
 
 SkippedFolders = Annotated[
     bool, typer.Option("--verbose", "-v", help="Say which folders are skipped.")
+]
+
+Force = Annotated[
+    bool, typer.Option("--force", rich_help_panel=OUTPUT, help="Replace what is there.")
 ]
 
 Json = Annotated[bool, typer.Option("--json", rich_help_panel=OUTPUT, help="Print JSON.")]

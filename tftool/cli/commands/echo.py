@@ -17,6 +17,7 @@ from tftool.cli.options import (
     AtOption,
     CacheTime,
     Json,
+    decimals,
     duration,
     finite,
     not_negative,
@@ -108,15 +109,7 @@ def echo(
     ] = False,
     precision: Annotated[
         int,
-        typer.Option(
-            "--precision",
-            "-p",
-            min=0,
-            max=17,
-            metavar="N",
-            rich_help_panel=OUTPUT,
-            help="Decimals.",
-        ),
+        decimals("Decimals."),
     ] = 3,
     timeout: Annotated[
         Duration | None,

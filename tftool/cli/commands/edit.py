@@ -12,6 +12,7 @@ from tftool.cli.options import (
     OUTPUT,
     WHEN,
     At,
+    Force,
     Json,
     duration,
     finite,
@@ -166,9 +167,7 @@ def edit(
             show_default=False,
         ),
     ] = 0,
-    force: Annotated[
-        bool, typer.Option("--force", rich_help_panel=OUTPUT, help="Replace what FILE names.")
-    ] = False,
+    force: Force = False,
     dry_run: Annotated[
         bool,
         typer.Option(

@@ -11,12 +11,15 @@ from tftool.cli.options import (
     OUTPUT,
     AtOption,
     Every,
+    Force,
     FromOption,
     Pairs,
     Rate,
     RunFor,
     StampsOf,
     ToOption,
+    decimals,
+    output_file,
 )
 from tftool.errors import UsageError
 from tftool.sinks.formats import Format, format_of
@@ -39,13 +42,9 @@ def export(
     ] = None,
     output: Annotated[
         Path | None,
-        typer.Option(
-            "-o",
-            "--output",
-            metavar="FILE",
-            rich_help_panel=OUTPUT,
-            help="Where to write it. Of pairs .tum .kitti .csv .npz .parquet; of links .urdf "
-            ".launch.py .launch.xml .launch.yaml .sh .mcap.",
+        output_file(
+            "Where to write it. Of pairs .tum .kitti .csv .npz .parquet; of links .urdf "
+            ".launch.py .launch.xml .launch.yaml .sh .mcap."
         ),
     ] = None,
     form: Annotated[
@@ -73,15 +72,7 @@ def export(
     ] = False,
     precision: Annotated[
         int,
-        typer.Option(
-            "--precision",
-            "-p",
-            min=0,
-            max=17,
-            metavar="N",
-            rich_help_panel=OUTPUT,
-            help="Decimals; 17 writes each number as short as it can be read back.",
-        ),
+        decimals("Decimals; 17 writes each number as short as it can be read back."),
     ] = 9,
     root: Annotated[
         str | None,
@@ -103,9 +94,7 @@ def export(
             help="Write .mcap as foxglove.FrameTransforms, not as tf2_msgs.",
         ),
     ] = False,
-    force: Annotated[
-        bool, typer.Option("--force", rich_help_panel=OUTPUT, help="Replace what is there.")
-    ] = False,
+    force: Force = False,
 ) -> ExitStatus:
     """Write a pair over time, or links, to files of other tools.
 

@@ -14,6 +14,7 @@ from tftool.cli.options import (
     WHEN,
     Ascii,
     Every,
+    Force,
     FromOption,
     Light,
     Pairs,
@@ -22,6 +23,7 @@ from tftool.cli.options import (
     StampsOf,
     ToOption,
     duration,
+    output_file,
     positive,
 )
 from tftool.errors import InputError, TransformException, UsageError
@@ -51,13 +53,7 @@ def plot(
     pairs: Pairs = None,
     output: Annotated[
         Path | None,
-        typer.Option(
-            "-o",
-            "--output",
-            metavar="FILE",
-            rich_help_panel=OUTPUT,
-            help="Write a picture: .svg, .pdf or .png.",
-        ),
+        output_file("Write a picture: .svg, .pdf or .png."),
     ] = None,
     only: Annotated[
         list[str] | None,
@@ -90,9 +86,7 @@ def plot(
     dark: Annotated[
         bool, typer.Option("--dark", rich_help_panel=OUTPUT, help="With -o: on a dark ground.")
     ] = False,
-    force: Annotated[
-        bool, typer.Option("--force", rich_help_panel=OUTPUT, help="Replace what is there.")
-    ] = False,
+    force: Force = False,
 ) -> ExitStatus:
     """Plot where SOURCE is in TARGET over time, in the terminal or as a picture.
 

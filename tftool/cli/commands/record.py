@@ -13,7 +13,7 @@ import typer
 
 from tftool.cli.app import ExitStatus
 from tftool.cli.connection import Connection
-from tftool.cli.options import OUTPUT, WHEN, Json, RunFor, duration, positive
+from tftool.cli.options import OUTPUT, WHEN, Force, Json, RunFor, duration, positive
 from tftool.errors import UsageError
 from tftool.stamps import Duration, seconds
 
@@ -90,9 +90,7 @@ def record(
             help="Begin a new file after so long.",
         ),
     ] = None,
-    force: Annotated[
-        bool, typer.Option("--force", rich_help_panel=OUTPUT, help="Replace what FILE names.")
-    ] = False,
+    force: Force = False,
     for_programs: Json = False,
 ) -> ExitStatus:
     """Record a session (ros2 bag record).

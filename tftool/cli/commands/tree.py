@@ -9,7 +9,7 @@ import typer
 
 from tftool.cli.app import ExitStatus
 from tftool.cli.connection import Connection
-from tftool.cli.options import OUTPUT, AtOption, CacheTime, From, Json, RunFor
+from tftool.cli.options import OUTPUT, AtOption, CacheTime, From, Json, RunFor, output_file
 from tftool.errors import InputError, UsageError
 from tftool.stamps import Duration, seconds
 
@@ -64,13 +64,7 @@ def tree(
     ] = None,
     output: Annotated[
         Path | None,
-        typer.Option(
-            "-o",
-            "--output",
-            metavar="FILE",
-            rich_help_panel=OUTPUT,
-            help="Where to write it; - is stdout.",
-        ),
+        output_file("Where to write it; - is stdout."),
     ] = None,
     as_json: Json = False,
     wide: Annotated[

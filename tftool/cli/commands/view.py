@@ -9,7 +9,7 @@ import typer
 
 from tftool.cli.app import ExitStatus
 from tftool.cli.connection import ROBOT, Connection
-from tftool.cli.options import OUTPUT, CacheTime, From, RunFor, within
+from tftool.cli.options import CacheTime, Force, From, RunFor, output_file, within
 from tftool.errors import UsageError
 from tftool.stamps import Duration, as_seconds
 
@@ -59,17 +59,9 @@ def view(
     ] = None,
     output: Annotated[
         Path | None,
-        typer.Option(
-            "-o",
-            "--output",
-            metavar="FILE",
-            rich_help_panel=OUTPUT,
-            help="Write the page with all of its data into one .html file, and serve nothing.",
-        ),
+        output_file("Write the page with all of its data into one .html file, and serve nothing."),
     ] = None,
-    force: Annotated[
-        bool, typer.Option("--force", rich_help_panel=OUTPUT, help="Replace what is there.")
-    ] = False,
+    force: Force = False,
 ) -> ExitStatus:
     """Show the frames in 3-D, in a browser (rviz2 with its TF display).
 
