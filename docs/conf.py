@@ -1,13 +1,12 @@
 """The site: `python -m sphinx -W docs SITE`, with the extra `docs`.
 
-Two directives draw from the program itself, so that a page cannot fall behind it:
-`{commands}` is the help of every command, `{tree} turtles` the picture of a scenario's frames.
+A directive prints from the program itself, so that a page cannot fall behind it: `{commands}` is
+the help of every command.
 """
 
 import contextlib
 import io
 import os
-from pathlib import Path
 
 from docutils import nodes
 from docutils.parsers.rst import Directive
@@ -73,21 +72,6 @@ class EveryCommand(Directive):
         return sections
 
 
-class Tree(Directive):
-    """The frames of a scenario as `tftool tree SCENARIO -o` draws them."""
-
-    required_arguments = 1
-
-    def run(self) -> list[nodes.Node]:
-        """Draw the picture beside the pages, and give it."""
-        name = self.arguments[0]
-        folder = Path(self.state.document.settings.env.srcdir, "_drawn")
-        folder.mkdir(exist_ok=True)
-        _printed("tree", name, "-o", str(folder / f"{name}.svg"))
-        return [nodes.image(uri=f"/_drawn/{name}.svg", alt=f"the frames of {name}")]
-
-
 def setup(app: Sphinx) -> None:
-    """Add the directives."""
+    """Add the directive."""
     app.add_directive("commands", EveryCommand)
-    app.add_directive("tree", Tree)

@@ -8,6 +8,7 @@ from pathlib import Path
 import pytest
 
 from tests.pages import blocks, follow, said_by
+from tftool.cli.app import main
 
 ROOT = Path(__file__).parents[1]
 DOCS = ROOT / "docs"
@@ -25,6 +26,15 @@ def named(page):
 FILE = re.compile(r"# [\w./-]+\.(py|yaml)\n")
 """The first line of a block that is a file: its name."""
 
+EXCERPT = re.compile(r"^<!-- From (\S+)\. -->\n```\w+\n(.*?)^```$", re.MULTILINE | re.DOTALL)
+"""A part of a file, shown where pages are read as they are."""
+
+
+def excerpts(page):
+    """The parts of files that a page shows: (name, text)."""
+    return EXCERPT.findall(page.read_text(encoding="utf-8"))
+
+
 WITH_BLOCKS = [page for page in sorted(DOCS.rglob("*.md")) if blocks(page)]
 
 
@@ -34,8 +44,10 @@ def test_a_page_can_be_followed_line_by_line(page, tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
     monkeypatch.setenv("COLUMNS", "100")
     monkeypatch.setenv("TFTOOL_SESSION_DIR", str(tmp_path / "sessions"))
-    previous = None
+    previous, shown = None, [text for _, text in excerpts(page)]
     for kind, text in blocks(page):
+        if text in shown:
+            continue
         first = text.partition("\n")[0]
         if kind == "console":
             follow(text)
@@ -50,12 +62,37 @@ def test_every_program_of_a_page_has_its_output_below_it():
     # architecture.md shows parts of files to add; the other pages, programs.
     for page in DOCS.glob("*/*.md"):
         kinds = [kind for kind, _ in blocks(page)]
+        shown = [text for _, text in excerpts(page)]
         lonely = [
             at
             for at, (kind, text) in enumerate(blocks(page))
-            if kind == "python" and not FILE.match(text) and kinds[at + 1 :][:1] != ["text"]
+            if kind == "python"
+            and not FILE.match(text)
+            and text not in shown
+            and kinds[at + 1 :][:1] != ["text"]
         ]
         assert not lonely, page.name
+
+
+@pytest.mark.parametrize("page", [page for page in WITH_BLOCKS if excerpts(page)], ids=named)
+def test_what_is_shown_of_a_file_stands_in_it(page):
+    for name, text in excerpts(page):
+        assert text in (ROOT / name).read_text(encoding="utf-8"), name
+
+
+def test_pages_to_learn_from_need_no_site_to_be_read():
+    for page in DOCS.glob("learn/*.md"):
+        assert not re.findall(r"^```\{(?!toctree)", page.read_text("utf-8"), re.MULTILINE), (
+            page.name
+        )
+
+
+def test_the_picture_of_the_turtles_frames_is_what_the_program_draws(tmp_path):
+    drawn = tmp_path / "turtles.svg"
+    assert main(["tree", "turtles", "-o", str(drawn)]) == 0
+
+    # To draw it anew: tftool tree turtles -o docs/learn/turtles.svg
+    assert (DOCS / "learn" / "turtles.svg").read_text("utf-8") == drawn.read_text("utf-8")
 
 
 def test_the_site_is_built_without_a_warning(tmp_path):
