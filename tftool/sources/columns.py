@@ -19,7 +19,7 @@ MOST_EDGES: Final = 100_000
 """Edges of one recording; of what goes beyond, only the number is told."""
 
 _NEVER: Final = 2**62, 0
-_MOST_AHEAD: Final = 128  # times as many rows as have come, at most, are made room for
+_MOST_AHEAD: Final = 16  # times as many rows as have come, at most, are made room for
 
 
 @dataclass(frozen=True, slots=True, eq=False)

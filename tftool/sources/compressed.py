@@ -2,7 +2,7 @@
 
 import bz2
 import os
-from collections.abc import Callable, Hashable, Iterable
+from collections.abc import Callable, Iterable
 from concurrent.futures import Future, ThreadPoolExecutor
 from typing import TYPE_CHECKING, Any, Final, TypeAlias
 
@@ -56,6 +56,38 @@ def unpack(method: str, packed: bytes, size: int) -> bytes:
     return found
 
 
+class _Room:
+    """Memory that pieces are unpacked into, one after the other: what is new costs more."""
+
+    def __init__(self) -> None:
+        self._bytes = bytearray()
+        self._zstd: Any = None
+
+    def unpack(self, method: str, packed: bytes, size: int) -> "bytes | memoryview":
+        """As the function of that name; what it gives is here as a rule, until the next one."""
+        if method == "zstd":
+            check_size(len(packed), size)
+            try:
+                if self._read(packed, size):
+                    return memoryview(self._bytes)[:size]
+            except Exception:
+                # What is wrong is for the other to say.
+                pass
+        return unpack(method, packed, size)
+
+    def _read(self, packed: bytes, size: int) -> bool:
+        """Read a frame of zstd to its end; whether it is as long as it should be."""
+        module = zstandard()
+        if module.frame_content_size(packed) != size:
+            return False
+        if len(self._bytes) < size:
+            self._bytes = bytearray(size)
+        self._zstd = self._zstd or module.ZstdDecompressor()
+        with self._zstd.stream_reader(packed) as reader:
+            found: int = reader.readinto(memoryview(self._bytes)[:size])
+            return found == size and not reader.read(1)
+
+
 class Ahead:
     """Unpacks pieces in threads while those before them are looked at; works in a `with`.
 
@@ -63,7 +95,7 @@ class Ahead:
     else is done in a thread.
     """
 
-    def __init__(self, keys: Iterable[Hashable], packed: Callable[[Any], Packed | None]) -> None:
+    def __init__(self, keys: Iterable[object], packed: Callable[[Any], Packed | None]) -> None:
         """Take what there is to unpack.
 
         Args:
@@ -73,7 +105,9 @@ class Ahead:
         """
         self._keys = iter(keys)
         self._packed = packed
-        self._coming: dict[Hashable, Future[bytes]] = {}
+        self._coming: dict[object, tuple[Future[bytes | memoryview], _Room]] = {}
+        self._spare: list[_Room] = []
+        self._lent: _Room | None = None
         self._workers = min(_processors(), _MOST_WORKERS)
         self._pool: ThreadPoolExecutor | None = None
 
@@ -84,10 +118,18 @@ class Ahead:
         if self._pool is not None:
             self._pool.shutdown(wait=True, cancel_futures=True)
 
-    def take(self, key: Hashable) -> "Future[bytes] | None":
-        """What `unpack` makes of a piece; None where it is not on its way."""
+    def take(self, key: object) -> "Future[bytes | memoryview] | None":
+        """What `unpack` makes of a piece; None where it is not on its way.
+
+        What was taken before must not be looked at any more: its memory is used again.
+        """
+        if self._lent is not None:
+            self._spare.append(self._lent)
+            self._lent = None
         self._start()
-        found = self._coming.pop(key, None)
+        if key not in self._coming:
+            return None
+        found, self._lent = self._coming.pop(key)
         self._start()
         return found
 
@@ -102,7 +144,8 @@ class Ahead:
                 continue
             if self._pool is None:
                 self._pool = ThreadPoolExecutor(self._workers, "tftool-unpack")
-            self._coming[key] = self._pool.submit(unpack, *piece)
+            room = self._spare.pop() if self._spare else _Room()
+            self._coming[key] = self._pool.submit(room.unpack, *piece), room
 
 
 def _processors() -> int:

@@ -2,13 +2,14 @@
 
 import os
 import re
-from collections.abc import Collection, Iterator
+from collections.abc import Callable, Collection, Iterator
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Final, Protocol
 
 from tftool.errors import InputError
 from tftool.sources.columns import Batch
+from tftool.sources.compressed import Ahead, Packed, unpack, unpack_beginning
 from tftool.sources.contract import Progress
 from tftool.stamps import Stamp
 
@@ -114,6 +115,8 @@ class Container(Protocol):
     ) -> Iterator[Batch]:
         """The messages of some streams, in the order of the recording.
 
+        A batch's buffer holds until the next one is asked for: its memory is used again.
+
         Args:
             wanted: Numbers of streams.
             progress: Is told how far it has come.
@@ -122,6 +125,24 @@ class Container(Protocol):
 
     def close(self) -> None:
         """Close the file."""
+
+
+class PackedChunk(Protocol):
+    """A chunk, as far as it matters for unpacking it.
+
+    Attributes:
+        place: Where its data begins in the file, packed.
+        packed: Bytes of it there.
+        size: Bytes of it unpacked.
+        method: How it is packed.
+        cut: Whether the file ends within it.
+    """
+
+    place: int
+    packed: int
+    size: int
+    method: str
+    cut: bool
 
 
 class File:
@@ -190,3 +211,42 @@ class File:
     def close(self) -> None:
         """Close it."""
         self._file.close()
+
+
+def packed_piece(file: File, piece: PackedChunk) -> Packed | None:
+    """What of a chunk is unpacked ahead; None of one that is read in another way."""
+    if piece.cut or piece.method in ("", "none"):
+        return None
+    try:
+        return piece.method, file.at(piece.place, piece.packed), piece.size
+    except InputError:
+        return None
+
+
+def unpacked_piece(
+    file: File, piece: PackedChunk, note: Callable[[str], None], ahead: Ahead | None = None
+) -> "bytes | memoryview":
+    """A chunk's bytes, unpacked; as many as there are of one that is cut or damaged.
+
+    Args:
+        file: Where it lies.
+        piece: The chunk.
+        note: Is told of damage.
+        ahead: Where it may be on its way.
+
+    Raises:
+        InputError: If not even its packed bytes can be read.
+        UsageError: If what it takes is not installed.
+    """
+    coming = None if ahead is None else ahead.take(piece)
+    try:
+        if coming is not None:
+            return coming.result()
+        data = file.at(piece.place, piece.packed)
+        if piece.cut:
+            return unpack_beginning(piece.method, data, piece.size)
+        return unpack(piece.method, data, piece.size)
+    except InputError as error:
+        data = file.at(piece.place, piece.packed)
+        note(f"A chunk at byte {piece.place} is damaged: {error}.")
+        return unpack_beginning(piece.method, data, piece.size)

@@ -8,6 +8,7 @@ import struct
 from array import array
 from collections.abc import Collection, Iterator
 from dataclasses import dataclass, field
+from functools import partial
 from pathlib import Path
 from typing import Final
 
@@ -15,7 +16,7 @@ import numpy as np
 
 from tftool.errors import InputError
 from tftool.sources.columns import Batch, in_order, words_at
-from tftool.sources.compressed import Ahead, Packed, unpack, unpack_beginning
+from tftool.sources.compressed import Ahead
 from tftool.sources.container import (
     LATEST_STAMP,
     MOST_STREAMS,
@@ -23,6 +24,8 @@ from tftool.sources.container import (
     MessageStream,
     Offers,
     offers_of,
+    packed_piece,
+    unpacked_piece,
 )
 from tftool.sources.contract import Indexes, Progress, Stamps
 from tftool.sources.find import MCAP_MAGIC
@@ -326,7 +329,7 @@ class Mcap:
     def _walk(self, chunk: _Chunk) -> None:
         """Walk through a chunk's records; learn its channels, and where its messages are."""
         found = chunk.walked = _Messages()
-        data = self._unpacked(chunk)
+        data = bytes(unpacked_piece(self._file, chunk, self._note))
         numbers, counts = self._numbers, self.counts
         low, high = LATEST_STAMP, 0
         try:
@@ -369,7 +372,7 @@ class Mcap:
             for chunk in self._chunks
         ]
         # Those that were walked are unpacked then and there; the others in order.
-        ahead = Ahead(itertools.compress(self._chunks, read), self._packed)
+        ahead = Ahead(itertools.compress(self._chunks, read), partial(packed_piece, self._file))
         with ahead:
             yield from self._chunk_batches(read, chosen, channels, ahead, progress, head)
         yield from self._loose_batches(channels, progress, head)
@@ -429,7 +432,7 @@ class Mcap:
             places = sorted(place for pairs, _ in parts for place in pairs[:, 1].tolist())
             singly.read(places, chunk.place, chunk.place + chunk.packed)
             return None
-        data = np.frombuffer(self._unpacked(chunk, ahead), dtype=np.uint8)
+        data = np.frombuffer(unpacked_piece(self._file, chunk, self._note, ahead), dtype=np.uint8)
         return in_order(
             [
                 Batch(data, *_indexed(data, pairs, channel), np.full(len(pairs), channels[channel]))
@@ -453,7 +456,7 @@ class Mcap:
         which = np.flatnonzero(channels[owners] >= 0)
         if not len(which):
             return None
-        data = np.frombuffer(self._unpacked(chunk, ahead), dtype=np.uint8)
+        data = np.frombuffer(unpacked_piece(self._file, chunk, self._note, ahead), dtype=np.uint8)
         places = np.frombuffer(walked.places, dtype=np.int64)[which]
         return Batch(
             data,
@@ -492,29 +495,6 @@ class Mcap:
             head = head[:15] + self._file.at(place + 15, count)
         pairs = np.frombuffer(head, dtype=np.int64, count=count // 8, offset=15)
         return pairs.reshape(-1, 2)
-
-    def _packed(self, chunk: _Chunk) -> Packed | None:
-        """What of a chunk is unpacked ahead; nothing of one that is read in another way."""
-        if chunk.cut or chunk.method in ("", "none"):
-            return None
-        try:
-            return chunk.method, self._file.at(chunk.place, chunk.packed), chunk.size
-        except InputError:
-            return None
-
-    def _unpacked(self, chunk: _Chunk, ahead: Ahead | None = None) -> bytes:
-        coming = None if ahead is None else ahead.take(chunk)
-        try:
-            if coming is not None:
-                return coming.result()
-            packed = self._file.at(chunk.place, chunk.packed)
-            if chunk.cut:
-                return unpack_beginning(chunk.method, packed, chunk.size)
-            return unpack(chunk.method, packed, chunk.size)
-        except InputError as error:
-            packed = self._file.at(chunk.place, chunk.packed)
-            self._note(f"A chunk at byte {chunk.place} is damaged: {error}.")
-            return unpack_beginning(chunk.method, packed, chunk.size)
 
     def _note(self, damage: str) -> None:
         if damage not in self.damage and len(self.damage) < 20:

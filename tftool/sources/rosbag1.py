@@ -16,13 +16,15 @@ import numpy.typing as npt
 
 from tftool.errors import InputError
 from tftool.sources.columns import Batch, in_order, words_at
-from tftool.sources.compressed import Ahead, Packed, unpack, unpack_beginning
+from tftool.sources.compressed import Ahead, Packed
 from tftool.sources.container import (
     MOST_STREAMS,
     TRANSIENT_LOCAL,
     File,
     MessageStream,
     Offers,
+    packed_piece,
+    unpacked_piece,
 )
 from tftool.sources.contract import Progress, Stamps
 from tftool.sources.find import ROS1_MAGIC
@@ -241,7 +243,7 @@ class Rosbag1:
         """Walk through a chunk's records; learn its connections, and where its messages are."""
         walked = chunk.walked = array("q"), array("q"), array("q")
         connections, log_times, places = walked
-        data = self._unpacked(chunk)
+        data = bytes(unpacked_piece(self._file, chunk, self._note))
         try:
             for header, first, last in _records(data):
                 code = header.get(b"op")
@@ -301,7 +303,7 @@ class Rosbag1:
         parts = self._indexes(chunk, chosen)
         if not parts:
             return None
-        data = np.frombuffer(self._unpacked(chunk, ahead), dtype=np.uint8)
+        data = np.frombuffer(unpacked_piece(self._file, chunk, self._note, ahead), dtype=np.uint8)
         return in_order(
             [
                 Batch(data, *_indexed(data, entries, connection), senders)
@@ -353,7 +355,7 @@ class Rosbag1:
         which = [row for row, connection in enumerate(connections) if connection in chosen]
         if not which:
             return None
-        data = np.frombuffer(self._unpacked(chunk, ahead), dtype=np.uint8)
+        data = np.frombuffer(unpacked_piece(self._file, chunk, self._note, ahead), dtype=np.uint8)
         starts = np.frombuffer(places, dtype=np.int64)[which]
         return Batch(
             data,
@@ -364,28 +366,12 @@ class Rosbag1:
         )
 
     def _packed(self, chunk: _Chunk) -> Packed | None:
-        """What of a chunk is unpacked ahead; nothing of one that is read in another way."""
+        """What of a chunk is unpacked ahead; None of one that is read in another way."""
         try:
             self._locate(chunk)
-            if chunk.cut or chunk.method == "none":
-                return None
-            return chunk.method, self._file.at(chunk.place, chunk.packed), chunk.size
         except (InputError, struct.error, KeyError):
             return None
-
-    def _unpacked(self, chunk: _Chunk, ahead: Ahead | None = None) -> bytes:
-        coming = None if ahead is None else ahead.take(chunk)
-        try:
-            if coming is not None:
-                return coming.result()
-            packed = self._file.at(chunk.place, chunk.packed)
-            if chunk.cut:
-                return unpack_beginning(chunk.method, packed, chunk.size)
-            return unpack(chunk.method, packed, chunk.size)
-        except InputError as error:
-            packed = self._file.at(chunk.place, chunk.packed)
-            self._note(f"A chunk at byte {chunk.position} is damaged: {error}.")
-            return unpack_beginning(chunk.method, packed, chunk.size)
+        return packed_piece(self._file, chunk)
 
     def _note(self, damage: str) -> None:
         if damage not in self.damage and len(self.damage) < 20:

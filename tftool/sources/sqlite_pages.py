@@ -75,6 +75,8 @@ class _Table:
         if self._size < 512 or self._size & (self._size - 1) or self._usable < 480:
             raise _Odd
         room = _AT_ONCE * (self._size // _LEAST_ROW)
+        # For one batch after the other: what is new costs more.
+        self._pages = np.empty(_AT_ONCE * self._size, dtype=np.uint8)
         self._columns = [np.empty(room, dtype=np.int64) for _ in range(5)]
 
     def _page(self, number: int) -> bytes:
@@ -90,7 +92,7 @@ class _Table:
 
     def _read(self, pages: Pages) -> Bytes:
         """Some pages; those that lie one behind the other are read at once."""
-        found = np.empty(len(pages) * self._size, dtype=np.uint8)
+        found = self._pages[: len(pages) * self._size]
         # Where a run begins, and the next one.
         runs = np.flatnonzero(np.diff(pages, prepend=-1) != 1).tolist()
         for run, end in itertools.pairwise([*runs, len(pages)]):

@@ -1,0 +1,70 @@
+"""Pieces that are unpacked ahead: what comes is what unpacking them then and there gives."""
+
+import bz2
+from functools import partial
+
+import pytest
+
+pytest.importorskip("zstandard", reason="the extra 'recordings' is not installed")
+pytest.importorskip("lz4", reason="the extra 'recordings' is not installed")
+
+import lz4.frame
+import zstandard
+
+from tftool import InputError
+from tftool.sources.compressed import Ahead, unpack
+
+TEXTS = [bytes([number]) * 1000 * (number + 1) + b"end" for number in range(8)]
+PACK = {
+    "zstd": zstandard.ZstdCompressor(write_checksum=True).compress,
+    "lz4": lz4.frame.compress,
+    "bz2": bz2.compress,
+}
+
+
+def outcome(give):
+    """What comes of it: bytes, or the sentence."""
+    try:
+        return bytes(give())
+    except InputError as error:
+        return str(error)
+
+
+def taken(pieces):
+    """Of each piece what comes of it, unpacked ahead where that is done on this machine."""
+    found = []
+    with Ahead(range(len(pieces)), pieces.__getitem__) as ahead:
+        for number, piece in enumerate(pieces):
+            coming = ahead.take(number)
+            found.append(outcome(partial(unpack, *piece) if coming is None else coming.result))
+    return found
+
+
+@pytest.mark.parametrize("method", PACK)
+def test_pieces_come_in_order_and_whole(method):
+    pieces = [(method, PACK[method](text), len(text)) for text in TEXTS[::-1] + TEXTS]
+
+    assert taken(pieces) == TEXTS[::-1] + TEXTS
+
+
+@pytest.mark.parametrize("method", PACK)
+def test_what_is_wrong_is_told_as_without_threads(method):
+    sound = PACK[method](TEXTS[5])
+    size = len(TEXTS[5])
+    pieces = [
+        (method, sound, size),
+        (method, sound, size - 1),
+        (method, sound, size + 1),
+        (method, sound[:-9], size),
+        (method, sound, 1 << 40),
+        (method, b"", size),
+        (method, b"nothing of that kind", size),
+        (method, sound[:12] + b"\xff\x00\xff" + sound[15:], size),
+        (method, sound, size),
+    ]
+
+    found = taken(pieces)
+
+    assert found == [outcome(partial(unpack, *piece)) for piece in pieces]
+    assert found[0] == found[-1] == TEXTS[5]
+    assert sum(isinstance(one, str) for one in found) >= 6
