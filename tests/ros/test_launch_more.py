@@ -4,7 +4,8 @@ import pytest
 
 from tests.ros.test_launch import described
 from tests.ros.tutorial import launch
-from tftool.errors import InputError, NodeFailed
+from tftool.errors import InputError, NodeFailed, TftoolError
+from tftool.ros.host.importing import ros_free
 
 ECHO = "ExecuteProcess(cmd=['echo', 'hello there'])"
 
@@ -108,8 +109,6 @@ def test_a_transition_that_does_not_exist_is_named(tmp_path):
 
 
 def test_a_context_of_ones_own_makes_texts():
-    from tftool.ros.host.importing import ros_free
-
     with ros_free():
         import launch
         from launch.substitutions import EnvironmentVariable, LaunchConfiguration
@@ -200,3 +199,185 @@ def test_environments_are_pushed_popped_and_reset(tmp_path):
     assert done.said("launch") == ["inner", "gone", "gone"]
     with pytest.raises((NodeFailed, InputError), match="no PushEnvironment before"):
         described(tmp_path, "PopEnvironment()")
+
+
+EXTENDED = """
+from typing import List
+
+from launch import Action, LaunchDescription
+from launch.actions import IncludeLaunchDescription, LogInfo
+from launch.frontend import Entity, Parser, expose_action, expose_substitution
+from launch.launch_description_sources import AnyLaunchDescriptionSource
+from launch.substitution import Substitution
+from launch.substitutions import ThisLaunchFileDir
+from launch.utilities import normalize_to_list_of_substitutions, perform_substitutions
+
+
+@expose_action("greet")
+class Greet(Action):
+    def __init__(self, *, whom, times, sayings, **kwargs):
+        super().__init__(**kwargs)
+        self.whom = normalize_to_list_of_substitutions(whom)
+        self.times, self.sayings = times, sayings
+
+    @classmethod
+    def parse(cls, entity: Entity, parser: Parser):
+        _, kwargs = super().parse(entity, parser)
+        kwargs["whom"] = parser.parse_substitution(entity.get_attr("whom"))
+        kwargs["times"] = entity.get_attr("times", data_type=int, optional=True) or 1
+        said = entity.get_attr("saying", data_type=List[Entity], optional=True) or []
+        kwargs["sayings"] = [one.get_attr("text") for one in said]
+        return cls, kwargs
+
+    def execute(self, context):
+        whom = perform_substitutions(context, self.whom)
+        return [LogInfo(msg=f"{text} {whom}") for text in self.sayings * self.times]
+
+
+class Shout(Substitution):
+    def __init__(self, text):
+        self.text = text
+
+    @classmethod
+    def parse(cls, data):
+        return cls, {"text": data[0]}
+
+    def perform(self, context):
+        return perform_substitutions(context, self.text).upper()
+
+
+expose_substitution("shout-for-the-test")(Shout.parse)
+
+
+def generate_launch_description():
+    return LaunchDescription([
+        IncludeLaunchDescription(
+            AnyLaunchDescriptionSource([ThisLaunchFileDir(), "/own.launch.xml"])
+        )
+    ])
+"""
+
+
+def extended(tmp_path, xml):
+    (tmp_path / "own.launch.xml").write_text(f"<launch>{xml}</launch>")
+    (tmp_path / "own.launch.py").write_text(EXTENDED)
+    return launch(tmp_path / "own.launch.py", seconds=5)
+
+
+def test_people_may_have_elements_and_substitutions_of_their_own(tmp_path):
+    xml = (
+        '<greet whom="$(shout-for-the-test moon)" times="2"><saying text="hello"/></greet>'
+        '<greet whom="x" if="false"><saying text="bye"/></greet>'
+    )
+
+    done = extended(tmp_path, xml)
+
+    assert [line for line in done.said("launch") if "hello" in line or "bye" in line] == [
+        "hello MOON",
+        "hello MOON",
+    ]
+
+
+@pytest.mark.parametrize(
+    ("xml", "told"),
+    [
+        ("<greet/>", "'greet' needs 'whom'"),
+        ('<greet whom="x" times="twice"/>', "'times' of 'greet' is not of type"),
+        ('<greet whom="x" wide="1"/>', "'greet' has no attribute 'wide'"),
+    ],
+)
+def test_a_mistake_in_an_element_of_ones_own_is_told_with_its_line(tmp_path, xml, told):
+    with pytest.raises(TftoolError, match=rf"own\.launch\.xml:1: .*{told}"):
+        extended(tmp_path, xml)
+
+
+@pytest.mark.parametrize(
+    ("text", "made"),
+    [
+        (r'$(eval "len(\"ab\")")', "2"),
+        (r"""$(eval "math.ceil(1.3) + len(sys.argv[:0])" " math,sys ")""", "2"),
+        (r"$(eval 1 + 2)", "3"),
+        (r"$(env NOT_SET_AT_ALL 'a b')\\", "a b\\"),
+    ],
+)
+def test_texts_are_escaped_and_evaluated_as_in_ros(text, made):
+    with ros_free(force=True):
+        from launch import LaunchContext
+        from launch.frontend.parse_substitution import parse_substitution
+        from launch.utilities import perform_substitutions
+
+        assert perform_substitutions(LaunchContext(), parse_substitution(text)) == made
+
+
+def test_conditions_and_truths_are_those_of_ros():
+    with ros_free(force=True):
+        from launch import Condition, LaunchContext
+        from launch.conditions import (
+            IfCondition,
+            InvalidConditionExpressionError,
+            evaluate_condition_expression,
+        )
+        from launch.substitutions import (
+            AndSubstitution,
+            EqualsSubstitution,
+            IfElseSubstitution,
+            OrSubstitution,
+            SubstitutionFailure,
+            ThisLaunchFile,
+        )
+
+        context = LaunchContext()
+        assert not Condition().evaluate(context)
+        assert IfCondition("1").describe() == "IfCondition('1')"
+        assert evaluate_condition_expression(context, "TRUE")
+        with pytest.raises(InvalidConditionExpressionError, match="not 'typo'"):
+            IfCondition("typo").evaluate(context)
+        for kind in (AndSubstitution, OrSubstitution):
+            assert kind("1", "true").perform(context) == "true"
+            assert kind("0", "false").perform(context) == "false"
+            with pytest.raises(SubstitutionFailure, match="not 'typo'"):
+                kind("1", "typo").perform(context)
+            with pytest.raises(SubstitutionFailure, match="not 'typo'"):
+                kind("0", "typo").perform(context)
+        assert EqualsSubstitution("True", "1").perform(context) == "true"
+        assert EqualsSubstitution("False", "10").perform(context) == "false"
+        assert IfElseSubstitution("on", "a", "b").perform(context) == "a"
+        with pytest.raises(RuntimeError, match="if_value or an else_value"):
+            IfElseSubstitution("true")
+        with pytest.raises(SubstitutionFailure, match="no launch file"):
+            ThisLaunchFile().perform(context)
+
+
+def test_a_launchs_function_may_handle_and_emit_events(tmp_path):
+    (tmp_path / "own.launch.py").write_text(
+        "from launch import Event, EventHandler, LaunchDescription\n"
+        "from launch.actions import LogInfo, OpaqueFunction\n"
+        "class Met(Event):\n"
+        "    name = 'met'\n"
+        "def meet(context):\n"
+        "    hears = EventHandler(matcher=lambda e: e.name == 'met', entities=LogInfo(msg='hi'))\n"
+        "    context.register_event_handler(hears)\n"
+        "    assert context.would_handle_event(Met())\n"
+        "    context.emit_event_sync(Met())\n"
+        "def generate_launch_description():\n"
+        "    return LaunchDescription([OpaqueFunction(function=meet)])\n"
+    )
+
+    assert launch(tmp_path / "own.launch.py", seconds=1).said("launch") == ["hi"]
+
+
+def test_a_handlers_target_must_be_an_action():
+    with ros_free(force=True):
+        from launch.actions import LogInfo
+        from launch.event_handlers import OnProcessExit
+        from launch.events.process import ProcessExited
+
+        action = LogInfo(msg="x")
+        exited = ProcessExited(action=action, name="ls-1", cmd=["ls"], pid=7, returncode=2)
+        handler = OnProcessExit(target_action=action, on_exit=action)
+
+        assert (exited.cmd, exited.pid, exited.cwd) == (["ls"], 7, None)
+        assert handler.matches(exited)
+        assert handler.handle(exited, None) == [action]
+        with pytest.raises(TypeError, match="target_action of OnProcessExit must be an action"):
+            OnProcessExit(target_action=3, on_exit=action)

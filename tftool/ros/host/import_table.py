@@ -209,11 +209,21 @@ launch.actions: launch.reactions: Shutdown
 launch.actions: launch.processes: ExecuteProcess ExecuteLocal=ExecuteProcess
 launch.conditions: launch.conditions: IfCondition UnlessCondition LaunchConfigurationEquals
 launch.conditions: launch.conditions: LaunchConfigurationNotEquals
+launch.conditions: launch.conditions: InvalidConditionExpressionError evaluate_condition_expression
 launch.event_handlers: launch.events: OnProcessExit OnProcessStart OnShutdown
 launch.event_handlers: launch.events: OnExecutionComplete OnProcessIO
 launch.events: launch.events: Shutdown ExecutionComplete matches_action
 launch.events.process: launch.events: ProcessExited ProcessStarted ProcessIO
-launch.events.process: launch.events: ShutdownProcess
+launch.events.process: launch.events: ShutdownProcess RunningProcessEvent
+launch.event: launch.events: Event
+launch.event_handler: launch.events: EventHandler
+launch.condition: launch.conditions: Condition
+launch.launch_description_entity: launch.description: LaunchDescriptionEntity
+launch.frontend: launch.exposing: Entity Parser expose_action expose_substitution
+launch.frontend.entity: launch.exposing: Entity
+launch.frontend.parser: launch.exposing: Parser
+launch.frontend.expose: launch.exposing: expose_action expose_substitution
+launch.frontend.parse_substitution: launch.exposing: parse_substitution parse_if_substitutions
 launch.launch_context: launch.context: LaunchContext
 launch.launch_description: launch.description: LaunchDescription
 launch.launch_description_source: launch.description: LaunchDescriptionSource
@@ -231,7 +241,11 @@ launch.substitutions: launch.substitutions: LocalSubstitution FileContent
 launch.substitutions: launch.logic: EqualsSubstitution NotEqualsSubstitution AndSubstitution
 launch.substitutions: launch.logic: OrSubstitution NotSubstitution AnySubstitution
 launch.substitutions: launch.logic: AllSubstitution IfElseSubstitution
-launch.utilities: launch.substitutions: perform_substitutions=perform
+launch.utilities: launch.utilities: perform_substitutions normalize_to_list_of_substitutions
+launch.utilities: launch.utilities: ensure_argument_type is_a is_a_subclass isclassinstance
+launch.utilities: launch.utilities: normalize_to_list_of_entities
+launch.utilities.class_tools_impl: launch.utilities: is_a is_a_subclass isclassinstance
+launch.utilities.ensure_argument_type_impl: launch.utilities: ensure_argument_type
 launch_xml.launch_description_sources: launch.description: XMLLaunchDescriptionSource
 launch_yaml.launch_description_sources: launch.description: YAMLLaunchDescriptionSource
 launch_ros.actions: launch.nodes: Node PushRosNamespace PushROSNamespace=PushRosNamespace

@@ -1,15 +1,15 @@
 """launch's Action: one thing to do."""
 
 import sys
-from collections.abc import Sequence
 from typing import Any, ClassVar
 
 from tftool.ros.host.fibers import user_line
 from tftool.ros.launch.context import LaunchContext
+from tftool.ros.launch.description import LaunchDescriptionEntity
 from tftool.ros.launch.events import ExecutionComplete
 
 
-class Action:
+class Action(LaunchDescriptionEntity):
     """One thing to do: `execute` gives further actions, or None.
 
     What takes time is handed to the launch (`context.launch`).
@@ -49,10 +49,18 @@ class Action:
             context.launch.complete(self)
         return following
 
+    @classmethod
+    def parse(cls, entity: Any, parser: Any) -> tuple[Any, dict[str, Any]]:
+        """What makes the action of an element of XML or YAML, for actions of people's own.
+
+        Its condition is read by the launch, whatever class it is.
+        """
+        return cls, {}
+
     def execute(self, context: LaunchContext) -> Any:
         """Do it."""
         return None
 
-    def describe_sub_entities(self) -> Sequence[Any]:
-        """Actions inside, for looking for arguments."""
-        return ()
+    def describe(self) -> str:
+        """How it shows itself."""
+        return f"{type(self).__name__}()"

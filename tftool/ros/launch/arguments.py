@@ -7,10 +7,9 @@ from pathlib import Path
 from typing import Any
 
 from tftool.errors import TftoolError, UsageError
-from tftool.ros.launch.action import Action
 from tftool.ros.launch.composition import IncludeLaunchDescription
 from tftool.ros.launch.context import LaunchContext
-from tftool.ros.launch.description import LaunchDescription
+from tftool.ros.launch.description import LaunchDescription, LaunchDescriptionEntity
 from tftool.ros.launch.settings import DeclareLaunchArgument
 from tftool.ros.launch.substitutions import perform
 
@@ -40,10 +39,10 @@ def declared(description: LaunchDescription, context: LaunchContext) -> list[Dec
                     context.files = files
                 for name in set(found) - before & passed:
                     del found[name]
-            elif isinstance(entity, LaunchDescription):
-                look(entity.entities)
-            elif isinstance(entity, Action):
+            elif isinstance(entity, LaunchDescriptionEntity):
                 look(entity.describe_sub_entities())
+                for _, inside in entity.describe_conditional_sub_entities():
+                    look(inside)
 
     kept = dict(context.launch_configurations)
     look(description.entities)

@@ -3,33 +3,67 @@
 from collections.abc import Callable
 from typing import Any
 
+from tftool.errors import UsageError
 from tftool.ros.launch.context import LaunchContext
-from tftool.ros.launch.substitutions import is_true, perform
+from tftool.ros.launch.substitutions import describe, is_true, perform
+
+
+class InvalidConditionExpressionError(UsageError):
+    """A text that is neither true nor false."""
 
 
 class Condition:
-    """Whether an action is carried out."""
+    """Whether an action is carried out; without a predicate it is not."""
 
-    def __init__(self, *, predicate: Callable[[LaunchContext], bool]) -> None:
+    def __init__(self, *, predicate: Callable[[LaunchContext], bool] | None = None) -> None:
         self._predicate = predicate
 
     def evaluate(self, context: LaunchContext) -> bool:
         """Whether it holds."""
-        return self._predicate(context)
+        return self._predicate is not None and self._predicate(context)
+
+    def describe(self) -> str:
+        """How it shows itself."""
+        return f"{type(self).__name__}()"
+
+
+def evaluate_condition_expression(context: LaunchContext, expression: Any) -> bool:
+    """Whether a text is true.
+
+    Raises:
+        InvalidConditionExpressionError: If it is neither true nor false.
+    """
+    text = perform(context, expression)
+    try:
+        return is_true(text)
+    except UsageError as error:
+        raise InvalidConditionExpressionError(str(error)) from None
 
 
 class IfCondition(Condition):
     """If a text is true."""
 
     def __init__(self, predicate_expression: Any) -> None:
-        super().__init__(predicate=lambda c: is_true(perform(c, predicate_expression)))
+        super().__init__(predicate=lambda c: evaluate_condition_expression(c, predicate_expression))
+        self._expression = predicate_expression
+
+    def describe(self) -> str:
+        """IfCondition('expression')."""
+        return f"{type(self).__name__}({describe(self._expression)})"
 
 
 class UnlessCondition(Condition):
     """If a text is false."""
 
     def __init__(self, predicate_expression: Any) -> None:
-        super().__init__(predicate=lambda c: not is_true(perform(c, predicate_expression)))
+        super().__init__(
+            predicate=lambda c: not evaluate_condition_expression(c, predicate_expression)
+        )
+        self._expression = predicate_expression
+
+    def describe(self) -> str:
+        """UnlessCondition('expression')."""
+        return f"{type(self).__name__}({describe(self._expression)})"
 
 
 class LaunchConfigurationEquals(Condition):

@@ -1,7 +1,7 @@
 """What is known while a launch runs."""
 
 import os
-from collections.abc import Callable, Iterable, Iterator
+from collections.abc import Callable, Iterable, Iterator, Mapping
 from contextlib import contextmanager
 from pathlib import Path
 from types import SimpleNamespace
@@ -27,6 +27,8 @@ class LaunchContext:
         parameters: (node, name, value) for the nodes of the scope; "" is each of them.
         load: Reads a launch file, for those that include one; None outside of a launch.
         launch: What runs it.
+        argv: What the launch was given on its command line.
+        noninteractive: Whether nobody is asked anything, as in ROS 2: here nobody ever is.
         event: What is being handled, None while nothing is.
     """
 
@@ -47,11 +49,13 @@ class LaunchContext:
         self.remaps: list[tuple[str, str]] = []
         self.parameters: list[tuple[str, str, Any]] = []
         self.argv = list(argv or ())
+        self.noninteractive = noninteractive
         self._workspace = workspace
         self.load = load
         self.launch = launch
         self.event: Any = None
         self._numbers: dict[str, int] = {}
+        self._locals: dict[str, Any] = {}
         self._kept: list[tuple[Any, ...]] = []
 
     @property
@@ -63,8 +67,55 @@ class LaunchContext:
 
     @property
     def locals(self) -> SimpleNamespace:
-        """What is known here alone: the event that is being handled."""
-        return SimpleNamespace() if self.event is None else SimpleNamespace(event=self.event)
+        """What is known here alone: the event that is being handled, and what was added."""
+        return SimpleNamespace(**self.get_locals_as_dict())
+
+    def extend_locals(self, extensions: Mapping[str, Any]) -> None:
+        """Know more here."""
+        self._locals.update(extensions)
+
+    def get_locals_as_dict(self) -> dict[str, Any]:
+        """What is known here alone, by name."""
+        known = {} if self.event is None else {"event": self.event}
+        return {**known, **self._locals}
+
+    def register_event_handler(self, event_handler: Any) -> None:
+        """Have a handler told of events.
+
+        Raises:
+            UsageError: Where nothing is launched.
+        """
+        self._launched().handlers.append(event_handler)
+
+    def unregister_event_handler(self, event_handler: Any) -> None:
+        """Have it told no more.
+
+        Raises:
+            UsageError: Where nothing is launched.
+            ValueError: If it was not told.
+        """
+        self._launched().handlers.remove(event_handler)
+
+    def would_handle_event(self, event: Any) -> bool:
+        """Whether a handler waits for an event."""
+        return bool(self._launched().is_awaited(event))
+
+    def emit_event_sync(self, event: Any) -> None:
+        """Tell the handlers an event.
+
+        Raises:
+            UsageError: Where nothing is launched.
+        """
+        self._launched().emit(event)
+
+    async def emit_event(self, event: Any) -> None:
+        """Tell the handlers an event."""
+        self.emit_event_sync(event)
+
+    def _launched(self) -> Any:
+        if self.launch is None:
+            raise UsageError("this context belongs to no launch that runs: there are no events")
+        return self.launch
 
     def number_of(self, name: str) -> int:
         """A number for a name, the same one each time."""

@@ -9,11 +9,59 @@ from tftool.ros.launch.context import LaunchContext
 from tftool.ros.launch.substitutions import perform
 
 
-class LaunchDescription:
-    """What a launch consists of."""
+class LaunchDescriptionEntity:
+    """What a launch description may hold."""
 
-    def __init__(self, initial_entities: Iterable[Any] | None = None, **kwargs: Any) -> None:
+    def visit(self, context: LaunchContext) -> Any:
+        """Be carried out; what is to be done next."""
+        return None
+
+    def describe(self) -> str:
+        """How it shows itself."""
+        raise NotImplementedError
+
+    def describe_sub_entities(self) -> Sequence[Any]:
+        """What is inside, for looking for arguments."""
+        return []
+
+    def describe_conditional_sub_entities(self) -> Sequence[tuple[str, Sequence[Any]]]:
+        """What may be inside: under which condition, and what."""
+        return []
+
+    def get_asyncio_future(self) -> Any:
+        """What is done when it has ended; None where that is at once."""
+        return None
+
+
+class LaunchDescription(LaunchDescriptionEntity):
+    """What a launch consists of.
+
+    Attributes:
+        entities: Its actions.
+        deprecated_reason: Why it should be used no more, None where it may be.
+    """
+
+    def __init__(
+        self,
+        initial_entities: Iterable[Any] | None = None,
+        *,
+        deprecated_reason: str | None = None,
+    ) -> None:
         self.entities: list[Any] = list(initial_entities or ())
+        self.deprecated_reason = deprecated_reason
+
+    @property
+    def deprecated(self) -> bool:
+        """Whether it should be used no more."""
+        return self.deprecated_reason is not None
+
+    def describe(self) -> str:
+        """How it shows itself."""
+        return f"{type(self).__name__}()"
+
+    def describe_sub_entities(self) -> Sequence[Any]:
+        """Its actions."""
+        return self.entities
 
     def add_action(self, action: Any) -> None:
         """Append an action."""
@@ -24,9 +72,6 @@ class LaunchDescription:
     def visit(self, context: LaunchContext) -> Sequence[Any]:
         """Its actions."""
         return self.entities
-
-
-LaunchDescriptionEntity = LaunchDescription
 
 
 class LaunchDescriptionSource:

@@ -195,7 +195,7 @@ class Launch(Node):
         """Take in a line that a process has written."""
         event = ProcessIO(
             action=self._actions.get(label),
-            process_name=label,
+            name=label,
             text=f"{line}\n".encode(),
             from_stdout=to_stdout,
         )
@@ -291,7 +291,7 @@ class Launch(Node):
                 # It lives as long as the world, which ends with the launch.
                 self._running[label] = partial(self._ended, action, label, 0, "")
             self._say("INFO", label, "process started")
-            self.emit(ProcessStarted(action=action, process_name=label))
+            self.emit(ProcessStarted(action=action, name=label))
 
         self._start(label, start, respawn)
 
@@ -311,7 +311,7 @@ class Launch(Node):
 
         def start() -> None:
             self._say("INFO", label, f"process started: {shlex.join(command.words)}")
-            self.emit(ProcessStarted(action=action, process_name=label))
+            self.emit(ProcessStarted(action=action, name=label))
             if isinstance(self.clock, SimClock):
                 status, reason = run_at_once(command, lambda line: self._line(label, line))
                 # Not at once: who waits for its end may be named further down in the file.
@@ -350,7 +350,7 @@ class Launch(Node):
                 on_exit=partial(self._program_ended, action, label),
             )
             self._running[label] = partial(self.world.remove, started)
-            self.emit(ProcessStarted(action=action, process_name=label))
+            self.emit(ProcessStarted(action=action, name=label))
 
         self._start(label, start, respawn)
 
@@ -402,7 +402,7 @@ class Launch(Node):
             self.failed.append(label)
             told = f": {reason}" if reason else ""
             self._say("ERROR", label, f"process has died, exit status {status}{told}")
-        event = ProcessExited(action=action, process_name=label, returncode=status)
+        event = ProcessExited(action=action, name=label, returncode=status)
         self._guarded(lambda: self.emit(event))
         if not self._respawn(label):
             self._guarded(lambda: self.complete(action))

@@ -1,51 +1,76 @@
 """launch's events and who handles them."""
 
-from collections.abc import Callable
+from collections.abc import Callable, Mapping, Sequence
 from typing import Any
 
 
 class Event:
     """Something that happened."""
 
-    name = "Event"
+    name = "launch.Event"
 
 
 class Shutdown(Event):
     """The launch ends."""
 
-    name = "Shutdown"
+    name = "launch.events.Shutdown"
 
     def __init__(self, *, reason: str = "reason not given", due_to_sigint: bool = False) -> None:
         self.reason = reason
         self.due_to_sigint = due_to_sigint
 
 
-class ProcessStarted(Event):
+class RunningProcessEvent(Event):
+    """Something about a process.
+
+    Attributes:
+        action: What started it.
+        process_name: What it is called in the log.
+        cmd: Its words; none where it is a program of the session.
+        cwd: Its folder, None for that of the launch.
+        env: Its environment, None for that of the launch.
+        pid: Its number, 0 where it has none of its own.
+    """
+
+    def __init__(
+        self,
+        *,
+        action: Any,
+        name: str,
+        cmd: Sequence[str] = (),
+        cwd: str | None = None,
+        env: Mapping[str, str] | None = None,
+        pid: int = 0,
+    ) -> None:
+        self.action = action
+        self.process_name = name
+        self.cmd = list(cmd)
+        self.cwd = cwd
+        self.env = None if env is None else dict(env)
+        self.pid = pid
+
+
+class ProcessStarted(RunningProcessEvent):
     """A process began."""
 
-    name = "ProcessStarted"
-
-    def __init__(self, *, action: Any, process_name: str) -> None:
-        self.action = action
-        self.process_name = process_name
+    name = "launch.events.process.ProcessStarted"
 
 
-class ProcessExited(Event):
+class ProcessExited(RunningProcessEvent):
     """A process ended.
 
     Attributes:
         returncode: Its exit status.
     """
 
-    name = "ProcessExited"
+    name = "launch.events.process.ProcessExited"
 
-    def __init__(self, *, action: Any, process_name: str, returncode: int) -> None:
-        self.action = action
-        self.process_name = process_name
+    def __init__(self, *, returncode: int, **process: Any) -> None:
+        super().__init__(**process)
         self.returncode = returncode
 
 
-class ProcessIO(Event):
+class ProcessIO(RunningProcessEvent):
     """A process has written a line.
 
     Attributes:
@@ -54,12 +79,11 @@ class ProcessIO(Event):
         from_stderr: Whether it came from its standard error.
     """
 
-    name = "ProcessIO"
+    name = "launch.events.process.ProcessIO"
     from_stdin = False
 
-    def __init__(self, *, action: Any, process_name: str, text: bytes, from_stdout: bool) -> None:
-        self.action = action
-        self.process_name = process_name
+    def __init__(self, *, text: bytes, from_stdout: bool, **process: Any) -> None:
+        super().__init__(**process)
         self.text = text
         self.from_stdout = from_stdout
         self.from_stderr = not from_stdout
@@ -68,7 +92,7 @@ class ProcessIO(Event):
 class ShutdownProcess(Event):
     """Processes are to end."""
 
-    name = "ShutdownProcess"
+    name = "launch.events.process.ShutdownProcess"
 
     def __init__(self, *, process_matcher: Callable[[Any], bool]) -> None:
         self.process_matcher = process_matcher
@@ -82,14 +106,29 @@ def matches_action(target_action: Any) -> Callable[[Any], bool]:
 class ExecutionComplete(Event):
     """An action is done."""
 
-    name = "ExecutionComplete"
+    name = "launch.events.ExecutionComplete"
 
     def __init__(self, *, action: Any) -> None:
         self.action = action
 
 
 def _entities(given: Any, event: Event, context: Any) -> Any:
-    return given(event, context) if callable(given) else given
+    if callable(given):
+        return given(event, context)
+    return [given] if hasattr(given, "visit") else given
+
+
+def _require_target(handler: str, target: Any) -> None:
+    """See that a target is an action, or says of one whether it is meant.
+
+    Raises:
+        TypeError: If it is neither.
+    """
+    if not (target is None or callable(target) or hasattr(target, "visit")):
+        raise TypeError(
+            f"the target_action of {handler} must be an action, or a function that says of one "
+            f"whether it is meant, not {target!r}"
+        )
 
 
 class EventHandler:
@@ -127,6 +166,7 @@ class OnProcessExit(EventHandler):
     """When a process has ended."""
 
     def __init__(self, *, target_action: Any = None, on_exit: Any, **kwargs: Any) -> None:
+        _require_target("OnProcessExit", target_action)
         super().__init__(
             matcher=lambda e: isinstance(e, ProcessExited) and _targets(e.action, target_action),
             entities=on_exit,
@@ -138,6 +178,7 @@ class OnProcessStart(EventHandler):
     """When a process has begun."""
 
     def __init__(self, *, target_action: Any = None, on_start: Any, **kwargs: Any) -> None:
+        _require_target("OnProcessStart", target_action)
         super().__init__(
             matcher=lambda e: isinstance(e, ProcessStarted) and _targets(e.action, target_action),
             entities=on_start,
@@ -157,6 +198,8 @@ class OnProcessIO(EventHandler):
         on_stderr: Any = None,
         **kwargs: Any,
     ) -> None:
+        _require_target("OnProcessIO", target_action)
+
         def written(event: Event, context: Any) -> Any:
             given = on_stdout if isinstance(event, ProcessIO) and event.from_stdout else on_stderr
             return given(event) if callable(given) else given
@@ -176,6 +219,7 @@ class OnExecutionComplete(EventHandler):
     """
 
     def __init__(self, *, target_action: Any = None, on_completion: Any, **kwargs: Any) -> None:
+        _require_target("OnExecutionComplete", target_action)
         self.target = target_action
         super().__init__(
             matcher=lambda e: (

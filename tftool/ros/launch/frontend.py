@@ -7,7 +7,16 @@ from types import MappingProxyType
 from typing import Any
 
 from tftool.errors import UsageError
-from tftool.ros.launch import composition, nodes, parameters, processes, reactions, settings
+from tftool.ros.host.error_text import error_sentence
+from tftool.ros.launch import (
+    composition,
+    exposing,
+    nodes,
+    parameters,
+    processes,
+    reactions,
+    settings,
+)
 from tftool.ros.launch.conditions import IfCondition, UnlessCondition
 from tftool.ros.launch.description import LaunchDescriptionSource
 from tftool.ros.launch.elements import Element
@@ -38,6 +47,8 @@ def _action(element: Element) -> Any:
     if tag in _ELSEWHERE:
         raise element.refusal(f"'{element.tag}' is not covered: {_ELSEWHERE[tag]}", "", ())
     make = _MEANINGS.get(tag)
+    if (exposed := exposing.ACTIONS.get(tag)) is not None:
+        make = partial(_exposed, exposed)
     if make is None:
         what = f"there is no '{element.tag}' in a launch file"
         raise element.refusal(what, element.tag, _MEANINGS)
@@ -51,6 +62,15 @@ def _action(element: Element) -> Any:
     made.condition = condition
     made.where = element.where
     return made
+
+
+def _exposed(read: exposing.ParseMethod, element: Element) -> Any:
+    """An action of people's own."""
+    try:
+        kind, settings = read(exposing.Entity(element), exposing.Parser())
+        return kind(**settings)
+    except (AttributeError, TypeError, ValueError) as error:
+        raise element.refusal(f"'{element.tag}': {error_sentence(error)}", "", ()) from error
 
 
 def _text(element: Element, *names: str) -> Any:

@@ -1,10 +1,31 @@
 """launch's substitutions that say true or false, or choose by it."""
 
 import math
+from collections.abc import Iterable
 from typing import Any
 
+from tftool.errors import UsageError
 from tftool.ros.launch.context import LaunchContext
-from tftool.ros.launch.substitutions import Substitution, is_true, perform
+from tftool.ros.launch.substitutions import Substitution, SubstitutionFailure, is_true, perform
+
+_TRUTHS = {"true": True, "1": True, "false": False, "0": False}
+
+
+def _holds(context: LaunchContext, value: Any) -> bool:
+    """Whether a text is true.
+
+    Raises:
+        SubstitutionFailure: If it is neither true nor false.
+    """
+    try:
+        return is_true(perform(context, value))
+    except UsageError as error:
+        raise SubstitutionFailure(str(error)) from None
+
+
+def _truths(context: LaunchContext, values: Iterable[Any]) -> list[bool]:
+    """Whether each text is true; as in ROS 2 every one is looked at."""
+    return [_holds(context, value) for value in values]
 
 
 class _Logic(Substitution):
@@ -21,9 +42,9 @@ class EqualsSubstitution(_Logic):
         try:
             equal = math.isclose(float(left), float(right))
         except ValueError:
-            truths = {"true", "false"}
-            low = (left.lower(), right.lower())
-            equal = low[0] == low[1] if set(low) <= truths else left == right
+            # As in ROS 2, '1' and '0' are truths beside one that is written out.
+            truths = [_TRUTHS.get(text.lower(), text) for text in (left, right)]
+            equal = truths[0] == truths[1]
         return str(equal).lower()
 
 
@@ -40,7 +61,7 @@ class AndSubstitution(_Logic):
 
     def perform(self, context: LaunchContext) -> str:
         """'true' or 'false'."""
-        both = is_true(perform(context, self.left)) and is_true(perform(context, self.right))
+        both = all(_truths(context, (self.left, self.right)))
         return str(both).lower()
 
 
@@ -49,7 +70,7 @@ class OrSubstitution(_Logic):
 
     def perform(self, context: LaunchContext) -> str:
         """'true' or 'false'."""
-        one = is_true(perform(context, self.left)) or is_true(perform(context, self.right))
+        one = any(_truths(context, (self.left, self.right)))
         return str(one).lower()
 
 
@@ -61,18 +82,28 @@ class NotSubstitution(Substitution):
 
     def perform(self, context: LaunchContext) -> str:
         """'true' or 'false'."""
-        return str(not is_true(perform(context, self.value))).lower()
+        return str(not _holds(context, self.value)).lower()
 
 
 class IfElseSubstitution(Substitution):
     """One text or another."""
 
     def __init__(self, condition: Any, if_value: Any = "", else_value: Any = "") -> None:
+        """Choose by a condition.
+
+        Raises:
+            RuntimeError: If there is nothing to choose.
+        """
+        if not if_value and not else_value:
+            raise RuntimeError("an IfElseSubstitution needs an if_value or an else_value")
         self.condition, self.if_value, self.else_value = condition, if_value, else_value
 
     def perform(self, context: LaunchContext) -> str:
         """The text chosen."""
-        chosen = is_true(perform(context, self.condition))
+        word = perform(context, self.condition).strip().lower()
+        chosen = _holds(
+            context, {"on": "true", "yes": "true", "off": "false", "no": "false"}.get(word, word)
+        )
         return perform(context, self.if_value if chosen else self.else_value)
 
 
@@ -84,7 +115,7 @@ class AnySubstitution(Substitution):
 
     def perform(self, context: LaunchContext) -> str:
         """'true' or 'false'."""
-        return str(any(is_true(perform(context, one)) for one in self.args)).lower()
+        return str(any(_truths(context, self.args))).lower()
 
 
 class AllSubstitution(AnySubstitution):
@@ -92,4 +123,4 @@ class AllSubstitution(AnySubstitution):
 
     def perform(self, context: LaunchContext) -> str:
         """'true' or 'false'."""
-        return str(all(is_true(perform(context, one)) for one in self.args)).lower()
+        return str(all(_truths(context, self.args))).lower()

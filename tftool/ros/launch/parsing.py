@@ -24,6 +24,22 @@ def parsed(text: Any, where: str) -> list[Any]:
     return parts
 
 
+class _Quoted(list[Any]):
+    """A word that stood in quotes."""
+
+
+_ESCAPED = tuple("$()'\"\\")
+"""What a backslash before it makes an ordinary character."""
+
+
+def _end_of_quote(text: str, start: int) -> int:
+    """Where the quote that opens at `start` is closed; -1 for nowhere."""
+    at = start + 1
+    while at < len(text) and text[at] != text[start]:
+        at += 2 if text[at] == "\\" else 1
+    return at if at < len(text) else -1
+
+
 def _parse(text: str, start: int, where: str, *, closing: bool) -> tuple[list[Any], int]:
     parts: list[Any] = []
     plain = ""
@@ -35,6 +51,9 @@ def _parse(text: str, start: int, where: str, *, closing: bool) -> tuple[list[An
                 plain = ""
             made, at = _substitution(text, at + 2, where)
             parts.append(made)
+        elif text[at] == "\\" and text[at + 1 : at + 2] in _ESCAPED:
+            plain += text[at + 1]
+            at += 2
         elif closing and (text[at] == ")" or text[at] == " "):
             break
         else:
@@ -53,11 +72,11 @@ def _substitution(text: str, start: int, where: str) -> tuple[Any, int]:
         if text[at] == " ":
             at += 1
         elif text[at] in "'\"":
-            end = text.find(text[at], at + 1)
+            end = _end_of_quote(text, at)
             if end < 0:
                 raise InputError(f"{where}: a quote in '{text}' is not closed")
             inner, _ = _parse(text[at + 1 : end], 0, where, closing=False)
-            words.append(inner)
+            words.append(_Quoted(inner))
             at = end + 1
         else:
             word, at = _parse(text, at, where, closing=True)
@@ -67,9 +86,9 @@ def _substitution(text: str, start: int, where: str) -> tuple[Any, int]:
     if not words or not words[0] or not isinstance(words[0][0], TextSubstitution):
         raise InputError(f"{where}: '$()' in '{text}' names nothing")
     name = words[0][0].text
-    make = _SUBSTITUTIONS.get(name)
+    make = SUBSTITUTIONS.get(name)
     if make is None:
-        near = get_close_matches(name, _SUBSTITUTIONS, n=1)
+        near = get_close_matches(name, SUBSTITUTIONS, n=1)
         hint = f"; did you mean '$({near[0]} …)'?" if near else ""
         raise InputError(f"{where}: '$({name} …)' is not known{hint}")
     try:
@@ -78,7 +97,7 @@ def _substitution(text: str, start: int, where: str) -> tuple[Any, int]:
         raise InputError(f"{where}: '$({name} …)' is given the wrong number of words") from None
 
 
-_SUBSTITUTIONS: dict[str, Callable[..., Any]] = {
+SUBSTITUTIONS: dict[str, Callable[..., Any]] = {
     "var": lambda name, default=None: substitutions.LaunchConfiguration(name, default=default),
     "env": lambda name, default=None: substitutions.EnvironmentVariable(
         name, default_value=default
@@ -87,7 +106,7 @@ _SUBSTITUTIONS: dict[str, Callable[..., Any]] = {
     "find-pkg-prefix": substitutions.FindPackageShare,
     "dirname": substitutions.ThisLaunchFileDir,
     "filename": substitutions.ThisLaunchFile,
-    "eval": lambda *words: substitutions.PythonExpression(_spaced(words)),
+    "eval": lambda *words: _expression(words),
     "command": lambda command, on_stderr="fail": substitutions.Command(
         command, on_stderr=on_stderr
     ),
@@ -104,6 +123,15 @@ _SUBSTITUTIONS: dict[str, Callable[..., Any]] = {
     "if": logic.IfElseSubstitution,
     "find-exec": lambda name: substitutions.FindExecutable(name=name),
 }
+
+
+def _expression(words: tuple[list[Any], ...]) -> substitutions.PythonExpression:
+    """`$(eval …)`: an expression; of two in quotes, the second names modules."""
+    if len(words) == 2 and all(isinstance(word, _Quoted) for word in words):
+        plain = "".join(part.text for part in words[1] if isinstance(part, TextSubstitution))
+        modules = [name.strip() for name in plain.split(",") if name.strip()]
+        return substitutions.PythonExpression(words[0], modules)
+    return substitutions.PythonExpression(_spaced(words))
 
 
 def _spaced(words: Iterable[list[Any]]) -> list[Any]:

@@ -225,8 +225,17 @@ class PythonExpression(Substitution):
             ) from None
 
     def describe(self) -> str:
-        """PythonExpr(expression)."""
-        return f"PythonExpr({describe(self.expression)})"
+        """PythonExpr(expression, [modules])."""
+        given = self.python_modules
+        modules = [given] if isinstance(given, str | Substitution) else given
+        shown = ", ".join(describe(one) for one in modules)
+        return f"PythonExpr({describe(self.expression)}, [{shown}])"
+
+
+def _this_file(context: LaunchContext) -> Path:
+    if not context.files:
+        raise SubstitutionFailure("there is no launch file here: this is in none")
+    return context.files[-1]
 
 
 class ThisLaunchFile(Substitution):
@@ -234,7 +243,7 @@ class ThisLaunchFile(Substitution):
 
     def perform(self, context: LaunchContext) -> str:
         """The path."""
-        return str(context.files[-1]) if context.files else ""
+        return str(_this_file(context))
 
 
 class ThisLaunchFileDir(Substitution):
@@ -242,7 +251,7 @@ class ThisLaunchFileDir(Substitution):
 
     def perform(self, context: LaunchContext) -> str:
         """The folder."""
-        return str(context.files[-1].parent) if context.files else ""
+        return str(_this_file(context).parent)
 
 
 class AnonName(Substitution):

@@ -1,0 +1,161 @@
+"""launch.frontend: elements and `$(…)` of people's own, for launch files in XML and YAML."""
+
+import typing
+from collections.abc import Callable
+from typing import Any, TypeVar
+
+from tftool.errors import UsageError
+from tftool.ros.launch import parsing
+from tftool.ros.launch.elements import Element
+from tftool.ros.launch.substitutions import TextSubstitution, is_true
+
+T = TypeVar("T")
+
+ParseMethod = Callable[["Entity", "Parser"], tuple[Any, dict[str, Any]]]
+"""Gives what is to be called, and with which keywords."""
+
+ACTIONS: dict[str, ParseMethod] = {}
+"""What reads each element of people's own, by its tag."""
+
+
+class Entity:
+    """One element of a launch file.
+
+    Attributes:
+        type_name: Its tag.
+        parent: What it is in, None at the top.
+    """
+
+    def __init__(self, element: Element, parent: "Entity | None" = None) -> None:
+        self.element = element
+        self.type_name = element.tag
+        self.parent = parent
+
+    @property
+    def children(self) -> list["Entity"]:
+        """What is in it."""
+        return [Entity(one, self) for one in self.element.all_inside()]
+
+    def get_attr(
+        self,
+        name: str,
+        *,
+        data_type: Any = str,
+        optional: bool = False,
+        can_be_str: bool = True,
+    ) -> Any:
+        """An attribute; with `List[Entity]`, the elements inside that are called so.
+
+        Raises:
+            AttributeError: If it is missing.
+            TypeError: If it is of another type.
+        """
+        if typing.get_args(data_type) == (Entity,):
+            inside = [Entity(one, self) for one in self.element.inside(name)]
+            if not inside and not optional:
+                raise self._missing(name)
+            return inside or None
+        value = self.element.get(name)
+        if value is None:
+            if not optional:
+                raise self._missing(name)
+            return None
+        if can_be_str and isinstance(value, str) and "$(" in value:
+            return value
+        try:
+            return _read(value, data_type)
+        except (ValueError, UsageError):
+            raise TypeError(
+                f"{self.element.where}: '{name}' of '{self.type_name}' is not of type "
+                f"{data_type}: {value!r}"
+            ) from None
+
+    def _missing(self, name: str) -> AttributeError:
+        return AttributeError(f"{self.element.where}: '{self.type_name}' needs '{name}'")
+
+    def assert_entity_completely_parsed(self) -> None:
+        """Refuse attributes and elements inside that were not read.
+
+        Raises:
+            InputError: If there is one.
+        """
+        self.element.finish()
+
+
+def _read(value: Any, data_type: Any) -> Any:
+    if typing.get_origin(data_type) is list:
+        (kind,) = typing.get_args(data_type)
+        parts = value if isinstance(value, list) else str(value).split(",")
+        return [_read(part.strip() if isinstance(part, str) else part, kind) for part in parts]
+    if data_type is bool:
+        return value if isinstance(value, bool) else is_true(str(value))
+    return data_type(value) if data_type in (str, int, float) else value
+
+
+class Parser:
+    """Reads what is in an element."""
+
+    def parse_substitution(self, value: Any) -> list[Any]:
+        """A text with its `$(…)` parts as substitutions."""
+        return parse_substitution(value)
+
+    def parse_if_substitutions(self, value: Any) -> Any:
+        """A text as substitutions where it has any, and otherwise as it is."""
+        return parse_if_substitutions(value)
+
+    def parse_action(self, entity: Entity) -> Any:
+        """The action an element stands for."""
+        from tftool.ros.launch.frontend import actions_of
+
+        (action,) = actions_of([entity.element])
+        return action
+
+    def escape_characters(self, value: str) -> str:
+        """A text in which nothing stands for a substitution."""
+        return value.replace("\\", "\\\\").replace("$", "\\$")
+
+
+def parse_substitution(value: Any) -> list[Any]:
+    """A text with its `$(…)` parts as substitutions."""
+    return parsing.parsed(value, "a text") or [TextSubstitution(text="")]
+
+
+def parse_if_substitutions(value: Any) -> Any:
+    """A text as substitutions where it has any, and otherwise as it is; each one of a list."""
+    if isinstance(value, list):
+        return [parse_if_substitutions(one) for one in value]
+    return parse_substitution(value) if isinstance(value, str) and "$(" in value else value
+
+
+def expose_action(name: str) -> Callable[[T], T]:
+    """Decorate a class with a method `parse`, or a function like it: what reads an element."""
+
+    def expose(exposed: T) -> T:
+        ACTIONS[name.replace("-", "_")] = _parser_of(exposed)
+        return exposed
+
+    return expose
+
+
+def expose_substitution(name: str) -> Callable[[T], T]:
+    """Decorate a class with a method `parse`, or a function like it: what reads `$(name …)`."""
+
+    def expose(exposed: T) -> T:
+        read = _parser_of(exposed)
+
+        def make(*words: Any) -> Any:
+            kind, settings = read(list(words))
+            return kind(**settings)
+
+        parsing.SUBSTITUTIONS[name] = make
+        return exposed
+
+    return expose
+
+
+def _parser_of(exposed: Any) -> Any:
+    read = exposed.parse if isinstance(exposed, type) and hasattr(exposed, "parse") else exposed
+    if isinstance(read, type) or not callable(read):
+        name = getattr(exposed, "__name__", repr(exposed))
+        raise RuntimeError(f"'{name}' is neither a function nor a class with a method parse")
+    return read
