@@ -53,6 +53,9 @@ def test_help_is_a_command_too(tftool):
     assert tftool("help").out == tftool("--help").out
     assert tftool("help", "tree").out == tftool("tree", "--help").out
     assert "Did you mean 'echo'?" in tftool("help", "ech").err
+    assert "Did you mean 'echo'?" in tftool("help", "eko").err
+    assert "Did you mean 'echo'?" in tftool("eco").err
+    assert "mean" not in tftool("xyzzy").err
 
 
 def test_every_command_is_listed_under_what_one_wants():

@@ -393,6 +393,15 @@ def _usage_sentence(error: "Any") -> tuple[str, str]:
     import re
 
     sentence = error.format_message()
+    unknown = re.match(r"No such command '(.*?)'", sentence, re.DOTALL)
+    if unknown is not None:
+        # Suggested by typer in the order of the list, and only when very alike.
+        sentence = unknown[0] + "."
+        near = _nearest(unknown[1], list(COMMANDS))
+        if near:
+            meant = " or ".join(f"'{one}'" for one in near)
+            sentence = f"{unknown[0]}. Did you mean {meant}?"
+        return command, f"{sentence} Try '{command} --help'."
     near = [one for one in getattr(error, "possibilities", None) or () if "help" not in one]
     if hasattr(error, "possibilities"):
         sentence = error.message
@@ -405,14 +414,24 @@ def _usage_sentence(error: "Any") -> tuple[str, str]:
     return command, f"{sentence} Try '{command} --help'."
 
 
+UNLIKE = 0.5
+"""Two words that are less alike than this, from 0 to 1, are not mistaken for one another."""
+
+
 def _nearest(written: str, near: list[str]) -> list[str]:
     """Those of the near options that are about as near as the best, best first."""
     from difflib import SequenceMatcher
 
-    likeness = {one: SequenceMatcher(None, written, one).ratio() for one in near}
+    def likeness_of(one: str) -> float:
+        # The first letter is the one that is seldom mistyped.
+        same = one.lstrip("-")[:1] == written.lstrip("-")[:1]
+        return SequenceMatcher(None, written, one).ratio() + 0.1 * same
+
+    likeness = {one: likeness_of(one) for one in near}
     best = max(likeness.values(), default=0.0)
     return sorted(
-        (one for one in near if likeness[one] > best - 0.1), key=lambda one: -likeness[one]
+        (one for one in near if likeness[one] > max(best - 0.1, UNLIKE)),
+        key=lambda one: -likeness[one],
     )
 
 
