@@ -21,4 +21,5 @@ const answers = JSON.parse(await readFile(asked, "utf8")).map(({ at, pairs }) =>
   };
 });
 const series = lookups.series({ target: "map", source: "laser", from: -0.25, to: 3.3, count: 301 });
-console.log(JSON.stringify({ answers, moments: lookups.moments(), series }));
+const trails = lookups.trails({ fixed: "map", frames: ["laser", "base", "nobody"], from: -0.25, to: 3.3, count: 301 });
+console.log(JSON.stringify({ answers, moments: lookups.moments(), series, trails }));

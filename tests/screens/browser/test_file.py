@@ -1,6 +1,8 @@
 """The page as one file, opened from disk in a real browser, with no server anywhere."""
 
+import itertools
 import json
+import math
 from types import SimpleNamespace
 
 import pytest
@@ -45,6 +47,33 @@ def asked_elsewhere(page):
     """What the page has fetched that does not lie in it."""
     script = "performance.getEntriesByType('resource').map((entry) => entry.name)"
     return [name for name in page.said(script) if not name.startswith(("data:", "blob:"))]
+
+
+def test_trails_of_a_long_recording_are_as_fine_as_it(chromium, tmp_path):
+    buffer = Buffer(seconds(1000))
+    for step in range(6000):  # ten minutes at 10 Hz, in a circle every 6 s
+        angle = math.tau * step / 60
+        pose = Transform((math.cos(angle), math.sin(angle), 0.0))
+        stamp = EPOCH + seconds(0.1 * step)
+        buffer.set_transform(TransformStamped(stamp, "map", "runner", pose), "mover")
+    path = file_of(tmp_path, buffer, end=599.9, begin=EPOCH + seconds(300))
+    page = opened(chromium, path, "fixed=map&trails=1&length=10")
+
+    for moment in (300, 555.5):
+        page.scrub(moment)
+        page.until(lambda: page.said("tftool.trails()")[0] >= 300)
+        points = page.said("tftool.trailOf('runner')")
+        steps = [math.dist(one, other) for one, other in itertools.pairwise(points)]
+        # 30 places a second, on the circle, up to where the frame is now.
+        assert max(steps) < 1.1 * math.tau / 6 / 30
+        assert all(math.hypot(x, y) > 0.99 for x, y, _ in points)
+        page.until(
+            lambda: (
+                page.said("tftool.trailOf('runner').at(-1)")
+                == pytest.approx(page.drawn()["runner"]["pose"][:3])
+            )
+        )
+    assert page.complaints() == []
 
 
 def test_a_recording_is_scrubbed_played_and_measured_without_a_server(chromium, tmp_path):

@@ -19,11 +19,16 @@ from tftool.screens.browser.protocol import (
     Past,
     SeriesRequest,
     Show,
+    TrailsRequest,
     parse,
 )
 from tftool.stamps import seconds
 
 EPOCH = seconds(1000)
+
+
+SERIES = '{"type": "series", "target": "a", "source": "b", "from": %s, "to": %s, "count": %s}'
+TRAILS = '{"type": "trails", "fixed": "map", "frames": %s, "from": 1, "to": 2, "count": 3}'
 
 
 @pytest.mark.parametrize(
@@ -41,13 +46,11 @@ EPOCH = seconds(1000)
             '{"type": "series", "target": "a", "source": "b", "from": 1, "to": 2.5, "count": 9}',
             SeriesRequest("a", "b", 1.0, 2.5, 9),
         ),
+        (TRAILS % '["a", "b"]', TrailsRequest("map", ("a", "b"), 1.0, 2.0, 3)),
     ],
 )
 def test_what_the_page_may_say(said, means):
     assert parse(said) == means
-
-
-SERIES = '{"type": "series", "target": "a", "source": "b", "from": %s, "to": %s, "count": %s}'
 
 
 @pytest.mark.parametrize(
@@ -57,10 +60,10 @@ SERIES = '{"type": "series", "target": "a", "source": "b", "from": %s, "to": %s,
         ("", "not JSON"),
         ("{", "not JSON"),
         ("[" * 100_000, "not JSON"),
-        ("null", "show, pair, got, move, past, series or marks"),
-        ("[]", "show, pair, got, move, past, series or marks"),
-        ('{"type": "shutdown"}', "show, pair, got, move, past, series or marks"),
-        ('{"type": ["show"]}', "show, pair, got, move, past, series or marks"),
+        ("null", "show, pair, got, move, past, series, trails or marks"),
+        ("[]", "show, pair, got, move, past, series, trails or marks"),
+        ('{"type": "shutdown"}', "show, pair, got, move, past, series, trails or marks"),
+        ('{"type": ["show"]}', "show, pair, got, move, past, series, trails or marks"),
         ('{"type": "show", "at": "now"}', "a number of seconds"),
         ('{"type": "show", "at": NaN}', "a number of seconds"),
         ('{"type": "show", "at": 1e300}', "a number of seconds"),
@@ -69,6 +72,9 @@ SERIES = '{"type": "series", "target": "a", "source": "b", "from": %s, "to": %s,
         ('{"type": "pair", "target": 1, "source": 2}', "two names"),
         ('{"type": "got", "sequence": "1"}', "whole number"),
         ('{"type": "series", "target": "a"}', "two names"),
+        ('{"type": "trails", "fixed": "a"}', "a list of others"),
+        (TRAILS % "[1]", "60 names"),
+        (TRAILS % json.dumps(["a"] * 61), "60 names"),
         (SERIES % (5, 4, 10), "to a later one"),
         (SERIES % ("NaN", 4, 10), "a number of seconds"),
         (SERIES % ("null", 4, 10), "to a later one"),
@@ -198,3 +204,21 @@ def test_what_the_buffer_remembers_is_told_at_even_steps_and_fewer_for_many_fram
     assert len({after - before for before, after in itertools.pairwise(few)}) <= 2
     assert many == [seconds(1001), seconds(1003)]
     assert protocol.moments([]) == []
+
+
+def test_trails_are_places_at_even_moments_and_null_where_none_is_known():
+    asked = TrailsRequest("world", ("turtle", "camera", "nobody"), 1.0, 4.0, 4)
+
+    told = json.loads(protocol.encode_trails(buffer(), EPOCH, asked))
+
+    assert {key: told[key] for key in ("type", "fixed", "from", "to")} == {
+        "type": "trails",
+        "fixed": "world",
+        "from": 1.0,
+        "to": 4.0,
+    }
+    assert told["places"] == {
+        "turtle": [[1.0, 0.0, 0.0], [2.0, 0.0, 0.0], [3.0, 0.0, 0.0], None],
+        "camera": [[1.0, 0.0, 0.5], [2.0, 0.0, 0.5], [3.0, 0.0, 0.5], None],
+        "nobody": [None] * 4,
+    }

@@ -107,6 +107,14 @@ def test_every_answer_is_the_servers(tmp_path, seed):
         found, known = (np.array(one[key], dtype=float) for one in (told["series"], wanted))
         assert 10 < np.isnan(known).sum() < 200 or key == "times"
         np.testing.assert_allclose(found, known, rtol=1e-9, atol=1e-12)
+    asked = protocol.TrailsRequest("map", ("laser", "base", "nobody"), -0.25, 3.3, 301)
+    wanted = json.loads(protocol.encode_trails(buffer, EPOCH, asked))
+    assert told["trails"].keys() == wanted.keys()
+    for frame, places in wanted["places"].items():
+        found = told["trails"]["places"][frame]
+        assert [place is None for place in found] == [place is None for place in places]
+        for one, other in zip(found, places, strict=True):
+            assert one == (other if other is None else pytest.approx(other, abs=1e-5))
     refused = 0
     for at, answer in zip(moments, told["answers"], strict=True):
         stamp = 0 if at is None else EPOCH + at

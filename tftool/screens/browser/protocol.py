@@ -6,6 +6,7 @@ Server to page:
   text   {"type": "robot", ...}   shapes, joints and sliders of the robot; see `robots.py`
   text   {"type": "range", ...}   how far the buffer reaches, while a past moment is shown
   text   {"type": "series", ...}  a pair's transform at many moments; see `encode_series`
+  text   {"type": "trails", ...}  where frames were at many moments; see `encode_trails`
   text   {"type": "marks", ...}   gaps and the doctor's findings; see `marks.py`
   binary                          every frame's pose at one moment; see `encode_poses`
   binary                          the last message of a topic that is drawn; a block of `packing.py`
@@ -19,6 +20,8 @@ Page to server, text only:
                                                 it comes as poses of sequence number 0
   {"type": "series", "target": …, "source": …,  tell a pair's transform at `count` moments from
    "from": seconds, "to": seconds, "count": n}  the one to the other
+  {"type": "trails", "fixed": …, "frames": […], tell where frames were in the fixed one at `count`
+   "from": seconds, "to": seconds, "count": n}  moments
   {"type": "marks"}                             tell gaps and findings, when they are known
 
 Moments travel as seconds since the clock's epoch, which a float holds to the nanosecond
@@ -59,6 +62,9 @@ MOST_FRAMES = 2000
 
 MOST_MOMENTS = 2000
 """Moments of a pair that are told at once: a plot has no more columns."""
+
+MOST_TRAILS = 60
+"""Frames whose trails are told at once."""
 
 MOST_BYTES = 16 * 1024
 """The longest message a page has a reason to send: two names of some thousand letters."""
@@ -113,18 +119,31 @@ class SeriesRequest:
 
 
 @dataclass(frozen=True, slots=True)
+class TrailsRequest:
+    """Tell where frames were at `count` moments from `first` to `last`, in seconds."""
+
+    fixed: str
+    frames: tuple[str, ...]
+    first: float
+    last: float
+    count: int
+
+
+@dataclass(frozen=True, slots=True)
 class MarksRequest:
     """Tell the gaps, and what the doctor finds."""
 
 
-Said: TypeAlias = Show | PairRequest | Got | Move | Past | SeriesRequest | MarksRequest
+Said: TypeAlias = (
+    Show | PairRequest | Got | Move | Past | SeriesRequest | TrailsRequest | MarksRequest
+)
 
 
 def parse(message: str | bytes) -> Said:
     """Read what a page sent.
 
     Raises:
-        InputError: If it is none of the seven messages; says what is wrong.
+        InputError: If it is none of the eight messages; says what is wrong.
     """
     if isinstance(message, bytes):
         raise InputError("the page speaks text, not bytes")
@@ -158,23 +177,41 @@ def parse(message: str | bytes) -> Said:
         return Past()
     if kind == "series":
         return _series(said)
+    if kind == "trails":
+        return _trails(said)
     if kind == "marks":
         return MarksRequest()
     raise InputError(
-        'a message is an object whose "type" is show, pair, got, move, past, series or marks'
+        'a message is an object whose "type" is show, pair, got, move, past, series, trails '
+        "or marks"
     )
 
 
 def _series(said: dict[str, Any]) -> SeriesRequest:
-    target, source, count = said.get("target"), said.get("source"), said.get("count")
+    target, source = said.get("target"), said.get("source")
     if not isinstance(target, str) or not isinstance(source, str):
         raise InputError("a series is of two names of frames")
+    return SeriesRequest(target, source, *_span(said))
+
+
+def _trails(said: dict[str, Any]) -> TrailsRequest:
+    fixed, frames = said.get("fixed"), said.get("frames")
+    if not isinstance(fixed, str) or not isinstance(frames, list):
+        raise InputError("trails are of a fixed frame and a list of others")
+    if len(frames) > MOST_TRAILS or not all(isinstance(frame, str) for frame in frames):
+        raise InputError(f"trails are of {MOST_TRAILS} names of frames at most")
+    return TrailsRequest(fixed, tuple(frames), *_span(said))
+
+
+def _span(said: dict[str, Any]) -> tuple[float, float, int]:
+    """First and last moment, and how many of them."""
+    count = said.get("count")
     if not isinstance(count, int) or not 2 <= count <= MOST_MOMENTS:
         raise InputError(f"a series has from 2 to {MOST_MOMENTS} moments")
     first, last = _moment(said.get("from")), _moment(said.get("to"))
     if first is None or last is None or not first < last:
         raise InputError("a series goes from one moment to a later one")
-    return SeriesRequest(target, source, first, last, count)
+    return first, last, count
 
 
 def _moment(value: Any) -> float | None:
@@ -330,9 +367,7 @@ def encode_pair(buffer: Buffer, epoch: Stamp, target: str, source: str, at: Stam
 
 def encode_series(buffer: Buffer, epoch: Stamp, asked: SeriesRequest) -> str:
     """Write a pair's transform at evenly spread moments, null where there is none."""
-    first, last = stamp_at(epoch, asked.first), stamp_at(epoch, asked.last)
-    steps = asked.count - 1
-    stamps = [first + (last - first) * step // steps for step in range(asked.count)]
+    stamps = _stamps(epoch, asked)
     answer: dict[str, Any] = {
         "type": "series",
         "target": asked.target,
@@ -353,6 +388,34 @@ def encode_series(buffer: Buffer, epoch: Stamp, asked: SeriesRequest) -> str:
             for column, number in zip(columns, numbers, strict=True):
                 column[row] = number
     return json.dumps(answer | dict(zip(SERIES, columns, strict=True)))
+
+
+def encode_trails(buffer: Buffer, epoch: Stamp, asked: TrailsRequest) -> str:
+    """Write where frames were at evenly spread moments, null where that is not known."""
+    stamps = np.array(_stamps(epoch, asked), dtype=np.int64)
+    places: dict[str, list[list[float] | None]] = {}
+    for frame in asked.frames:
+        places[frame] = [None] * asked.count
+        try:
+            path = buffer.lookup_transforms(asked.fixed, frame, stamps, missing="nan")
+        except TransformException:
+            continue
+        known = path.valid & np.isfinite(path.translations).all(axis=1)
+        rows = np.round(path.translations, _TRAIL_DIGITS).tolist()
+        for at in np.flatnonzero(known).tolist():
+            places[frame][at] = rows[at]
+    told = {"type": "trails", "fixed": asked.fixed, "from": asked.first, "to": asked.last}
+    return json.dumps(told | {"places": places})
+
+
+_TRAIL_DIGITS = 5
+
+
+def _stamps(epoch: Stamp, asked: SeriesRequest | TrailsRequest) -> list[Stamp]:
+    """Moments spread evenly over what is asked about."""
+    first, last = stamp_at(epoch, asked.first), stamp_at(epoch, asked.last)
+    steps = asked.count - 1
+    return [first + (last - first) * step // steps for step in range(asked.count)]
 
 
 SERIES = ("x", "y", "z", "roll", "pitch", "yaw")

@@ -372,6 +372,9 @@ class PageServer:
                 elif isinstance(said, protocol.SeriesRequest):
                     buffer, epoch = self.source.buffer, self.source.clock.epoch
                     await socket.send(protocol.encode_series(buffer, epoch, said))
+                elif isinstance(said, protocol.TrailsRequest):
+                    buffer, epoch = self.source.buffer, self.source.clock.epoch
+                    await socket.send(protocol.encode_trails(buffer, epoch, said))
                 elif isinstance(said, protocol.MarksRequest):
                     if judging is None or judging.done():
                         judging = asyncio.ensure_future(self._tell_marks(socket))

@@ -6,6 +6,7 @@ import { bounds, linesOf, PLOTS, runs, Scale, shownGaps, ticks, valueAt } from "
 
 const THUMB = 8; // pixels from the slider's end to the middle of its handle there
 const NEAR = 5; // pixels
+const LEGEND = 15; // pixels above the lines, for what they are called
 const COLORS = { x: "#e5484d", y: "#30a46c", z: "#3e7bfa", roll: "#e5484d", pitch: "#30a46c", yaw: "#3e7bfa", distance: "#b07d00" };
 const SEVERITIES = { error: "#e5484d", warning: "#d08700", note: "#7a8699" };
 const MOST_MOMENTS = 1000;
@@ -159,11 +160,11 @@ export class Course {
     const { pen, width, height } = fresh(this.plot);
     const lines = linesOf(this.series, plot);
     const [least, most] = (this.limits = bounds(lines));
-    const y = (value) => height - 2 - ((value - least) / (most - least)) * (height - 4);
+    const y = (value) => height - 2 - ((value - least) / (most - least)) * (height - LEGEND - 4);
     pen.font = "10.5px system-ui, sans-serif";
     pen.fillStyle = `${SEVERITIES.error}22`;
     for (const { from, to } of this.gaps) {
-      pen.fillRect(this.scale.pixel(from), 0, Math.max(1, this.scale.pixel(to) - this.scale.pixel(from)), height);
+      pen.fillRect(this.scale.pixel(from), LEGEND, Math.max(1, this.scale.pixel(to) - this.scale.pixel(from)), height);
     }
     if (least < 0 && most > 0) {
       pen.fillStyle = ink.edge;
@@ -185,16 +186,14 @@ export class Course {
       pen.stroke();
     }
     pen.fillStyle = ink.text;
-    pen.fillRect(Math.round(this.scale.pixel(moment)), 0, 1, height);
+    pen.fillRect(Math.round(this.scale.pixel(moment)), LEGEND, 1, height);
     this.legend(pen, ink, lines, moment, PLOTS[plot].unit);
     pen.fillStyle = ink.text;
     pen.textBaseline = "top";
-    pen.fillText(`${number(most, 2)} ${PLOTS[plot].unit}`, THUMB, 2);
-    pen.textBaseline = "bottom";
-    pen.fillText(number(least, 2), THUMB, height - 2);
+    pen.fillText(`${number(least, 2)} … ${number(most, 2)} ${PLOTS[plot].unit}`, THUMB, 1);
   }
 
-  /** Each line's name and value at the moment, at the right end. */
+  /** Each line's name and value at the moment, at the right end above the lines. */
   legend(pen, ink, lines, moment, unit) {
     const { times } = this.series;
     const exact = ((moment - times[0]) / (times[times.length - 1] - times[0])) * (times.length - 1);
@@ -204,7 +203,7 @@ export class Course {
       const text = `${name} ${number(valueAt(values, exact, unit === "°"), 3)} ${unit}`;
       right -= pen.measureText(text).width;
       pen.fillStyle = COLORS[name];
-      pen.fillText(text, right, 2);
+      pen.fillText(text, right, 1);
       right -= 12;
     }
   }

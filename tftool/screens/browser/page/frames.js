@@ -119,16 +119,21 @@ function told(model, index, late) {
  * @param {Frame[]} drawn
  * @param {import("./choices.js").Choices} choices
  * @param {number} until newest moment, seconds of the session
+ * @param {((name: string) => number[][] | null) | null} [fine] where a frame was, if that is known finely
  */
-export function trails(model, drawn, choices, until) {
+export function trails(model, drawn, choices, until, fine = null) {
   if (!model.poses) return [];
   return drawn
     .filter(({ index, name }) => choices.trailed.has(name) || (choices.trails && leaves(model, index, choices)))
     .slice(0, MOST_TRAILS)
-    .map(({ index, color }) => ({
-      color,
-      points: model.trail(index, choices.fixed, choices.length, until),
-    }));
+    .map(({ index, name, color, pose }) => {
+      const points = fine?.(name);
+      return {
+        name,
+        color,
+        points: points ? [...points, pose ?? []].filter(({ length }) => length) : model.trail(index, choices.fixed, choices.length, until),
+      };
+    });
 }
 
 /** Whether a frame moves; unasked, what is mounted on something that moves leaves no trail beside it. */

@@ -121,6 +121,12 @@ function canonical(pose) {
   return leading < 0 ? [...pose.slice(0, 3), -x, -y, -z, -w] : pose;
 }
 
+/** Moments spread evenly from one to another, in nanoseconds. */
+function spread(from, to, count) {
+  const [first, last] = [nanoseconds(from), nanoseconds(to)];
+  return Array.from({ length: count }, (_, step) => first + Math.floor(((last - first) * step) / (count - 1)));
+}
+
 export class Lookups {
   /** @param {import("./packed.js").Packed} packed */
   constructor(packed) {
@@ -252,21 +258,42 @@ export class Lookups {
    * @param {{ target: string, source: string, from: number, to: number, count: number }} asked
    */
   series({ target, source, from, to, count }) {
-    const [first, last] = [nanoseconds(from), nanoseconds(to)];
-    const stamps = Array.from({ length: count }, (_, step) => first + Math.floor(((last - first) * step) / (count - 1)));
+    const stamps = spread(from, to, count);
     const poses = stamps.map((stamp) => {
-      try {
-        const { pose } = this.lookup(target, source, stamp);
-        return [...pose.slice(0, 3), ...rpy(pose)];
-      } catch (error) {
-        if (error instanceof Refusal) return null;
-        throw error;
-      }
+      const pose = this.pose(target, source, stamp);
+      return pose && [...pose.slice(0, 3), ...rpy(pose)];
     });
     const column = (place) => poses.map((pose) => (pose && Number.isFinite(pose[place]) ? pose[place] : null));
     const [x, y, z, roll, pitch, yaw] = [0, 1, 2, 3, 4, 5].map(column);
     const times = stamps.map((stamp) => stamp / NANOSECONDS);
     return { type: "series", target, source, times, x, y, z, roll, pitch, yaw };
+  }
+
+  /**
+   * Where frames were at evenly spread moments, as the server writes it; null where that is not known.
+   * @param {import("./past.js").Asked} asked
+   */
+  trails({ fixed, frames, from, to, count }) {
+    const stamps = spread(from, to, count);
+    /** @type {Record<string, import("./past.js").Places>} */
+    const places = Object.create(null); // a frame may have any name
+    for (const frame of frames) {
+      places[frame] = stamps.map((stamp) => {
+        const place = this.pose(fixed, frame, stamp)?.slice(0, 3);
+        return place?.every(Number.isFinite) ? place : null;
+      });
+    }
+    return { type: "trails", fixed, from, to, places };
+  }
+
+  /** The pose of `source` in `target` at a moment; null where there is none. */
+  pose(target, source, stamp) {
+    try {
+      return this.lookup(target, source, stamp).pose;
+    } catch (error) {
+      if (error instanceof Refusal) return null;
+      throw error;
+    }
   }
 
   number(frame, argument) {

@@ -17,6 +17,7 @@ import {
   $, fill, showBanner, showCounts, showEmpty, showFrame, showPair, showReach, showStatus, showTime, toast,
 } from "./panels.js";
 import { Pace } from "./pace.js";
+import { Past } from "./past.js";
 import { Picker } from "./picker.js";
 import { Redraw } from "./redraw.js";
 import { Robot } from "./robot.js";
@@ -58,7 +59,7 @@ const displays = new Displays(stage.scene, tracks, (topic) => {
 const server = { connection: "wait", pair: null, unacknowledged: 0 };
 /**
  * What is on screen: of every frame, of those drawn, the trails.
- * @type {{ frames: import("./frames.js").Frame[], drawn: any[], lines: { color: string, points: number[][] }[] }}
+ * @type {{ frames: import("./frames.js").Frame[], drawn: any[], lines: { name: string, color: string, points: number[][] }[] }}
  */
 const shown = { frames: [], drawn: [], lines: [] };
 /** @type {{ past: number[], address: number | undefined }} */
@@ -113,6 +114,7 @@ const handlers = {
   ended() {
     if (server.connection === "open") server.connection = "ended";
     timeline.lost();
+    past.lost();
     changed();
   },
   names(message) {
@@ -124,6 +126,7 @@ const handlers = {
     }
     tree.build(model, choices);
     course.forget();
+    past.forget();
     fillPickers();
     open();
     timers.past.forEach(clearTimeout);
@@ -141,6 +144,10 @@ const handlers = {
     if (timeline.forgotten && !message.found && pair?.found) return;
     server.pair = message;
     redraw.data(false);
+  },
+  trails(message) {
+    past.take(message);
+    redraw.data();
   },
   robot(message) {
     robot.show(message);
@@ -181,6 +188,8 @@ if (inside) {
   $("live").hidden = true;
 }
 const wire = inside ? new Standalone(handlers, inside) : new Wire(handlers);
+
+const past = new Past((asked) => wire.trails(asked));
 
 const course = new Course({
   want: (type, fields) => wire.want(type, fields),
@@ -247,7 +256,17 @@ function solve() {
   }
   shown.frames = describe(model, choices, timeline.past, server.pair);
   shown.drawn = shown.frames.filter((frame) => frame.shown);
-  shown.lines = trails(model, shown.drawn, choices, timeline.at ?? timeline.reach.now);
+  shown.lines = pathsTo(timeline.at);
+}
+
+/** The trails, finely where a past moment is looked at. @param {number | null} at */
+function pathsTo(at) {
+  const { reach, rate } = timeline;
+  if (at === null || choices.fixed === undefined) return trails(model, shown.drawn, choices, reach.now);
+  const from = Math.max(reach.oldest, at - choices.length * rate);
+  const lines = trails(model, shown.drawn, choices, at, (name) => past.trail(name, from, at));
+  past.look(choices.fixed, lines.map(({ name }) => name), from, at, reach.newest, rate);
+  return lines;
 }
 
 /** Paint what was solved: frames, trails, names, the pair's chain. */
@@ -726,6 +745,9 @@ new ResizeObserver(() => {
 new ResizeObserver(() => {
   const { top } = $("time").getBoundingClientRect();
   document.documentElement.style.setProperty("--foot", `${innerHeight - top + 10}px`);
+  // Less of the picture is free, or more: until a person takes the camera all of it is to be seen.
+  bounds.reset();
+  redraw.picture();
 }).observe($("time"));
 
 // What does not come makes no picture: ages go on, and so does what is said of the server.
@@ -780,6 +802,7 @@ Object.assign(globalThis, {
     }),
     plain: () => stage.plain,
     trails: () => shown.lines.map(({ points }) => points.length),
+    trailOf: (name) => shown.lines.find((line) => line.name === name)?.points.map((point) => point.slice(0, 3)),
     remembered: () => model.history.length,
     scale: () => stage.scale,
     picture: whole,

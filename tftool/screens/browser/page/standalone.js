@@ -69,6 +69,10 @@ export class Standalone {
     }
   }
 
+  trails(asked) {
+    queueMicrotask(() => this.handlers.trails(this.lookups.trails(asked)));
+  }
+
   got() {}
 
   move() {}

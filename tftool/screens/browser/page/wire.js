@@ -80,7 +80,7 @@ export class Wire {
    * Handlers: open(), ended(reason), names(message),
    *  pair(message), range(message), poses(Poses),
    *  tracks(tracks, packed, whole), messages that are drawn; series(message), marks(message),
-   *  robot(message), its shapes, joints and sliders;
+   *  robot(message), its shapes, joints and sliders; trails(message), where frames were;
    *  past(Poses), which are drawn nowhere but in trails.
    */
   constructor(handlers) {
@@ -132,6 +132,14 @@ export class Wire {
     const message = JSON.stringify({ type, ...fields });
     this.wanted.set(type, message);
     this.send(message);
+  }
+
+  /**
+   * Ask where frames were.
+   * @param {import("./past.js").Asked} asked
+   */
+  trails(asked) {
+    this.send(JSON.stringify({ type: "trails", ...asked }));
   }
 
   got(sequence) {

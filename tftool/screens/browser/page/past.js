@@ -1,0 +1,114 @@
+// @ts-check
+// Where frames were around a past moment, as finely as it was recorded: asked for in pieces of a few
+// seconds, and kept as long as there is room.
+
+const PIECE = 5; // seconds
+const PLACES = 30; // a second
+const MOST_PIECES = 60;
+const MOST_ASKED = 60; // frames at once
+const MOST_LETTERS = 4000; // of names at once
+const GROWN = 1; // seconds of new data after which a piece is asked for again
+
+/**
+ * @typedef {(number[] | null)[]} Places evenly spread over a piece; null where it is not known
+ * @typedef {{ fixed: string, frames: string[], from: number, to: number, count: number }} Asked
+ * @typedef {{ known: Map<string, Places>, asked: Set<string>, upto: number }} Piece
+ */
+
+export class Past {
+  /** @param {(asked: Asked) => void} ask */
+  constructor(ask) {
+    this.ask = ask;
+    this.fixed = "";
+    this.long = PIECE; // seconds of the session
+    /** @type {Map<number, Piece>} the one looked at last comes last */
+    this.pieces = new Map();
+  }
+
+  /** Another tree, or another session. */
+  forget() {
+    this.pieces.clear();
+  }
+
+  /** The connection has ended: what was asked for will not come. */
+  lost() {
+    for (const { known, asked } of this.pieces.values()) {
+      asked.clear();
+      for (const name of known.keys()) asked.add(name);
+    }
+  }
+
+  /**
+   * Look at frames from one moment to another; ask for what is missing of it, and of what comes next.
+   * @param {string} fixed
+   * @param {string[]} frames
+   * @param {number} from
+   * @param {number} until
+   * @param {number} newest moment there is
+   * @param {number} rate seconds of the session in a second
+   */
+  look(fixed, frames, from, until, newest, rate) {
+    if (fixed !== this.fixed || rate * PIECE !== this.long) this.forget();
+    Object.assign(this, { fixed, long: rate * PIECE });
+    if (!frames.length) return;
+    const last = Math.min(Math.floor(newest / this.long), Math.floor(until / this.long) + 1);
+    for (let number = Math.floor(from / this.long); number <= last; number++) this.want(number, frames, newest);
+    while (this.pieces.size > MOST_PIECES) this.pieces.delete(this.pieces.keys().next().value ?? 0);
+  }
+
+  /** @param {number} number @param {string[]} frames @param {number} newest */
+  want(number, frames, newest) {
+    const [from, to] = [number * this.long, (number + 1) * this.long];
+    const piece = this.pieces.get(number) ?? { known: new Map(), asked: new Set(), upto: newest };
+    this.pieces.delete(number);
+    this.pieces.set(number, piece);
+    if (piece.upto < to && newest > piece.upto + GROWN * (this.long / PIECE)) piece.asked.clear();
+    if (!piece.asked.size) piece.upto = newest;
+    let batch = [];
+    let letters = 0;
+    for (const name of frames) {
+      if (piece.asked.has(name)) continue;
+      piece.asked.add(name);
+      if (batch.length && (batch.length === MOST_ASKED || letters + name.length > MOST_LETTERS)) {
+        this.ask({ fixed: this.fixed, frames: batch, from, to, count: PIECE * PLACES + 1 });
+        [batch, letters] = [[], 0];
+      }
+      batch.push(name);
+      letters += name.length;
+    }
+    if (batch.length) this.ask({ fixed: this.fixed, frames: batch, from, to, count: PIECE * PLACES + 1 });
+  }
+
+  /**
+   * What was asked for has come.
+   * @param {{ fixed: string, from: number, to: number, places: Record<string, Places> }} told
+   */
+  take({ fixed, from, to, places }) {
+    if (fixed !== this.fixed || Math.abs(to - from - this.long) > 1e-6) return;
+    const piece = this.pieces.get(Math.round(from / this.long));
+    for (const [name, row] of Object.entries(places)) piece?.known.set(name, row);
+  }
+
+  /**
+   * Where a frame was, oldest first; null while a piece of it has not come.
+   * @param {string} name
+   * @param {number} from
+   * @param {number} until
+   * @returns {number[][] | null}
+   */
+  trail(name, from, until) {
+    const points = [];
+    for (let number = Math.floor(from / this.long); number * this.long <= until; number++) {
+      const places = this.pieces.get(number)?.known.get(name);
+      if (!places) return null;
+      const step = this.long / (places.length - 1);
+      // The last place of a piece is the first of the next.
+      for (let at = 0; at < places.length - 1; at++) {
+        const moment = number * this.long + at * step;
+        const place = places[at];
+        if (place && moment >= from && moment <= until) points.push(place);
+      }
+    }
+    return points;
+  }
+}
