@@ -272,6 +272,18 @@ class Robot:
         """
         return self._leader(self.joints[name], frozenset(given))[0].name
 
+    def drive(self, name: str) -> tuple[str, float, float]:
+        """What decides a joint's position, where no other is given.
+
+        Args:
+            name: The joint.
+
+        Returns:
+            The joint that decides; its position times the second plus the third is this one's.
+        """
+        leader, factor, offset = self._leader(self.joints[name], frozenset())
+        return leader.name, factor, offset
+
     def _check_joint(self, name: str) -> None:
         joint = self.joints.get(name)
         if joint is None:

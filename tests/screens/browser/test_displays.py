@@ -5,6 +5,7 @@ import importlib.util
 import shutil
 import struct
 import threading
+import urllib.request
 from dataclasses import replace
 from types import SimpleNamespace
 
@@ -174,8 +175,9 @@ needs_browser = pytest.mark.skipif(
 
 
 @needs_browser
-def test_a_session_shows_them_as_they_come_where_their_frames_were(chromium, stage):
+def test_a_session_shows_them_as_they_come_where_their_frames_were(chromium, stage, tmp_path):
     from tests.screens.browser.driving import Page
+    from tests.screens.browser.test_file import opened
 
     for at, x in ((1.0, 3.0), (2.0, 5.0)):
         stage.put(x, at=at)
@@ -209,6 +211,13 @@ def test_a_session_shows_them_as_they_come_where_their_frames_were(chromium, sta
     page.until(lambda: len(page.said("tftool.displays()")) == 2)
     assert page.complaints() == []
 
+    # A file that is saved of it holds the last of each.
+    with urllib.request.urlopen(f"{stage.url}standalone.html") as answer:
+        (tmp_path / "saved.html").write_bytes(answer.read())
+    saved = opened(chromium, tmp_path / "saved.html", "fixed=world")
+    assert shown(saved, "/early", 1.0) == (1, [3.0, 1.0, 0.0])
+    assert shown(saved, "/cloud", 2.0) == (20_000, [7.0, 2.0, 2.0])
+
 
 def test_of_a_topic_of_a_session_the_last_message_is_told_within_a_round_of_so_many_bytes():
     world = World(SimClock())
@@ -234,6 +243,24 @@ def test_of_a_topic_of_a_session_the_last_message_is_told_within_a_round_of_so_m
     assert set(displays.blocks) == {"goal", "a", "b", "c", "broken"}
     displays.close()
     assert world.topics()["goal"].subscribers == 0
+
+
+def test_what_is_kept_of_a_session_is_the_last_message_of_each_topic_thinned_out():
+    world = World(SimClock())
+    displays = LiveDisplays(world)
+    goal = world.publisher("test", "goal", PointStamped)
+    many = cloud_of(CLASSES, np.random.default_rng(1).normal(size=(1000, 3)), frame="lidar")
+    world.publisher("test", "cloud", type(many)).publish(many)
+    for x in (1.0, 2.0):
+        goal.publish(PointStamped(world.clock.epoch, "world", x, 0.0, 0.0))
+
+    for _ in range(2):  # told to pages meanwhile, or not
+        kept = {track.topic: track for track in displays.latest(300)}
+        assert [one.places.tolist() for one in kept["/goal"].messages] == [[[2.0, 0.0, 0.0]]]
+        assert [len(one.places) for one in kept["/cloud"].messages] == [250]
+        for _ in range(8):
+            displays.round()
+    assert b'"count":1000' in displays.blocks["cloud"]
 
 
 def test_a_message_waits_for_the_transform_of_its_stamp_but_not_for_ever():
@@ -296,7 +323,7 @@ def test_a_server_shows_them_where_they_were(chromium, run):
 
     async def serve():
         async with PageServer(session.world, port=0) as page:
-            page.show_tracks(lambda: tracks_named(str(run)))
+            page.show_tracks(lambda limits: tracks_named(str(run), limits))
             found.url, found.over = page.url, asyncio.Event()
             found.loop = asyncio.get_running_loop()
             running = asyncio.ensure_future(page.run())

@@ -131,6 +131,59 @@ def test_a_description_brings_its_meshes_along(chromium, tmp_path):
     assert page.complaints() == []
 
 
+SLIDING = """<robot name="slider"><link name="base"/><link name="arm"/><link name="tip"/>
+  <link name="finger"/>
+  <joint name="turn" type="revolute"><origin xyz="1 0 2" rpy="0.3 -0.2 0.1"/><axis xyz="0 1 1"/>
+    <parent link="base"/><child link="arm"/>
+    <limit lower="-1" upper="2" effort="1" velocity="1"/></joint>
+  <joint name="slide" type="prismatic"><origin rpy="0 0.5 0"/><axis xyz="1 0 0"/>
+    <parent link="arm"/><child link="tip"/>
+    <limit lower="0" upper="0.4" effort="1" velocity="1"/></joint>
+  <joint name="grip" type="revolute"><axis xyz="1 0 0"/><parent link="tip"/><child link="finger"/>
+    <limit lower="-9" upper="9" effort="1" velocity="1"/>
+    <mimic joint="turn" multiplier="-2" offset="0.1"/></joint>
+</robot>"""
+
+
+def test_a_file_of_a_robot_moves_its_joints_by_itself(chromium, tmp_path):
+    description, path = tmp_path / "slider.urdf", tmp_path / "slider.html"
+    description.write_text(SLIDING)
+    assert main(["view", str(description), "--joint", "turn=0.5", "-o", str(path)]) == 0
+    page = opened(chromium, path, "fixed=base&target=base&source=finger")
+    page.until(lambda: page.texts("#sliders span") == ["turn", "slide"])
+    robot = tftool.load_urdf(description)
+
+    def check(positions):
+        wanted = robot.buffer(positions).lookup_transform("base", "finger", 0).transform
+        page.until(
+            lambda: (
+                page.said("tftool.pair()?.translation")
+                == pytest.approx([*wanted.translation], abs=1e-12)
+            )
+        )
+        assert page.said("tftool.pair().rotation") == pytest.approx([*wanted.rotation], abs=1e-12)
+        page.until(lambda: page.x_of("finger") == pytest.approx(wanted.translation.x, abs=1e-9))
+
+    def slide(joint, position):
+        page.driver.execute_script(
+            """
+            const row = document.querySelector(`input[aria-label="Joint ${arguments[0]}"]`);
+            row.value = arguments[1];
+            row.dispatchEvent(new Event("input"));
+            """,
+            joint,
+            position,
+        )
+
+    check({"turn": 0.5})
+    slide("turn", -0.75)
+    check({"turn": -0.75})
+    slide("slide", 7)  # no further than its limit
+    check({"turn": -0.75, "slide": 0.4})
+    assert asked_elsewhere(page) == []
+    assert page.complaints() == []
+
+
 COPIED = """
     globalThis.copied = "";
     Object.defineProperty(navigator, "clipboard", {

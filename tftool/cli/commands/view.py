@@ -140,6 +140,7 @@ def _write(
     from tftool.cli.recorded import Bar
     from tftool.cli.stored import stored_frames
     from tftool.screens.beginning import first_moment
+    from tftool.screens.browser.live import LiveDisplays
     from tftool.screens.browser.standalone import MOST_BYTES, StandaloneData, standalone_page
     from tftool.screens.browser.tracks import IN_A_FILE, recorded_tracks
     from tftool.sinks.trajectory_files import whole_file
@@ -150,19 +151,23 @@ def _write(
     if not force and (output.exists() or output.is_symlink()):
         raise UsageError(f"'{output}' exists: --force replaces it.")
     published: list[ShownRobot] = []
-    stored = stored_frames(
-        connection,
-        place,
-        run_for,
-        beside=lambda world: _hear_description(world, published.append, meshes),
-    )
+    displays: list[LiveDisplays] = []
+
+    def listen(world: "World") -> None:
+        _hear_description(world, published.append, meshes)
+        displays.append(LiveDisplays(world, IN_A_FILE))
+
+    stored = stored_frames(connection, place, run_for, beside=listen)
     # 0 would mean the latest; what only holds at all times has no other moment.
     epoch = max(1, stored.start)
     now = max(epoch, stored.end)
     shown = _robot_of(connection, stored, meshes) or (published[-1] if published else None)
     begin = first_moment(stored.buffer, epoch, now)
     recording = recording_of(stored)
-    tracks = [] if recording is None else recorded_tracks(recording, IN_A_FILE)
+    if recording is not None:
+        tracks = recorded_tracks(recording, IN_A_FILE)
+    else:
+        tracks = [track for one in displays for track in one.latest(IN_A_FILE.points)]
     data = StandaloneData(stored.name, stored.buffer, epoch, now, begin, shown, tracks=tracks)
     bar = Bar("Packing")
     with interruptible(), whole_file(output, force=force) as file:
@@ -204,9 +209,11 @@ def _robot_of(
     from tftool.cli.described import RobotAtRest
 
     described = connection.robot.urdf
+    rest = None
     if isinstance(stored, RobotAtRest):
         described = named(stored.name).paths[0]
-    return ShownRobot(robot, MeshFolders(described, meshes))
+        rest = robot.positions(connection.robot.joints)
+    return ShownRobot(robot, MeshFolders(described, meshes), rest=rest)
 
 
 def _alive(

@@ -1,7 +1,7 @@
 """The messages of a running session that are drawn: the last of each topic, as they come."""
 
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any, Final
 
 from tftool.errors import InputError, TftoolError, TransformException
@@ -9,7 +9,7 @@ from tftool.frames.buffer import Buffer
 from tftool.interfaces.classes import INTERFACES
 from tftool.runtime.endpoints import PUBLISHER, USUAL, Endpoint, Quality
 from tftool.runtime.world import World
-from tftool.screens.browser.displays.shapes import DrawnMessage
+from tftool.screens.browser.displays.shapes import DrawnMessage, thinned
 from tftool.screens.browser.packing import PackedBlock
 from tftool.screens.browser.tracks import (
     DISPLAYS,
@@ -80,6 +80,16 @@ class LiveDisplays:
         """What was told last of every topic, for a page that opens."""
         return {topic: one.block for topic, one in self._heard.items() if one.block}
 
+    def latest(self, most: int) -> list[DrawnTopic]:
+        """The last message of every topic, to be kept, thinned out to so many points."""
+        found: list[DrawnTopic] = []
+        for one in self._heard.values():
+            self._draw(one)
+            last = [one.waiting] if one.waiting is not None else one.drawn.messages
+            kept = [replace(each, places=thinned(each.places, most)) for each in last]
+            found.append(replace(one.drawn, messages=kept, faults=dict(one.drawn.faults)))
+        return found
+
     def round(self) -> dict[str, bytes]:
         """The blocks of topics of which there is news; of many large ones some wait for the next.
 
@@ -142,16 +152,7 @@ class LiveDisplays:
 
     def _is_due(self, one: _HeardTopic) -> bool:
         """Whether there is news of a topic, with its message drawn and placed."""
-        if one.waiting is None and one.newest is not None:
-            message, one.newest = one.newest, None
-            one.rounds = 0
-            try:
-                one.waiting = one.draw(message, self._limits.points)
-            except (InputError, ValueError, TypeError) as error:
-                faults = one.drawn.faults
-                if str(error) in faults or len(faults) < _MOST_FAULTS:
-                    faults[str(error)] = faults.get(str(error), 0) + 1
-                    one.is_news = True
+        self._draw(one)
         if one.waiting is not None:
             one.rounds += 1
             if one.rounds > PATIENCE or _is_known(one.waiting, self._world.buffer):
@@ -159,6 +160,20 @@ class LiveDisplays:
                 one.waiting = None
                 return True
         return one.is_news
+
+    def _draw(self, one: _HeardTopic) -> None:
+        """Draw a topic's newest message, unless one waits to be placed."""
+        if one.waiting is not None or one.newest is None:
+            return
+        message, one.newest = one.newest, None
+        one.rounds = 0
+        try:
+            one.waiting = one.draw(message, self._limits.points)
+        except (InputError, ValueError, TypeError) as error:
+            faults = one.drawn.faults
+            if str(error) in faults or len(faults) < _MOST_FAULTS:
+                faults[str(error)] = faults.get(str(error), 0) + 1
+                one.is_news = True
 
     def _packed(self, one: _HeardTopic) -> bytes:
         one.is_news = False

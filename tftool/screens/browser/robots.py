@@ -1,7 +1,7 @@
 """A robot for the page: its shapes, its joints, and what became of its meshes."""
 
 import json
-from collections.abc import Collection
+from collections.abc import Collection, Mapping
 from dataclasses import dataclass, field
 from typing import Any
 
@@ -33,12 +33,14 @@ class ShownRobot:
         folders: Where its meshes lie.
         mover: What moves its joints, where we publish them; else None.
         prefix: What stands before the names of its links.
+        rest: Where its joints are, where nothing publishes them: then a page moves them by itself.
     """
 
     robot: Robot
     folders: MeshFolders = field(default_factory=MeshFolders)
     mover: Positions | None = None
     prefix: str = ""
+    rest: Mapping[str, float] | None = None
 
     def place(self, frames: Collection[str]) -> bool:
         """Find out what stands before the names of its links; whether that has changed."""
@@ -82,14 +84,15 @@ class ShownRobot:
                     if joint.moves
                 ],
                 "sliders": self._sliders(),
+                "motion": self._motion(),
                 "missing": list(dict.fromkeys(missing)),
             }
         )
 
     def _sliders(self) -> list[dict[str, Any]]:
-        if self.mover is None:
+        positions = self.rest if self.mover is None else self.mover.positions
+        if positions is None:
             return []
-        positions = self.mover.positions
         return [
             {
                 "name": joint.name,
@@ -100,6 +103,27 @@ class ShownRobot:
             for joint in self.robot.joints.values()
             if joint.moves and self.robot.leader(joint.name) == joint.name
         ]
+
+    def _motion(self) -> list[dict[str, Any]]:
+        """What a page needs to move the joints by itself; see `page/kinematics.js`."""
+        if self.rest is None:
+            return []
+        told: list[dict[str, Any]] = []
+        for joint in self.robot.joints.values():
+            if joint.moves:
+                leader, factor, offset = self.robot.drive(joint.name)
+                told.append(
+                    {
+                        "frame": self.prefix + joint.child,
+                        "turns": joint.type != "prismatic",
+                        "origin": _seven(joint.origin),
+                        "axis": list(joint.axis),
+                        "leader": leader,
+                        "factor": factor,
+                        "offset": offset,
+                    }
+                )
+        return told
 
     def _shape(self, shape: LinkShape, missing: list[str]) -> dict[str, Any]:
         return {

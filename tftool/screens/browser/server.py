@@ -14,6 +14,7 @@ import json
 import logging
 import math
 from collections.abc import Callable, Sequence
+from dataclasses import replace
 from http import HTTPStatus
 from types import TracebackType
 from typing import Any, Protocol
@@ -35,8 +36,12 @@ from tftool.screens.browser.marks import marks_of
 from tftool.screens.browser.meshes import MeshRefused
 from tftool.screens.browser.packing import PackedBlock
 from tftool.screens.browser.robots import ShownRobot
-from tftool.screens.browser.standalone import StandaloneData, standalone_page
-from tftool.screens.browser.tracks import DrawnTopic, pack_tracks
+from tftool.screens.browser.standalone import (
+    StandaloneData,
+    StandalonePage,
+    standalone_page,
+)
+from tftool.screens.browser.tracks import IN_A_FILE, DrawnTopic, Limits, pack_tracks
 from tftool.screens.sliders import slide_range
 from tftool.stamps import NANOSECONDS, Stamp
 
@@ -115,7 +120,7 @@ class PageServer:
         self._files = assets.load()
         self._robot: ShownRobot | None = None
         self._robot_text = ""
-        self._read_tracks: Callable[[], Sequence[DrawnTopic]] | None = None
+        self._read_tracks: Callable[[Limits], Sequence[DrawnTopic]] | None = None
         self._live: LiveDisplays | None = None
         self._tracks: asyncio.Future[bytes] | None = None
         self._trees: dict[object, TreeMessage] = {}
@@ -128,7 +133,7 @@ class PageServer:
         robot.place(frozenset(self.source.buffer.frames()))
         self._tell_robot()
 
-    def show_tracks(self, read: Callable[[], Sequence[DrawnTopic]]) -> None:
+    def show_tracks(self, read: Callable[[Limits], Sequence[DrawnTopic]]) -> None:
         """Draw messages beside the frames, which are read when a page is first opened."""
         self._read_tracks = read
 
@@ -332,7 +337,7 @@ class PageServer:
             assert self._read_tracks is not None
             block, buffer = PackedBlock(), self.source.buffer
             epoch = self.source.clock.epoch
-            header = {"tracks": pack_tracks(block, self._read_tracks(), buffer, epoch)}
+            header = {"tracks": pack_tracks(block, self._read_tracks(Limits()), buffer, epoch)}
             return block.deflated(header, level=1)
 
         if self._tracks is None:
@@ -344,8 +349,15 @@ class PageServer:
         view = parse_qs(query).get("view", [""])[0]
         clock, buffer = self.source.clock, self.source.buffer
         data = StandaloneData(self._name, buffer, clock.epoch, clock.now(), None, self._robot, view)
+        if self._live is not None:
+            data = replace(data, tracks=self._live.latest(IN_A_FILE.points))
+        read = self._read_tracks
+
+        def written() -> StandalonePage:
+            return standalone_page(data if read is None else replace(data, tracks=read(IN_A_FILE)))
+
         # Beside the loop: a recording takes seconds.
-        page = await asyncio.get_running_loop().run_in_executor(None, standalone_page, data)
+        page = await asyncio.get_running_loop().run_in_executor(None, written)
         answer = _answer(HTTPStatus.OK, "text/html; charset=utf-8", page.content)
         # To be kept, not looked at here, where the policy for our own page would stop it.
         answer.headers["Content-Disposition"] = "attachment"

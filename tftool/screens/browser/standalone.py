@@ -221,8 +221,9 @@ def _robot(
         return None, []
     robot.place(frozenset(frame.frame for frame in shown))
     message: dict[str, Any] = json.loads(robot.as_text())
-    # No one is there who could move them.
-    message["sliders"] = []
+    if robot.rest is None:
+        # No one is there who could move them.
+        message["sliders"] = []
     wanted = [
         address
         for link in message["links"]

@@ -81,10 +81,10 @@ def recorded_tracks(recording: Recording, limits: Limits) -> list[DrawnTopic]:
     return found
 
 
-def tracks_named(name: str) -> list[DrawnTopic]:
+def tracks_named(name: str, limits: Limits) -> list[DrawnTopic]:
     """What of a recording is drawn, opened anew: it may be asked for in any thread."""
     with open_recording(name) as recording:
-        return recorded_tracks(recording, Limits())
+        return recorded_tracks(recording, limits)
 
 
 def _fill(track: DrawnTopic, recording: Recording, draw: Draw, limits: Limits) -> None:

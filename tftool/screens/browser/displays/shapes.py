@@ -30,11 +30,15 @@ class DrawnMessage:
     places: Places
 
 
+def thinned(places: Places, most: int) -> Places:
+    """At most so many of some places: all, every second one, or every third."""
+    return places[:: max(1, -(-len(places) // most))]
+
+
 def drawn(header: Any, places: npt.NDArray[Any], most: int = MOST_POINTS) -> DrawnMessage:
     """Take the finite ones of some places, thinned out to at most so many."""
     places = np.asarray(places, dtype=np.float32).reshape(-1, 3)
     places = places[np.isfinite(places).all(axis=1)]
-    if len(places) > most:
-        places = places[:: -(-len(places) // most)]
+    places = thinned(places, most)
     stamp = header.stamp.sec * NANOSECONDS + header.stamp.nanosec
     return DrawnMessage(stamp, header.frame_id.removeprefix("/"), places)

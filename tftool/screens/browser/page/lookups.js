@@ -45,6 +45,15 @@ export class Link {
     return this.count > 0 && !this.isStatic;
   }
 
+  /**
+   * Hold the frame elsewhere from now on, at all times.
+   * @param {number[]} pose in its parent
+   */
+  hold(pose) {
+    this.poses = pose.map((value) => new Float64Array(this.count).fill(value));
+    this.isRounded = false;
+  }
+
   /** @returns {number[]} */
   sample(index) {
     const pose = this.poses.map((column) => column[index]);

@@ -39,7 +39,7 @@ const SIDES = { fine: 24, plain: 10 }; // of what is round
  * @typedef {{ kind: string, origin: number[], size?: number[], radius?: number, length?: number,
  *   address?: string, scale?: number[], color?: number[], texture?: string }} Shape
  * @typedef {{ frame: string, visuals: Shape[], collisions: Shape[] }} Link
- * @typedef {{ name: string, links: Link[], missing: string[],
+ * @typedef {{ name: string, links: Link[], missing: string[], motion: import("./kinematics.js").Joint[],
  *   joints: { name: string, frame: string, axis: number[], slides: boolean }[],
  *   sliders: { name: string, unit: string, range: number[], position: number }[] }} Description
  * @typedef {{ visuals: boolean, collisions: boolean, jointaxes: boolean, opacity: number, bare: Set<string> }} Look

@@ -1,5 +1,6 @@
 // @ts-check
 // In place of the connection to a server: answers from what is packed into the file.
+import { drive } from "./kinematics.js";
 import { Lookups, nanoseconds } from "./lookups.js";
 import { Packed } from "./packed.js";
 
@@ -75,5 +76,11 @@ export class Standalone {
 
   got() {}
 
-  move() {}
+  /** Put a joint elsewhere, and the links that go along with it. */
+  move(joint, position) {
+    for (const { frame, pose } of drive(this.robot.motion, joint, position)) {
+      this.lookups.links[this.lookups.numbers.get(frame) ?? -1]?.hold(pose);
+    }
+    this.later();
+  }
 }
