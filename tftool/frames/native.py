@@ -5,6 +5,7 @@ Python and means the same; `TFTOOL_PURE=1` has it so even where the kernel is th
 """
 
 import os
+from importlib import import_module
 from typing import TYPE_CHECKING, Final, TypeVar
 
 if TYPE_CHECKING:
@@ -19,23 +20,24 @@ _Class = TypeVar("_Class", bound=type)
 SWITCH = "TFTOOL_PURE"
 """The environment variable that has everything run in plain Python, if it is not empty or 0."""
 
-_INTERFACE = 3
-"""What these modules expect of a kernel; one that was built for others is left alone."""
 
+def built(name: str, interface: int) -> "ModuleType | None":
+    """A native module, where it was built and is wanted.
 
-def _kernel() -> "ModuleType | None":
+    Args:
+        name: Its full name.
+        interface: What is expected of it; one that was built for others is left alone.
+    """
     if os.environ.get(SWITCH, "") not in ("", "0"):
         return None
     try:
-        from tftool.frames import _kernel
+        found = import_module(name)
     except ImportError:
         return None
-    return _kernel if _kernel.INTERFACE == _INTERFACE else None
+    return found if interface == found.INTERFACE else None
 
 
-_found = _kernel()
-
-IS_NATIVE: Final[bool] = _found is not None
+IS_NATIVE: Final[bool] = built("tftool.frames._kernel", 3) is not None
 """Whether the kernel is used."""
 
 BUILD: Final = "native" if IS_NATIVE else "pure Python"

@@ -5,9 +5,7 @@ Source: the MCAP format specification, version 0.
 
 import itertools
 import struct
-from array import array
 from collections.abc import Collection, Iterator
-from dataclasses import dataclass, field
 from functools import partial
 from pathlib import Path
 from typing import Final
@@ -29,13 +27,25 @@ from tftool.sources.container import (
 )
 from tftool.sources.contract import Indexes, Progress, Stamps
 from tftool.sources.find import MCAP_MAGIC
-from tftool.wire.native import SCAN
-from tftool.wire.rows import Bytes, rows_of
+from tftool.sources.mcap_records import (
+    IN_CHUNK,
+    MESSAGE,
+    U32,
+    IndexedChunk,
+    SingleMessages,
+    WalkedMessages,
+    chunk_of_index,
+    entries_at,
+    indexed,
+    reason_of,
+    records_in,
+    strings_at,
+    text_at,
+)
 
 _FOOTER: Final = 0x02
 _SCHEMA: Final = 0x03
 _CHANNEL: Final = 0x04
-_MESSAGE: Final = 0x05
 _CHUNK: Final = 0x06
 _MESSAGE_INDEX: Final = 0x07
 _CHUNK_INDEX: Final = 0x08
@@ -46,63 +56,13 @@ _RECORD = struct.Struct("<BQ")
 _INDEX_HEAD = struct.Struct("<BQHI")
 _CHUNK_HEAD = struct.Struct("<QQQII")
 _MESSAGE_HEAD = struct.Struct("<HIQQ")
-_MESSAGE_RECORD = struct.Struct("<BQHIQ")
-_CHUNK_INDEX_HEAD = struct.Struct("<QQQQI")
-_SIZES = struct.Struct("<QQ")
-_U16, _U32, _U64 = struct.Struct("<H"), struct.Struct("<I"), struct.Struct("<Q")
-_ENTRY = struct.Struct("<HQ")
+_U16, _U64 = struct.Struct("<H"), struct.Struct("<Q")
 
-_IN_CHUNK = 31  # what lies before a message's payload: 9 of the record, 22 of the message
 _FOOTER_SIZE = 37
 _LARGEST_SUMMARY = 1 << 30
 _SPARSE = 4096  # bytes that one message more is worth when reading them singly
 _BLOCK = 1 << 18
 _INDEX_AT_ONCE = 512
-_LARGEST_BATCH = 1 << 22  # bytes of messages that are read singly
-
-
-@dataclass(slots=True, eq=False)
-class _Chunk:
-    """One chunk, and where its messages lie.
-
-    Attributes:
-        place: Where its records begin in the file, packed.
-        packed: Bytes of them there.
-        size: Bytes of them unpacked.
-        method: How they are packed.
-        start: Log time of its first message.
-        end: Of its last.
-        indexes: For each channel where its message index lies in the file.
-        walked: In their place, where there is none: channel, log time and place of each
-            message, found by walking.
-        cut: Whether the file ends within it.
-    """
-
-    place: int
-    packed: int
-    size: int
-    method: str
-    start: int
-    end: int
-    indexes: dict[int, int] = field(default_factory=dict)
-    walked: "_Messages | None" = None
-    cut: bool = False
-
-
-class _Messages:
-    """Messages that were found by walking, as columns."""
-
-    __slots__ = ("channels", "log_times", "places")
-
-    def __init__(self) -> None:
-        self.channels = array("H")
-        self.log_times = array("q")
-        self.places = array("q")
-
-    def append(self, channel: int, log_time: int, place: int) -> None:
-        self.channels.append(channel)
-        self.log_times.append(min(log_time, LATEST_STAMP))
-        self.places.append(place)
 
 
 class Mcap:
@@ -126,8 +86,8 @@ class Mcap:
         self.profile = ""
         self._schemas: dict[int, tuple[str, str, bytes]] = {}
         self._numbers: dict[int, int] = {}  # of a channel: its stream
-        self._chunks: list[_Chunk] = []
-        self._loose = _Messages()
+        self._chunks: list[IndexedChunk] = []
+        self._loose = WalkedMessages()
         try:
             self._open(path)
         except BaseException:
@@ -142,7 +102,7 @@ class Mcap:
             complete = self._read_summary()
         except (InputError, struct.error, UnicodeDecodeError) as error:
             complete = False
-            self.damage.append(f"Its summary cannot be read ({_reason(error)}).")
+            self.damage.append(f"Its summary cannot be read ({reason_of(error)}).")
         if not complete:
             self._scan()
 
@@ -173,22 +133,22 @@ class Mcap:
         if not len(MCAP_MAGIC) <= begin <= end or end - begin > _LARGEST_SUMMARY:
             raise InputError(f"it should begin at byte {begin}")
         summary = self._file.at(begin, end - begin)
-        chunks: list[_Chunk] = []
+        chunks: list[IndexedChunk] = []
         counts: dict[int, int] = {}
         total, span = 0, (0, 0)
         has_statistics = False
-        for code, first, last in _records(summary):
+        for code, first, last in records_in(summary):
             if code == _SCHEMA:
                 self._take_schema(summary[first:last])
             elif code == _CHANNEL:
                 self._take_channel(summary[first:last])
             elif code == _CHUNK_INDEX:
-                chunks.append(_chunk_of_index(summary, first, last, size))
+                chunks.append(chunk_of_index(summary, first, last, size))
             elif code == _STATISTICS:
                 has_statistics = True
                 (total,) = _U64.unpack_from(summary, first)
                 span = struct.unpack_from("<QQ", summary, first + 26)
-                counts = _entries(summary, first + 42, last)
+                counts = entries_at(summary, first + 42, last)
         if not chunks and (total or not has_statistics):
             # Messages outside chunks stand in no index.
             self._forget()
@@ -212,9 +172,9 @@ class Mcap:
 
     def _take_schema(self, body: bytes) -> None:
         (number,) = _U16.unpack_from(body)
-        name, place = _text(body, 2)
-        encoding, place = _text(body, place)
-        (length,) = _U32.unpack_from(body, place)
+        name, place = text_at(body, 2)
+        encoding, place = text_at(body, place)
+        (length,) = U32.unpack_from(body, place)
         if len(self._schemas) < MOST_STREAMS:
             self._schemas[number] = (name, encoding, body[place + 4 : place + 4 + length])
 
@@ -222,9 +182,9 @@ class Mcap:
         channel, schema = struct.unpack_from("<HH", body)
         if channel in self._numbers:
             return
-        topic, place = _text(body, 4)
-        encoding, place = _text(body, place)
-        metadata = _strings(body, place)
+        topic, place = text_at(body, 4)
+        encoding, place = text_at(body, place)
+        metadata = strings_at(body, place)
         name, kind, data = self._schemas.get(schema, ("", "", b""))
         definition = ""
         if kind in ("ros2msg", "ros2idl", "ros1msg", "jsonschema"):
@@ -237,7 +197,7 @@ class Mcap:
         self.streams.append(MessageStream(topic, name, encoding, definition, node, offers))
         self.counts.append(0)
 
-    def _count(self, chunk: _Chunk) -> None:
+    def _count(self, chunk: IndexedChunk) -> None:
         """Count a chunk's messages by its message indexes' lengths."""
         for channel, place in chunk.indexes.items():
             number = self._numbers.get(channel)
@@ -263,7 +223,7 @@ class Mcap:
             code, length = _RECORD.unpack_from(block, position - base)
             body = position + 9
             whole = body + length <= size
-            if code == 0 or (not whole and code not in (_CHUNK, _MESSAGE)):
+            if code == 0 or (not whole and code not in (_CHUNK, MESSAGE)):
                 break
             if code in (_FOOTER, _DATA_END):
                 ended = True
@@ -271,7 +231,7 @@ class Mcap:
             try:
                 if code == _CHUNK:
                     self._take_chunk(body, min(length, size - body), not whole)
-                elif code == _MESSAGE and whole:
+                elif code == MESSAGE and whole:
                     if body - base + 22 > len(block):
                         base, block = position, file.up_to(position, _BLOCK)
                     channel, _, log_time, _ = _MESSAGE_HEAD.unpack_from(block, body - base)
@@ -284,7 +244,7 @@ class Mcap:
                 elif code == _CHANNEL:
                     self._take_channel(file.at(body, length))
             except (InputError, struct.error) as error:
-                self._note(f"A record at byte {position} cannot be read ({_reason(error)}).")
+                self._note(f"A record at byte {position} cannot be read ({reason_of(error)}).")
             if not whole:
                 break
             position = body + length
@@ -323,18 +283,18 @@ class Mcap:
         place = body + 40 + name
         there = min(packed, body + length - place)
         self._chunks.append(
-            _Chunk(place, there, size, method, start, end, cut=cut or there < packed)
+            IndexedChunk(place, there, size, method, start, end, cut=cut or there < packed)
         )
 
-    def _walk(self, chunk: _Chunk) -> None:
+    def _walk(self, chunk: IndexedChunk) -> None:
         """Walk through a chunk's records; learn its channels, and where its messages are."""
-        found = chunk.walked = _Messages()
+        found = chunk.walked = WalkedMessages()
         data = bytes(unpacked_piece(self._file, chunk, self._note))
         numbers, counts = self._numbers, self.counts
         low, high = LATEST_STAMP, 0
         try:
-            for code, first, last in _records(data):
-                if code == _MESSAGE:
+            for code, first, last in records_in(data):
+                if code == MESSAGE:
                     channel, _, log_time, _ = _MESSAGE_HEAD.unpack_from(data, first)
                     found.append(channel, log_time, first - 9)
                     low, high = min(low, log_time), max(high, log_time)
@@ -347,7 +307,7 @@ class Mcap:
                     self._take_channel(data[first:last])
         except (InputError, struct.error) as error:
             if not chunk.cut:
-                self._note(f"A chunk at byte {chunk.place} is damaged ({_reason(error)}).")
+                self._note(f"A chunk at byte {chunk.place} is damaged ({reason_of(error)}).")
         if chunk.cut or len(found.places):
             # What is announced may not have been reached.
             chunk.start, chunk.end = (low, high) if len(found.places) else (0, 0)
@@ -386,18 +346,18 @@ class Mcap:
         progress: Progress | None,
         head: int | None,
     ) -> Iterator[Batch]:
-        singly = _Singly(self._file, channels, head)
+        singly = SingleMessages(self._file, channels, head)
         for chunk, is_read in zip(self._chunks, read, strict=True):
             batch = None
             if is_read:
                 try:
                     batch = self._batch(chunk, chosen, channels, singly, ahead)
                 except (InputError, struct.error) as error:
-                    self._note(f"A chunk at byte {chunk.place} is damaged ({_reason(error)}).")
+                    self._note(f"A chunk at byte {chunk.place} is damaged ({reason_of(error)}).")
                     try:
                         batch = self._rest_of(chunk, channels)
                     except (InputError, struct.error) as worse:
-                        self._note(f"A chunk at byte {chunk.place} is lost ({_reason(worse)}).")
+                        self._note(f"A chunk at byte {chunk.place} is lost ({reason_of(worse)}).")
             # What was read singly before it comes before it.
             if singly.is_full or (batch is not None and len(singly)):
                 yield singly.taken()
@@ -410,10 +370,10 @@ class Mcap:
 
     def _batch(
         self,
-        chunk: _Chunk,
+        chunk: IndexedChunk,
         chosen: set[int],
         channels: Indexes,
-        singly: "_Singly",
+        singly: SingleMessages,
         ahead: Ahead,
     ) -> Batch | None:
         """A chunk's messages; None where there are none, or they were read singly."""
@@ -435,13 +395,13 @@ class Mcap:
         data = np.frombuffer(unpacked_piece(self._file, chunk, self._note, ahead), dtype=np.uint8)
         return in_order(
             [
-                Batch(data, *_indexed(data, pairs, channel), np.full(len(pairs), channels[channel]))
+                Batch(data, *indexed(data, pairs, channel), np.full(len(pairs), channels[channel]))
                 for pairs, channel in parts
             ]
         )
 
     def _rest_of(
-        self, chunk: _Chunk, channels: Indexes, ahead: Ahead | None = None
+        self, chunk: IndexedChunk, channels: Indexes, ahead: Ahead | None = None
     ) -> Batch | None:
         """What walking finds in a chunk, whatever its index says."""
         if chunk.walked is None:
@@ -460,7 +420,7 @@ class Mcap:
         places = np.frombuffer(walked.places, dtype=np.int64)[which]
         return Batch(
             data,
-            places + _IN_CHUNK,
+            places + IN_CHUNK,
             words_at(data, places + 1, "<i8") - 22,
             np.frombuffer(walked.log_times, dtype=np.int64)[which],
             channels[owners[which]],
@@ -474,7 +434,7 @@ class Mcap:
             return
         owners = np.frombuffer(self._loose.channels, dtype=np.uint16)
         places = np.frombuffer(self._loose.places, dtype=np.int64)[channels[owners] >= 0]
-        singly = _Singly(self._file, channels, head)
+        singly = SingleMessages(self._file, channels, head)
         for place in places.tolist():
             singly.read([place], 0, self.size)
             if singly.is_full:
@@ -499,186 +459,3 @@ class Mcap:
     def _note(self, damage: str) -> None:
         if damage not in self.damage and len(self.damage) < 20:
             self.damage.append(damage)
-
-
-class _Singly:
-    """Messages read one by one from where they lie in the file, until there are some."""
-
-    def __init__(self, file: File, channels: Indexes, head: int | None) -> None:
-        """Begin with none.
-
-        Args:
-            file: Where they lie.
-            channels: Of a channel the number of its stream.
-            head: If only so many bytes of each matter.
-        """
-        self._file = file
-        self._channels = channels
-        self._most = 1 << 62 if head is None else head + _IN_CHUNK
-        self._guess = 512
-        self._begin()
-
-    def _begin(self) -> None:
-        self._pieces: list[bytes] = []
-        self._bytes = 0
-        self._log_times = array("q")
-        self._owners = array("H")
-
-    def __len__(self) -> int:
-        return len(self._pieces)
-
-    @property
-    def is_full(self) -> bool:
-        """Whether they are to be taken before more are read."""
-        return len(self) >= _SPARSE or self._bytes >= _LARGEST_BATCH
-
-    def read(self, places: list[int], offset: int, end: int) -> None:
-        """Read messages.
-
-        Args:
-            places: Where they begin, counted from `offset`.
-            offset: A place in the file.
-            end: Another one, which none of them goes beyond.
-
-        Raises:
-            InputError: If something else is there; none of these is taken then.
-        """
-        before = len(self)
-        try:
-            for place in places:
-                self._read(offset + place, end)
-        except (InputError, struct.error):
-            for column in (self._pieces, self._log_times, self._owners):
-                del column[before:]
-            self._bytes = sum(map(len, self._pieces))
-            raise
-
-    def _read(self, place: int, end: int) -> None:
-        piece = self._file.at(place, min(self._guess, end - place))
-        code, length, channel, _, log_time = _MESSAGE_RECORD.unpack_from(piece)
-        whole = length + 9
-        if code != _MESSAGE or length < 22 or place + whole > end:
-            raise InputError("its message index points at something else")
-        whole = min(whole, self._most)
-        if whole > len(piece):
-            piece += self._file.at(place + len(piece), whole - len(piece))
-            self._guess = min(max(self._guess, whole + 64), 65_536)
-        self._log_times.append(min(log_time, LATEST_STAMP))
-        self._owners.append(channel)
-        self._pieces.append(piece[:whole])
-        self._bytes += whole
-
-    def taken(self) -> Batch:
-        """Those that were read since the last time."""
-        sizes = np.fromiter(map(len, self._pieces), dtype=np.int64, count=len(self))
-        ends = np.cumsum(sizes)
-        batch = Batch(
-            np.frombuffer(b"".join(self._pieces), dtype=np.uint8),
-            ends - sizes + _IN_CHUNK,
-            sizes - _IN_CHUNK,
-            np.frombuffer(self._log_times, dtype=np.int64),
-            self._channels[np.frombuffer(self._owners, dtype=np.uint16)],
-        )
-        self._begin()
-        return batch
-
-
-def _indexed(data: Bytes, pairs: Stamps, channel: int) -> tuple[Stamps, Stamps, Stamps]:
-    """Where the payloads of a channel's messages begin, their lengths, and their log times.
-
-    Args:
-        data: A chunk's records.
-        pairs: Log time and place of each message, as its message index tells them.
-        channel: The channel.
-
-    Raises:
-        InputError: If the index points at something else.
-    """
-    if SCAN is not None:
-        found = tuple(np.empty(len(pairs), dtype=np.int64) for _ in range(3))
-        if SCAN.indexed(data, np.ascontiguousarray(pairs), *found, channel):
-            starts, lengths, log_times = found
-            return starts, lengths, log_times
-    places = pairs[:, 1]
-    if len(data) < _IN_CHUNK or places.min() < 0 or places.max() > len(data) - _IN_CHUNK:
-        raise InputError("its message index points outside of it")
-    # Of every record the code, the length in 8 bytes and the channel in 2, all at once.
-    heads = rows_of(data, places, 16)
-    lengths = (heads[:, 0] >> np.uint64(8)).view(np.int64)
-    lengths -= 22
-    starts = places + _IN_CHUNK
-    if (
-        ((heads[:, 0] & np.uint64(0xFF)) != _MESSAGE).any()
-        or ((heads[:, 1] & np.uint64(0xFFFFFF)) != np.uint64(channel << 8)).any()
-        or int(lengths.min()) < 0
-        or int((starts + lengths).max()) > len(data)
-    ):
-        raise InputError("its message index points at something else")
-    return starts, lengths, pairs[:, 0]
-
-
-def _records(data: bytes) -> Iterator[tuple[int, int, int]]:
-    """Every record's code, and where its body begins and ends.
-
-    Raises:
-        InputError: At one that goes on behind the end.
-    """
-    position, size = 0, len(data)
-    unpack_from = _RECORD.unpack_from
-    while position + 9 <= size:
-        code, length = unpack_from(data, position)
-        first = position + 9
-        position = first + length
-        if position > size:
-            raise InputError(f"a record announces {length} bytes and {size - first} are there")
-        yield code, first, position
-
-
-def _chunk_of_index(summary: bytes, first: int, last: int, size: int) -> _Chunk:
-    """The chunk of which a chunk index tells, which lies there in the summary."""
-    start, end, place, length, entries = _CHUNK_INDEX_HEAD.unpack_from(summary, first)
-    indexes = _entries(summary, first + 32, last)
-    text = first + 44 + entries
-    method, position = _text(summary, text, last)
-    if position + 16 > last:
-        raise InputError("a chunk's index is cut")
-    packed, unpacked = _SIZES.unpack_from(summary, position)
-    # Before them lie 45 bytes, and the name of the compression as it stands here.
-    records = place + 45 + position - text
-    if records + packed > size or place + length > size:
-        raise InputError(f"a chunk at byte {place} lies beyond the file's end")
-    return _Chunk(records, packed, unpacked, method, start, end, indexes)
-
-
-def _entries(body: bytes, place: int, end: int) -> dict[int, int]:
-    """A map of channels to numbers."""
-    (length,) = _U32.unpack_from(body, place)
-    place += 4
-    if place + length > end:
-        raise InputError("a map goes on behind its record")
-    return dict(_ENTRY.iter_unpack(body[place : place + length // 10 * 10]))
-
-
-def _strings(body: bytes, place: int) -> dict[str, str]:
-    """A map of texts."""
-    (length,) = _U32.unpack_from(body, place)
-    place += 4
-    end = place + length
-    found: dict[str, str] = {}
-    while place < end and len(found) < 1000:
-        key, place = _text(body, place)
-        found[key], place = _text(body, place)
-    return found
-
-
-def _text(body: bytes, place: int, last: int | None = None) -> tuple[str, int]:
-    """A text, and where it ends; not behind `last`, if that is said."""
-    (length,) = _U32.unpack_from(body, place)
-    end = place + 4 + length
-    if end > (len(body) if last is None else last):
-        raise InputError(f"a text announces {length} bytes")
-    return body[place + 4 : end].decode("utf-8", "backslashreplace"), end
-
-
-def _reason(error: Exception) -> str:
-    return "a record is cut" if isinstance(error, struct.error) else str(error)
