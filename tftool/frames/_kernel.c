@@ -107,6 +107,12 @@ static inline Py_ssize_t find(const char *records, Py_ssize_t last, int64_t time
     return low < last ? low : last - 1;
 }
 
+/* Arcs up to these values of 1 - cos are turned by so many terms, the error below 1e-17. */
+#define SHORT_ARC 1e-3
+#define SHORT_TERMS 4
+#define LONG_ARC 0.1
+#define LONG_TERMS 13
+
 /* sin(f θ) / sin θ for u = 1 - cos θ, as a product of terms that are all positive:
    f (1 + b1 (1 + b2 (1 + …))) with b_i = u (i² - f²) / (i (2 i + 1)).
    Eberly, "A Fast and Accurate Algorithm for Computing SLERP", JGT 2011. */
@@ -137,13 +143,15 @@ static inline void interpolate(const Pose *first, const Pose *second, double sha
         out->n[i] = a[i] + share * (b[i] - a[i]);
     if (cosine < 1.0) {
         double keep;
-        const double u = 1.0 - cosine;
-        if (u < 1e-3) { keep = weight(1.0 - share, u, 4); take *= weight(share, u, 4); }
+        if (1.0 - cosine < SHORT_ARC) {
+            keep = weight(1.0 - share, 1.0 - cosine, SHORT_TERMS);
+            take *= weight(share, 1.0 - cosine, SHORT_TERMS);
+        }
         else {
-        const double angle = acos(cosine);
-        const double sine = sin(angle);
-        keep = sin((1.0 - share) * angle) / sine;
-        take *= sin(share * angle) / sine; }
+            const double angle = acos(cosine), sine = sin(angle);
+            keep = sin((1.0 - share) * angle) / sine;
+            take *= sin(share * angle) / sine;
+        }
         for (int i = 3; i < 7; i++)
             out->n[i] = keep * a[i] + take * b[i];
     }
@@ -200,9 +208,14 @@ static inline void canonical(double *turn) {
             turn[i] = -turn[i];
 }
 
+/* The square of a quaternion's length. */
+static inline double square_of(const double *turn) {
+    return turn[0] * turn[0] + turn[1] * turn[1] + turn[2] * turn[2] + turn[3] * turn[3];
+}
+
 /* `quaternions.unit`; returns 0 where there is no direction, or none that is plain to see. */
 static inline int unit(double *turn) {
-    const double square = turn[0] * turn[0] + turn[1] * turn[1] + turn[2] * turn[2] + turn[3] * turn[3];
+    const double square = square_of(turn);
     if (-ROUNDING < square - 1.0 && square - 1.0 < ROUNDING)
         return 1;
     const double scale = 1.0 / sqrt(square);
@@ -665,7 +678,7 @@ static inline int64_t later(int64_t stamp, int64_t span) {
 static int put(Link *link, int64_t stamp, int64_t origin, Pose *pose) {
     Py_buffer view;
     double *n = pose->n;
-    const double square = n[3] * n[3] + n[4] * n[4] + n[5] * n[5] + n[6] * n[6];
+    const double square = square_of(n + 3);
     if (!(1.0 - ROUNDING < square && square < 1.0 + ROUNDING && n[0] + n[1] + n[2] < HUGE_VAL))
         return 0;
     if (link->is_static || link->mixed || link->borrowed || link->origins != Py_None
@@ -814,12 +827,6 @@ static PyType_Spec door_spec = {"tftool.frames._kernel.Door", sizeof(Door), 0, F
    processor's nearest cache, and the compiler turns each loop into vector operations. */
 #define BLOCK 128
 
-/* Arcs up to these values of 1 - cos are turned by so many terms, the error below 1e-17. */
-#define SHORT_ARC 1e-3
-#define SHORT_TERMS 4
-#define LONG_ARC 0.1
-#define LONG_TERMS 13
-
 /* One link of a batch: records in order, or a pose that never changes. */
 typedef struct {
     Py_buffer view, origins_view;
@@ -927,6 +934,20 @@ INLINE void blend(Room *room, int n, Rows out) {
         }
 }
 
+/* Put two poses of each moment together, in the second. */
+INLINE void join(void (*how)(const Pose *, Pose *), Rows first, Rows second, int n) {
+    for (int i = 0; i < n; i++) {
+        Pose one, other;
+        for (int k = 0; k < 7; k++) {
+            one.n[k] = first[k][i];
+            other.n[k] = second[k][i];
+        }
+        how(&one, &other);
+        for (int k = 0; k < 7; k++)
+            second[k][i] = other.n[k];
+    }
+}
+
 /* The poses of several links one after the other, for each moment, in `pose`. */
 INLINE void climb(Edge *edges, Py_ssize_t count, const int64_t *times, int n, Room *room, Rows pose,
       unsigned char *valid) {
@@ -940,16 +961,8 @@ INLINE void climb(Edge *edges, Py_ssize_t count, const int64_t *times, int n, Ro
             for (int k = 0; k < 7; k++)
                 for (int i = 0; i < n; i++)
                     step[k][i] = edges[e].fixed.n[k];
-        for (int i = 0; e && i < n; i++) {
-            Pose outer, inner;
-            for (int k = 0; k < 7; k++) {
-                outer.n[k] = step[k][i];
-                inner.n[k] = pose[k][i];
-            }
-            compose(&outer, &inner);
-            for (int k = 0; k < 7; k++)
-                pose[k][i] = inner.n[k];
-        }
+        if (e)
+            join(compose, step, pose, n);
     }
 }
 
@@ -966,16 +979,8 @@ solve_block(Edge *up, Py_ssize_t ups, Edge *down, Py_ssize_t downs, const int64_
             for (int i = 0; i < n; i++)
                 room->up[k][i] = k == 6;
     climb(down, downs, times, n, room, room->down, valid);
-    for (int i = 0; downs && i < n; i++) {
-        Pose first, second;
-        for (int k = 0; k < 7; k++) {
-            first.n[k] = room->down[k][i];
-            second.n[k] = room->up[k][i];
-        }
-        between(&first, &second);
-        for (int k = 0; k < 7; k++)
-            room->up[k][i] = second.n[k];
-    }
+    if (downs)
+        join(between, room->down, room->up, n);
     double(*pose)[BLOCK] = room->up, *place = room->keep, *turn = room->take;
     for (int i = 0; i < n; i++) {
         place[i] = valid[i] ? 1.0 : NAN;
@@ -1048,19 +1053,16 @@ PyDoc_STRVAR(solve_doc, "solve(up, down, times, translations, rotations, valid)\
 "Write the poses of a path at many moments, NaN where a link has no data. Returns how many rows\n"
 "have none. Other threads of Python run meanwhile; the records must not change.");
 
-static PyObject *solve(PyObject *Py_UNUSED(module), PyObject *const *args, Py_ssize_t count) {
+static PyObject *solve(PyObject *Py_UNUSED(module), PyObject *args) {
     static const Py_ssize_t sizes[4] = {8, 24, 32, 1};
     Py_buffer views[4];
-    int held = 0;
+    PyObject *links[2], *result = NULL;
     Edge *up = NULL, *down = NULL;
     Room *room = NULL;
-    PyObject *result = NULL;
-    if (count != 6 || !PyTuple_Check(args[0]) || !PyTuple_Check(args[1]))
-        return PyErr_Format(PyExc_TypeError, "solve takes two tuples of links and four arrays");
-    const Py_ssize_t ups = PyTuple_Size(args[0]), downs = PyTuple_Size(args[1]);
-    for (; held < 4; held++)
-        if (PyObject_GetBuffer(args[2 + held], &views[held], held ? PyBUF_WRITABLE : PyBUF_SIMPLE) < 0)
-            goto done;
+    if (!PyArg_ParseTuple(args, "O!O!y*w*w*w*:solve", &PyTuple_Type, &links[0], &PyTuple_Type, &links[1],
+                          &views[0], &views[1], &views[2], &views[3]))
+        return NULL;
+    const Py_ssize_t ups = PyTuple_Size(links[0]), downs = PyTuple_Size(links[1]);
     const Py_ssize_t rows = views[0].len / WORD;
     for (int i = 0; i < 4; i++)
         if (views[i].len != rows * sizes[i] || (sizes[i] > 1 && (uintptr_t)views[i].buf % WORD)) {
@@ -1068,7 +1070,7 @@ static PyObject *solve(PyObject *Py_UNUSED(module), PyObject *const *args, Py_ss
                 "aligned rows of 8, 24, 32 and 1 bytes, of each equally many");
             goto done;
         }
-    if ((up = read_edges(args[0])) == NULL || (down = read_edges(args[1])) == NULL)
+    if ((up = read_edges(links[0])) == NULL || (down = read_edges(links[1])) == NULL)
         goto done;
     if ((room = PyMem_Malloc(sizeof(Room))) == NULL) {
         PyErr_NoMemory();
@@ -1094,10 +1096,10 @@ static PyObject *solve(PyObject *Py_UNUSED(module), PyObject *const *args, Py_ss
     result = PyLong_FromSsize_t(missing);
 done:
     PyMem_Free(room);
-    release_edges(up, up == NULL ? 0 : ups);
-    release_edges(down, down == NULL ? 0 : downs);
-    while (held > 0)
-        PyBuffer_Release(&views[--held]);
+    release_edges(up, ups);
+    release_edges(down, downs);
+    for (int i = 0; i < 4; i++)
+        PyBuffer_Release(&views[i]);
     return result;
 }
 
@@ -1106,12 +1108,10 @@ done:
 PyDoc_STRVAR(are_kept_doc, "are_kept(records, begin, end)\n--\n\n"
 "Whether these records can be a history's as they are; see `_kernel.pyi`.");
 
-static PyObject *are_kept(PyObject *Py_UNUSED(module), PyObject *const *args, Py_ssize_t count) {
+static PyObject *are_kept(PyObject *Py_UNUSED(module), PyObject *args) {
     Py_buffer view;
-    if (count != 3)
-        return PyErr_Format(PyExc_TypeError, "are_kept takes records and two numbers");
-    const Py_ssize_t begin = PyLong_AsSsize_t(args[1]), end = PyLong_AsSsize_t(args[2]);
-    if (PyErr_Occurred() || PyObject_GetBuffer(args[0], &view, PyBUF_SIMPLE) < 0)
+    Py_ssize_t begin, end;
+    if (!PyArg_ParseTuple(args, "y*nn:are_kept", &view, &begin, &end))
         return NULL;
     if (begin < 0 || begin > end || end > view.len / RECORD) {
         PyBuffer_Release(&view);
@@ -1122,8 +1122,7 @@ static PyObject *are_kept(PyObject *Py_UNUSED(module), PyObject *const *args, Py
     for (Py_ssize_t row = begin; row < end && kept; row++) {
         Pose pose;
         pose_of(records, row, &pose);
-        const double *n = pose.n, *turn = n + 3;
-        const double square = turn[0] * turn[0] + turn[1] * turn[1] + turn[2] * turn[2] + turn[3] * turn[3];
+        const double *n = pose.n, *turn = n + 3, square = square_of(turn);
         /* Where one of the four is no number, or infinite, neither is their square's sum near 1. */
         kept = fabs(n[0]) <= DBL_MAX && fabs(n[1]) <= DBL_MAX && fabs(n[2]) <= DBL_MAX
             && 1.0 - ROUNDING < square && square < 1.0 + ROUNDING
@@ -1137,29 +1136,21 @@ static PyObject *are_kept(PyObject *Py_UNUSED(module), PyObject *const *args, Py
 /* The module ------------------------------------------------------------- */
 
 static PyMethodDef methods[] = {
-    {"are_kept", (PyCFunction)(void (*)(void))are_kept, METH_FASTCALL, are_kept_doc},
-    {"solve", (PyCFunction)(void (*)(void))solve, METH_FASTCALL, solve_doc},
+    {"are_kept", are_kept, METH_VARARGS, are_kept_doc}, {"solve", solve, METH_VARARGS, solve_doc},
     {NULL, NULL, 0, NULL},
 };
 
-/* A class of a module of ours that is a tuple and nothing more; NULL with an error set if not. */
-static PyTypeObject * tuple_type(const char *module, const char *name) {
+/* A class of a module of ours that is a kind of tuple; NULL with an error set if not. */
+static PyTypeObject *tuple_type(const char *module, const char *name) {
     PyObject *home = PyImport_ImportModule(module);
     PyObject *type = home == NULL ? NULL : PyObject_GetAttrString(home, name);
     Py_XDECREF(home);
-    if (type == NULL)
-        return NULL;
-    PyObject *plain = PyObject_GetAttrString((PyObject *)&PyTuple_Type, "__basicsize__");
-    PyObject *size = PyObject_GetAttrString(type, "__basicsize__");
-    const int same = plain && size && PyObject_RichCompareBool(plain, size, Py_EQ) == 1;
-    Py_XDECREF(plain);
-    Py_XDECREF(size);
-    if (same && PyType_Check(type) && PyType_IsSubtype((PyTypeObject *)type, &PyTuple_Type))
-        return (PyTypeObject *)type;
-    Py_DECREF(type);
-    if (!PyErr_Occurred())
-        PyErr_Format(PyExc_TypeError, "%s.%s is no plain tuple", module, name);
-    return NULL;
+    if (type != NULL
+        && !(PyType_Check(type) && PyType_IsSubtype((PyTypeObject *)type, &PyTuple_Type))) {
+        PyErr_Format(PyExc_TypeError, "%s.%s is no tuple", module, name);
+        Py_CLEAR(type);
+    }
+    return (PyTypeObject *)type;
 }
 
 static int module_exec(PyObject *module) {
