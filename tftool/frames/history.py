@@ -676,7 +676,7 @@ class History(Fields):
         if self.mixed and start >= self._newest_parent_start:
             self.mixed = False
         if start >= self._compact_at:
-            self.records, self._borrowed = _copied(self.records, start, self.count), False
+            self._splice(0, start, array("q"))
             self.count -= start
             if self.origins is not None:
                 del self.origins[:start]
