@@ -21,6 +21,9 @@ NANOSECONDS = 1_000_000_000
 CACHE_TIME: Duration = 10 * NANOSECONDS
 """How far back a buffer remembers unless it is told otherwise; tf2's own figure."""
 
+FRAME_TIMEOUT = 15.0
+"""Seconds without news after which a frame counts as dead (rviz's default)."""
+
 
 def seconds(value: float) -> int:
     """Turn seconds into nanoseconds, rounding half away from zero as tf2 does.

@@ -13,7 +13,7 @@ from tftool.geometry.rigid import Transform
 from tftool.messages import Twist2D
 from tftool.motion import pid, pursuit
 from tftool.motion.unicycle import float32
-from tftool.stamps import seconds
+from tftool.stamps import FRAME_TIMEOUT, seconds
 from tftool.views import theme
 
 STAMP = seconds(1000)
@@ -184,7 +184,7 @@ def test_stale_frames_fade_as_in_the_reference():
         "arrow_shaft_rgba": theme.ARROW_SHAFT,
         "name_rgba": theme.NAME,
     }
-    assert case["frame_timeout"] == theme.FRAME_TIMEOUT
+    assert case["frame_timeout"] == FRAME_TIMEOUT
     for row in rows(case):
         for column, color in colors.items():
             found = theme.stale_fade(color, row["age"], case["frame_timeout"])

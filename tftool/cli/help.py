@@ -8,8 +8,6 @@ from typing import Any
 import typer
 from typer.core import TyperCommand, TyperGroup
 
-from tftool.cli.connection import SESSION_OPTIONS
-
 GROUPS = {
     "Learn": ("demo", "teleop", "follow", "static"),
     "Ask": ("echo", "tree", "monitor", "explain", "doctor", "convert", "ros2"),
@@ -47,7 +45,7 @@ class Command(TyperCommand):
 
     def __init__(self, name: str | None, **words: Any) -> None:
         super().__init__(name, **words)
-        if any(param.name in SESSION_OPTIONS for param in self.params):
+        if any(_is_of_session(param) for param in self.params):
             self.params.append(_help_session())
 
     def parse_args(self, ctx: Any, args: list[str]) -> Any:
@@ -89,11 +87,20 @@ def _title(param: Any) -> str:
     """Under which heading a parameter is listed."""
     if param.param_type_name == "argument":
         return "Arguments"
-    if param.name in SESSION_OPTIONS:
+    if _is_of_session(param):
         return SESSION
     if param.name in ("help", _SESSION):
         return "Help"
     return getattr(param, "rich_help_panel", None) or "Options"
+
+
+def _is_of_session(param: Any) -> bool:
+    if param.name in ("help", _SESSION):
+        return False
+    # The list of commands, none of which is described there, does without it.
+    from tftool.cli.connection import SESSION_OPTIONS
+
+    return param.name in SESSION_OPTIONS
 
 
 def _help_session() -> Any:

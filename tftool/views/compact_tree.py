@@ -12,14 +12,13 @@ from rich.cells import cell_len
 from rich.text import Text
 
 from tftool.frames.sample import FrameInfo, Snapshot
-from tftool.stamps import Stamp, as_seconds, display
+from tftool.stamps import FRAME_TIMEOUT, Stamp, as_seconds, display
 from tftool.views.branches import ASCII, UNICODE, Branch, Guides, branches
 from tftool.views.columns import Cell, TableColumn, fit
 from tftool.views.escaping import distinct, visible
 from tftool.views.fixed_width import middle_cut
 from tftool.views.forest import Forest, grow
 from tftool.views.short_numbers import short_duration, short_rate
-from tftool.views.theme import FRAME_TIMEOUT
 
 LEAST_NAME = 16
 """Cells that names get, and what is before them, before a column is given up for them."""

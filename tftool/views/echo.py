@@ -8,10 +8,9 @@ from tftool.errors import TransformException
 from tftool.frames.sample import TransformStamped
 from tftool.geometry.conversions import rpy_from_quaternion
 from tftool.geometry.rigid import distance
-from tftool.stamps import NANOSECONDS, Duration, Stamp, as_seconds
+from tftool.stamps import FRAME_TIMEOUT, NANOSECONDS, Duration, Stamp, as_seconds
 from tftool.views.escaping import visible, visible_lines
 from tftool.views.short_numbers import short_duration
-from tftool.views.theme import FRAME_TIMEOUT
 
 if TYPE_CHECKING:
     from rich.text import Text

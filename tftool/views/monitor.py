@@ -9,13 +9,12 @@ from rich.text import Text
 
 from tftool.diagnostics.catalogue import CHECKS
 from tftool.frames.traffic import FrameTraffic, NetDelay, Series, Traffic
-from tftool.stamps import Duration, Stamp, as_seconds
+from tftool.stamps import FRAME_TIMEOUT, Duration, Stamp, as_seconds
 from tftool.views.columns import Cell, TableColumn, fit
 from tftool.views.echo import in_words
 from tftool.views.escaping import visible
 from tftool.views.fixed_width import middle_cut, wrap_words
 from tftool.views.short_numbers import short_duration
-from tftool.views.theme import FRAME_TIMEOUT
 
 NONE = "-"
 

@@ -10,15 +10,13 @@ from types import MappingProxyType
 from typing import NamedTuple
 
 from tftool.messages import Color
+from tftool.stamps import FRAME_TIMEOUT
 
 BACKGROUND = Color(69, 86, 255)
 PEN = Color(179, 184, 255)
 WALL = Color(255, 92, 87)
 INK = Color(16, 20, 48)
 WHITE = Color(255, 255, 255)
-
-FRAME_TIMEOUT = 15.0
-"""Seconds without news after which a frame counts as dead (rviz's default)."""
 
 _GREY = 0.7
 
