@@ -1,6 +1,9 @@
 """Why a lookup refuses: the link, the amount, and what would let it through."""
 
+import io
+
 import pytest
+from rich.console import Console
 
 from tests.diagnostics.robots import LASTS, NO_TURN, START, Robot, robot, stands
 from tftool import Buffer, Transform, TransformStamped, diagnose, explain
@@ -10,6 +13,7 @@ from tftool.diagnostics.reasons import Cause
 from tftool.diagnostics.tracing import LinkVerdict, Question, message_of
 from tftool.errors import InputError
 from tftool.stamps import seconds
+from tftool.views.explanation import render
 
 T = seconds(START)
 
@@ -268,3 +272,30 @@ def test_a_link_that_only_the_description_has_is_told_with_its_joint(joint, join
 
     assert found.cause is Cause.UNKNOWN_FRAME
     assert any("in base_link by joint 'lift'" in why and told in why for why in found.why)
+
+
+@pytest.mark.parametrize("width", [50, 60, 70])
+def test_on_a_narrow_terminal_what_a_link_says_stands_below_it_in_whole_words(width):
+    made = robot(odometry=False, scans=False)
+    made.moving("odom", "base_link", hz=5, latency=0.25)
+    made.hears("/scan", "laser", hz=20)
+    console = Console(width=width, file=io.StringIO(), color_system=None)
+
+    console.print(render(asked(made, "odom", "laser", 4.25)))
+
+    lines = [line.rstrip() for line in console.file.getvalue().splitlines()]
+    assert max(map(len, lines)) <= width
+    link = next(at for at, line in enumerate(lines) if line.startswith("  base_link in odom  5 Hz"))
+    assert lines[link + 1] == "    REFUSES: newest is 250 ms too old"
+
+
+def test_where_there_is_room_a_link_is_one_row():
+    made = robot(odometry=False, scans=False)
+    made.moving("odom", "base_link", hz=5, latency=0.25)
+    made.hears("/scan", "laser", hz=20)
+    console = Console(width=120, file=io.StringIO(), color_system=None)
+
+    console.print(render(asked(made, "odom", "laser", 4.25)))
+
+    (row,) = [line for line in console.file.getvalue().splitlines() if "5 Hz" in line]
+    assert row.rstrip().endswith("REFUSES: newest is 250 ms too old")

@@ -10,7 +10,9 @@ from tftool.stamps import NANOSECONDS, Stamp
 from tftool.views.escaping import visible
 
 if TYPE_CHECKING:
-    from rich.console import RenderableType
+    from collections.abc import Iterator
+
+    from rich.console import Console, ConsoleOptions, RenderableType
     from rich.text import Text
 
 SCHEMA = "tftool.explain/1"
@@ -44,7 +46,7 @@ def render(found: Explanation) -> "RenderableType":
     )
     parts: list[RenderableType] = [_headline(found), Text(""), Padding(facts, (0, 0, 0, 2))]
     if found.links:
-        parts += [Text(""), Padding(_links(found), (0, 0, 0, 2))]
+        parts += [Text(""), Padding(_Links(found), (0, 0, 0, 2))]
     told = Table.grid(padding=(0, 2), pad_edge=False)
     told.add_column(no_wrap=True, min_width=5)
     told.add_column(overflow="fold")
@@ -78,30 +80,48 @@ def _headline(found: Explanation) -> "Text":
     return line
 
 
-def _links(found: Explanation) -> "RenderableType":
-    from rich.table import Table
-    from rich.text import Text
+class _Links:
+    """A row for each link; where rows would be too wide, what a link says stands below it."""
 
-    base = _base(found)
-    table = Table.grid(padding=(0, 2), pad_edge=False)
-    for _ in range(3):
-        table.add_column(no_wrap=True)
-    table.add_column(overflow="fold")
-    at = "at the latest" if not found.stamp else f"at {_since(found.stamp, base)}"
-    table.add_row("link", "kind", "held", at, style="dim")
-    for link in found.links:
-        refuses = link.edge == found.refusing
-        style = "bold" if refuses else ""
-        says = Text("answers", "green")
-        if link.verdict is not LinkVerdict.ANSWERS:
-            says = Text(f"REFUSES: {_refusal(link)}", "bold red")
-        table.add_row(
-            Text(visible(link.name), style),
-            Text(_kind(link), style),
-            Text(_held(link, base), style),
-            says,
-        )
-    return table
+    def __init__(self, found: Explanation) -> None:
+        self._found = found
+
+    def __rich_console__(
+        self, console: "Console", options: "ConsoleOptions"
+    ) -> "Iterator[RenderableType]":
+        from rich.measure import Measurement
+        from rich.padding import Padding
+        from rich.table import Table
+        from rich.text import Text
+
+        rows = self._rows()
+        table = Table.grid(padding=(0, 2), pad_edge=False)
+        for row in rows:
+            table.add_row(*row)
+        if Measurement.get(console, options.update(max_width=10_000), table).maximum <= (
+            options.max_width
+        ):
+            yield table
+            return
+        for *link, says in rows:
+            yield Text("  ").join(link)
+            yield Padding(says, (0, 0, 0, 2))
+
+    def _rows(self) -> "list[tuple[Text, ...]]":
+        from rich.text import Text
+
+        found = self._found
+        base = _base(found)
+        at = "at the latest" if not found.stamp else f"at {_since(found.stamp, base)}"
+        rows = [tuple(Text(word, "dim") for word in ("link", "kind", "held", at))]
+        for link in found.links:
+            style = "bold" if link.edge == found.refusing else ""
+            says = Text("answers", "green")
+            if link.verdict is not LinkVerdict.ANSWERS:
+                says = Text(f"REFUSES: {_refusal(link)}", "bold red")
+            words = (visible(link.name), _kind(link), _held(link, base))
+            rows.append((*(Text(word, style) for word in words), says))
+        return rows
 
 
 def _kind(link: TracedLink) -> str:

@@ -72,7 +72,6 @@ def launch(
             # It brings all there is to it, and shares a session that runs all the same.
             session = open_empty_session(connection, simulated=simulated)
         connection.tell_read_only()
-        tell_where_to_look(connection, session)
         world = session.world
 
         def say(level: str, who: str, text: str) -> None:
@@ -84,6 +83,7 @@ def launch(
         except BaseException:
             session.abandon()
             raise
+        tell_where_to_look(connection, session)
 
         def tell(record: "LogRecord") -> None:
             # What the link has to say the session tells.
