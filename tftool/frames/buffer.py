@@ -3,7 +3,7 @@
 import struct
 from collections.abc import Callable, Iterable
 from itertools import pairwise
-from typing import TYPE_CHECKING, Final, Literal, TypeAlias
+from typing import TYPE_CHECKING, Final, Literal, NamedTuple, TypeAlias
 
 from tftool.errors import TransformException
 from tftool.frames import refusals, snapshot, tree, velocity
@@ -11,6 +11,7 @@ from tftool.frames.history import (
     AUTHORITY_SHIFT,
     NEEDS_CHECK,
     PARENT_CHANGED,
+    RECORD,
     STORED,
     TOO_OLD,
     History,
@@ -60,6 +61,33 @@ _TURNS: Final = 4096
 _NO_PATHS: dict[str, Path] = {}
 _new: Final = tuple.__new__
 _joined: Final = tuple.__add__
+
+
+class Shortened(NamedTuple):
+    """A link that was cut short.
+
+    Attributes:
+        child: Its frame.
+        authority: Who sent its newest sample.
+        samples: How many it had.
+        kept: How many it has now.
+    """
+
+    child: str
+    authority: str
+    samples: int
+    kept: int
+
+
+def _share(sizes: list[int], room: int) -> int:
+    """How many samples each link may have, for all of them to have room; at least two."""
+    left = len(sizes)
+    for size in sorted(sizes):
+        if size * left > room:
+            return max(2, room // left)
+        room -= size
+        left -= 1
+    return max(sizes)
 
 
 @usual_by_kernel
@@ -307,6 +335,35 @@ class Buffer(Door):
         return self.set_transforms(
             parent, child, records[:, 0], numbers[:, 1:4], numbers[:, 4:], authority
         )
+
+    def shorten(self, limit: int) -> "list[Shortened]":
+        """Forget the oldest samples of the longest links, until all take no more than `limit`.
+
+        The newest two of a link always stay. Where something must go, a quarter more does, so
+        that it need not be done again at once.
+
+        Args:
+            limit: Bytes, for the samples alone.
+
+        Returns:
+            Which links were cut.
+        """
+        links = [
+            (frame, frame.link)
+            for frame in self._tree.frames
+            if isinstance(frame.link, History) and frame.link.newest is not None
+        ]
+        sizes = [len(link) for _, link in links]
+        room = limit // RECORD
+        if sum(sizes) <= room:
+            return []
+        most = _share(sizes, room - room // 4)
+        cut = []
+        for (frame, link), size in zip(links, sizes, strict=True):
+            if size > most:
+                link.keep_last(most)
+                cut.append(Shortened(frame.name, frame.authority or "", size, len(link)))
+        return cut
 
     def adopt_records(
         self, parent: str, child: str, records: "npt.NDArray[np.int64]", authority: str = ""

@@ -667,12 +667,21 @@ class History(Fields):
 
     # Pruning
 
+    def keep_last(self, number: int) -> None:
+        """Let go of all but so many samples, two at least."""
+        if len(self) > (number := max(2, number)):
+            self._let_go(self.count - number)
+
     def _prune(self, oldest_kept: Stamp) -> None:
         """Let go of samples before that stamp; the newest is not one of them."""
         start = self.start + 1
         if self._stamp(start) < oldest_kept:
             # Where equal stamps are the oldest, all of them stay.
             start = self._after(oldest_kept - 1)
+        self._let_go(start)
+
+    def _let_go(self, start: int) -> None:
+        """Let go of the samples before a record, which is not beyond the newest."""
         if self.mixed and start >= self._newest_parent_start:
             self.mixed = False
         if start >= self._compact_at:

@@ -134,6 +134,7 @@ class TransformBridge:
                 columns.rotations[rows],
                 authority,
             )
+        self._link.world.memory.note(len(columns))
         return True
 
     def _store(
@@ -142,6 +143,7 @@ class TransformBridge:
         if transforms:
             self._compare_clocks(transforms[0].stamp, authority)
         store = self._link.world.buffer.set_transform
+        self._link.world.memory.note(len(transforms))
         return tuple(one for one in transforms if store(one, authority))
 
     def _compare_clocks(self, stamp: Stamp, authority: str) -> None:

@@ -27,6 +27,7 @@ from tftool.runtime.endpoints import (
     Role,
 )
 from tftool.runtime.log import Log
+from tftool.runtime.memory import MemoryBound, allowed
 from tftool.runtime.offers import Offer
 from tftool.runtime.resident import Resident, Supervision
 from tftool.runtime.topics import Acceptor, GoalHandle, Handler, Topic, Unmade
@@ -114,6 +115,7 @@ class World:
     Attributes:
         clock: Whose time everything here means.
         buffer: What is known of frames.
+        memory: Keeps that within a number of bytes.
         log: What the nodes said.
         nodes: The nodes, in the order in which they joined.
         endpoints: Which node publishes and subscribes what, of all processes.
@@ -127,11 +129,23 @@ class World:
         buffer: Buffer | None = None,
         *,
         cache_time: Duration = CACHE_TIME,
+        max_bytes: int | None = None,
     ) -> None:
+        """Make an empty world.
+
+        Args:
+            clock: Whose time everything here means.
+            buffer: What is known of frames already; empty when None.
+            cache_time: How far back an empty one remembers.
+            max_bytes: How many bytes the samples may take that come in; None for what is usual.
+        """
         self.clock = clock
         self.log = Log(clock.now, report=self.report)
         self._is_reporting = False
         self.buffer = buffer or Buffer(cache_time, log=self._log_buffer, report=self.report)
+        self.memory = MemoryBound(
+            self.buffer, lambda text: self.log.warn("buffer", text), max_bytes or allowed()
+        )
         self.nodes: list[Resident] = []
         self._joined = 0
         self._topics: dict[str, Topic[Any]] = {}
@@ -503,6 +517,7 @@ class World:
         else:
             put = self.buffer.set_transform
             accepted = tuple([one for one in sent if put(one, authority)])
+            self.memory.note(len(accepted))
             if accepted:
                 self._publish_tf(accepted, authority)
         return len(accepted) == len(sent)
