@@ -4,20 +4,30 @@ from collections.abc import Mapping, Sequence
 from datetime import UTC, datetime, timedelta
 from typing import Any
 
+from rich.cells import cell_len
+from rich.text import Text
+
 from tftool.sources.contract import SIMULATED_BELOW
 from tftool.sources.described import DescribedFrames
 from tftool.sources.recording import Recording
 from tftool.sources.robot import Robot
 from tftool.sources.summary import EdgeFacts, TreeFacts, edge_facts, oddities, trees
 from tftool.stamps import NANOSECONDS, Duration, Stamp
+from tftool.views.columns import TableColumn, fit
 from tftool.views.escaping import visible
+from tftool.views.fixed_width import middle_cut
 
 _EPOCH = datetime(1970, 1, 1, tzinfo=UTC)
 _UNITS = ("bytes", "KB", "MB", "GB", "TB")
 
 
-def as_text(recording: Recording) -> str:
-    """Everything about a recording, in lines."""
+def as_text(recording: Recording, width: int | None = None) -> str:
+    """Everything about a recording, in lines.
+
+    Args:
+        recording: Which.
+        width: Cells a line may take; columns that have no room are left out. None for all.
+    """
     source = recording.source
     edges = edge_facts(recording.transforms)
     topics = recording.topics
@@ -52,12 +62,16 @@ def as_text(recording: Recording) -> str:
             )
             for topic in topics
         ],
+        width,
+        goes=("publishers", "type"),
     )
     if edges:
         lines += ["", f"Frames: {_forest(trees(recording.transforms))}"]
         lines += table(
             ("edge", "kind", "transforms", "rate", "received after its stamp", "from"),
             list(map(_row, edges)),
+            width,
+            goes=("kind", "transforms", "from", "received after its stamp"),
         )
     if recording.robot is not None:
         lines += ["", f"Robot: {_robot(recording, recording.robot)}"]
@@ -174,16 +188,48 @@ def _forest(forest: Sequence[TreeFacts]) -> str:
 
 
 _WIDEST = 80
+_NARROW = (32, 16)
+"""What a column that may go is cut to first, and then."""
 
 
-def table(heads: tuple[str, ...], rows: list[tuple[str, ...]]) -> list[str]:
-    """Lines of columns, as wide as what is in them within reason; the last one is not padded."""
+def table(
+    heads: tuple[str, ...],
+    rows: list[tuple[str, ...]],
+    width: int | None = None,
+    *,
+    goes: tuple[str, ...] = (),
+) -> list[str]:
+    """Lines of columns, as wide as what is in them within reason; the last one is not padded.
+
+    Args:
+        heads: What stands above them.
+        rows: What stands in them.
+        width: Cells a line may take; None for as many as it needs.
+        goes: Columns that shrink, then are left out where there is no room, in that order.
+    """
     widths = [min(_WIDEST, max(map(len, column))) for column in zip(heads, *rows, strict=True)]
-    return [
+    lines = [
         "  "
         + "  ".join(cell.ljust(width) for cell, width in zip(row, widths, strict=True)).rstrip()
         for row in (heads, *rows)
     ]
+    if width is None or max(map(cell_len, lines)) <= width:
+        return lines
+    columns = [
+        TableColumn(
+            head,
+            [(row[at], "") for row in rows],
+            caps=_NARROW if head in goes else (),
+            goes=goes.index(head) + 1 if head in goes else 0,
+        )
+        for at, head in enumerate(heads)
+        if at
+    ]
+    longest = max(map(cell_len, [heads[0], *(row[0] for row in rows)]))
+    fitted = fit(columns, width - 2, wanted=longest, longest=longest)
+    names = [Text(middle_cut(row[0], fitted.room)) for row in rows]
+    shown = [fitted.heading(heads[0]), *(fitted.row(at, name) for at, name in enumerate(names))]
+    return [f"  {line.plain}" for line in shown]
 
 
 def _few(names: Sequence[str]) -> str:
