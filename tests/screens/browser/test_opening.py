@@ -7,6 +7,8 @@ pytest.importorskip("selenium.webdriver", reason="selenium is not installed")
 
 from tests.screens.browser.driving import CHROMEDRIVER, CHROMIUM, Page
 from tests.screens.browser.stage import Stage
+from tftool.frames.sample import TransformStamped
+from tftool.geometry.rigid import Transform
 
 pytestmark = pytest.mark.skipif(
     not (CHROMIUM and CHROMEDRIVER),
@@ -66,6 +68,24 @@ def test_a_world_with_height_opens_from_the_side_with_the_longest_chain(chromium
         page.until(lambda: page.text("#sentence") == "laser_point in map")
         page.until(lambda: page.find("#orbit").get_attribute("aria-pressed") == "true")
         page.until(lambda: len(page.said("tftool.trails()")) > 0)
+
+
+def test_all_of_a_tall_world_lies_in_what_panels_leave_free(chromium, stage):
+    mast = TransformStamped(0, "base", "mast", Transform((1.0, 0.0, 3.0)))
+    stage.do(lambda world: world.broadcast([mast], "test", static=True))
+    page = Page(chromium, stage)
+    page.until(lambda: page.text("#sentence") == "mast in base")
+
+    def is_free():
+        left, right, bar, time = (
+            page.find(f"#{name}").rect for name in ("left", "right", "bar", "time")
+        )
+        return all(
+            left["x"] + left["width"] < x < right["x"] and bar["y"] + bar["height"] < y < time["y"]
+            for x, y in (frame["pixel"] for frame in page.drawn().values())
+        )
+
+    page.until(lambda: len(page.drawn()) == 2 and is_free())
 
 
 def test_what_a_person_chose_is_not_chosen_anew(chromium, stage):

@@ -1,6 +1,6 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
-import { Bounds, spread } from "../../../../tftool/screens/browser/page/bounds.js";
+import { Bounds, distanceFor, spread } from "../../../../tftool/screens/browser/page/bounds.js";
 
 test("the box holds every point it ever grew around", () => {
   const bounds = new Bounds();
@@ -25,4 +25,14 @@ test("nothing drawn makes no box, and a single frame has a size to look at", () 
   const bounds = new Bounds();
   assert.equal(bounds.grow([]), null);
   assert.ok(spread(bounds.grow([[1, 1, 1]])) > 0);
+});
+
+const STRAIGHT = { right: [1, 0, 0], upward: [0, 1, 0], away: [0, 0, 1] };
+
+test("a camera is as near as it can be with all of a box in the picture", () => {
+  const flat = { low: [-2, -1, 0], high: [2, 1, 0] };
+  assert.equal(distanceFor(flat, STRAIGHT, { x: 0.5, y: 0.5 }), 4);
+  assert.equal(distanceFor(flat, STRAIGHT, { x: 0.5, y: 0.2 }), 5);
+  // What is nearer to the camera looks larger.
+  assert.equal(distanceFor({ low: [8, -1, 4], high: [12, 1, 10] }, STRAIGHT, { x: 0.5, y: 0.5 }), 7);
 });

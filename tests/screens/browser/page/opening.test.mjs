@@ -96,6 +96,6 @@ test("where there is no room a name is left out, but never the one that was pick
 test("a name stays where it stood, and off what is reserved", () => {
   const [stand] = arrange([{ x: 200, y: 200, width: 60, height: 14, was: 2 }]);
   assert.equal(stand.place, 2);
-  const [moved] = arrange([{ x: 200, y: 200, width: 60, height: 14 }], [170, 205, 60, 20]);
+  const [moved] = arrange([{ x: 200, y: 200, width: 60, height: 14 }], [[170, 205, 60, 20]]);
   assert.notEqual(moved.place, 0);
 });

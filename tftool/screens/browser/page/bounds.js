@@ -29,6 +29,23 @@ export function boxOf(points) {
   return box;
 }
 
+/**
+ * How far from the middle of a box a camera with perspective sees all of it.
+ * @param {{ low: number[], high: number[] }} box
+ * @param {{ right: number[], upward: number[], away: number[] }} seen where the picture's sides and the camera lie
+ * @param {{ x: number, y: number }} slope metres that are seen to a side, at a metre's distance
+ */
+export function distanceFor({ low, high }, { right, upward, away }, slope) {
+  const middle = low.map((value, side) => (value + high[side]) / 2);
+  let distance = 0;
+  for (let corner = 0; corner < 8; corner++) {
+    const place = middle.map((value, side) => ((corner >> side) & 1 ? high : low)[side] - value);
+    const along = (way) => way.reduce((sum, value, side) => sum + value * place[side], 0);
+    distance = Math.max(distance, along(away) + Math.max(Math.abs(along(right)) / slope.x, Math.abs(along(upward)) / slope.y));
+  }
+  return distance;
+}
+
 export class Bounds {
   constructor() {
     /** @type {Box | null} */

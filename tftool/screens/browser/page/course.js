@@ -7,7 +7,13 @@ import { bounds, linesOf, PLOTS, runs, Scale, shownGaps, ticks, valueAt } from "
 const THUMB = 8; // pixels from the slider's end to the middle of its handle there
 const NEAR = 5; // pixels
 const LEGEND = 15; // pixels above the lines, for what they are called
-const COLORS = { x: "#e5484d", y: "#30a46c", z: "#3e7bfa", roll: "#e5484d", pitch: "#30a46c", yaw: "#3e7bfa", distance: "#b07d00" };
+// Of lines and of what they are called, which has to be read.
+const [RED, GREEN, BLUE, BROWN] = [0, 1, 2, 3];
+const TONES = {
+  dark: ["#ff7a80", "#4cc38a", "#7fa8ff", "#e0a83a"],
+  light: ["#c62a2f", "#18794e", "#2458d3", "#8a5a00"],
+};
+const TONE_OF = { x: RED, y: GREEN, z: BLUE, roll: RED, pitch: GREEN, yaw: BLUE, distance: BROWN };
 const SEVERITIES = { error: "#e5484d", warning: "#d08700", note: "#7a8699" };
 const MOST_MOMENTS = 1000;
 const SERIES_EVERY = 500; // milliseconds, while the present goes on
@@ -113,7 +119,7 @@ export class Course {
 
   /**
    * @param {import("./timeline.js").Timeline} timeline
-   * @param {{ target?: string, source?: string, plot: string }} choices
+   * @param {{ target?: string, source?: string, plot: string, theme: string }} choices
    * @param {string[]} chain the frames between the pair
    */
   draw({ at, reach }, choices, chain) {
@@ -121,7 +127,7 @@ export class Course {
     this.scale = new Scale(reach, THUMB, width - THUMB);
     this.gaps = shownGaps(this.marks.gaps, new Set(chain), reach);
     const style = getComputedStyle(document.documentElement);
-    const ink = { text: style.getPropertyValue("--soft") || "#888", edge: style.getPropertyValue("--edge") || "#ccc" };
+    const ink = { text: style.getPropertyValue("--soft") || "#888", edge: style.getPropertyValue("--edge") || "#ccc", tones: TONES[choices.theme] };
     this.drawRuler(ink, reach);
     const { series } = this;
     const plotted = choices.plot !== "none" && series !== null && series.target === choices.target && series.source === choices.source;
@@ -174,7 +180,7 @@ export class Course {
     pen.lineJoin = "round";
     const { times } = this.series;
     for (const { name, values } of lines) {
-      pen.strokeStyle = COLORS[name];
+      pen.strokeStyle = ink.tones[TONE_OF[name]];
       pen.beginPath();
       for (const run of runs(values, plot === "rpy")) {
         run.forEach(([at, value], place) => {
@@ -202,7 +208,7 @@ export class Course {
     for (const { name, values } of [...lines].reverse()) {
       const text = `${name} ${number(valueAt(values, exact, unit === "°"), 3)} ${unit}`;
       right -= pen.measureText(text).width;
-      pen.fillStyle = COLORS[name];
+      pen.fillStyle = ink.tones[TONE_OF[name]];
       pen.fillText(text, right, 1);
       right -= 12;
     }

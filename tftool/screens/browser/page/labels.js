@@ -63,12 +63,12 @@ export function standAt({ x, y, width, height }, place) {
 /**
  * Give every name a place; null for one that finds none. The first in the list choose first.
  * @param {Wanted[]} wanted
- * @param {number[] | null} [reserved] left, top, width and height of what no name may cover
+ * @param {number[][]} [reserved] left, top, width and height of what no name may cover
  * @returns {(Stand | null)[]}
  */
-export function arrange(wanted, reserved = null) {
+export function arrange(wanted, reserved = []) {
   const grid = new Grid();
-  if (reserved) grid.take(...reserved);
+  for (const box of reserved) grid.take(...box);
   const places = wanted.length > MANY ? FEW : PLACES.length;
   return wanted.map((one) => {
     const { width, height, first, was } = one;

@@ -17,6 +17,7 @@ import {
   WebGLRenderer,
 } from "three";
 import { OrbitControls } from "three/addons/controls/OrbitControls.js";
+import { distanceFor } from "./bounds.js";
 import { FLAT, fitFlat, flatCamera, panOnly } from "./cameras.js";
 import { Crowd, SPIKES } from "./crowd.js";
 import { Ground, LAYER as GROUND } from "./ground.js";
@@ -30,6 +31,9 @@ const AXES = ["#f0454b", "#3fc45c", "#3d84ff"];
 const SHAFT = "#cfbf57";
 const HEAD = "#ff3d94";
 const FEW = 60; // frames that are drawn in full even without a graphics card
+const ROOMY = 0.84; // of the picture that the frames' origins fill: names and axes reach beyond
+const SMALLEST = 0.56; // metres from the middle to the sides
+const CORNER = { width: 124, height: 108 }; // pixels of the scale and the axes in the corner
 const ARRANGED_EVERY = 5; // pictures, with many names
 const GREY = new Color(0.7, 0.7, 0.7).convertSRGBToLinear().r; // what stale frames turn into
 
@@ -125,8 +129,8 @@ export class Stage {
     /** @type {any[]} */
     this.meshes = [];
     this.point = new Vector3();
-    /** @type {number[] | null} */
-    this.reserved = null; // where the distance stands
+    /** @type {number[][]} */
+    this.reserved = []; // where no name stands
     this.signs = new Map(); // names as they were painted
     this.changed = () => {}; // the camera has moved
     this.taken = false; // whether a person moves the camera, and not the page
@@ -193,14 +197,16 @@ export class Stage {
       fitFlat(name, this.cameras[name], this.controls[name], { middle, size }, free, inset, this.height);
     }
 
-    const radius = Math.max(size.length() / 2, 0.7);
     const half = Math.tan((orbit.fov * Math.PI) / 360);
-    const distance = (radius * 0.8 * this.height) / (half * Math.min(free.x, free.y));
     const away = new Vector3(-0.62, -0.62, 0.55).normalize();
-    // The middle of the picture is not the middle of what the panels leave free.
-    const metres = (2 * distance * half) / this.height;
     const right = new Vector3(0, 0, 1).cross(away).normalize();
     const upward = away.clone().cross(right);
+    const slope = (pixels) => (ROOMY * half * pixels) / this.height;
+    const ways = { right: right.toArray(), upward: upward.toArray(), away: away.toArray() };
+    const least = (SMALLEST * this.height) / (half * Math.min(free.x, free.y));
+    const distance = Math.max(least, distanceFor(box, ways, { x: slope(free.x), y: slope(free.y) }));
+    // The middle of the picture is not the middle of what the panels leave free.
+    const metres = (2 * distance * half) / this.height;
     middle.addScaledVector(right, ((inset.right - inset.left) / 2) * metres);
     middle.addScaledVector(upward, ((inset.top - inset.bottom) / 2) * metres);
     this.controls.orbit.target.copy(middle);
@@ -499,6 +505,8 @@ export class Stage {
     const pen = flat(this.over);
     pen.setTransform(this.ratio, 0, 0, this.ratio, 0, 0);
     pen.clearRect(0, 0, this.width, this.height);
+    const { left, bottom } = this.inset;
+    this.reserved = [[left + 10, this.height - bottom - CORNER.height, CORNER.width, CORNER.height]];
     this.drawChain(pen, pair);
     for (const { pose, strong } of rings) {
       const spot = pose ? this.project(pose[0], pose[1], pose[2]) : null;
@@ -547,7 +555,7 @@ export class Stage {
     const sign = this.sign(distance, this.theme.accent);
     const [width, height] = [sign.width / this.ratio, sign.height / this.ratio];
     const [x, y] = [(first[0] + last[0]) / 2 - width / 2, (first[1] + last[1]) / 2 - height / 2];
-    this.reserved = [x, y, width, height];
+    this.reserved.push([x, y, width, height]);
     pen.fillStyle = this.theme.halo;
     pen.fillRect(x, y + 2, width, height - 6);
     pen.drawImage(sign, Math.round(x), Math.round(y), width, height);
@@ -569,7 +577,6 @@ export class Stage {
     const stands = anew
       ? arrange(seen, this.reserved)
       : seen.map((one) => (one.was === undefined && !one.first ? null : standAt(one, one.was ?? 0)));
-    this.reserved = null;
     this.stood.clear();
     pen.strokeStyle = this.theme.text;
     pen.lineWidth = 1;

@@ -30,6 +30,7 @@ export class Tree {
     this.model = model;
     this.state = state;
     this.filtered = "";
+    this.kept = new Set(model.names.keys()); // a key may come before the first refresh
     this.rows = new Array(model.names.length);
     const below = new Map(); // where the children of a frame go
     const roots = [];
