@@ -610,12 +610,19 @@ METHOD(can_transform) {
 
 /* Inserting --------------------------------------------------------------- */
 
-/* As many pruned records are left where they are, and there is as much room behind, at least and
-   as a part of all (a shift to the right): as in `history`. */
+/* So many pruned records are left where they are, at least and as a part of all (a shift to the
+   right): as in `history`. */
 #define LEAST_SLACK 32
 #define SLACK 3
+
+/* Room for samples to come is as much again as there is, at least so much, and so much at most or
+   that part of all: each time it is made, everything may have to be copied. */
 #define LEAST_ROOM 8
+#define MOST_ROOM 128
 #define ROOM 4
+
+#define LARGER(a, b) ((a) > (b) ? (a) : (b))
+#define SMALLER(a, b) ((a) < (b) ? (a) : (b))
 
 /* Take words out of an array. Returns whether it let go of them, which none does that a batch
    reads; never sets an error. */
@@ -653,7 +660,7 @@ static int make_room(Link *link, int64_t stamp) {
             return 0;
         link->start = 0;
         link->count = count;
-        link->compact_at = count >> SLACK > LEAST_SLACK ? count >> SLACK : LEAST_SLACK;
+        link->compact_at = LARGER(count >> SLACK, LEAST_SLACK);
         if (!grow(link->records, start))
             return 0;
     }
@@ -664,7 +671,7 @@ static int make_room(Link *link, int64_t stamp) {
         return grow(link->records, 1);
     }
     else if (link->count == room)
-        return grow(link->records, LEAST_ROOM + (room >> ROOM));
+        return grow(link->records, LARGER(LARGER(SMALLER(room, MOST_ROOM), LEAST_ROOM), room >> ROOM));
     return 1;
 }
 
