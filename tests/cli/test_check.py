@@ -102,11 +102,11 @@ def test_a_misspelt_name_is_told(tftool, scenarios):
         ),
         (
             ["static: {parent: a, child: b}", "static: {parent: b, child: a}"],
-            "odd.yaml:5:5: a loop: frame 'a' hangs from 'b', 'a'",
+            "odd.yaml:5:5: a loop: frame 'a' hangs from 'b', which hangs from 'a'",
         ),
         (
             ["static: {parent: turtle1, child: world}", "broadcaster: {turtle: turtle1}"],
-            "odd.yaml:5:5: a loop: frame 'turtle1' hangs from 'world', 'turtle1'",
+            "odd.yaml:5:5: a loop: frame 'turtle1' hangs from 'world', which hangs from 'turtle1'",
         ),
         (["static: {parent: a, child: /a}"], "odd.yaml:4:5: frame 'a' cannot hang from itself"),
     ],

@@ -242,7 +242,7 @@ class _ScenarioReader:
                     f"and {quoted(parent)}; a frame hangs from one"
                 )
             elif above[-1] == child:
-                path = ", ".join(quoted(one) for one in above)
+                path = ", which hangs from ".join(quoted(one) for one in above)
                 text = f"a loop: frame {quoted(child)} hangs from {path}; no frame is the root"
             else:
                 parents.setdefault(child, (parent, item.place.line + 1))

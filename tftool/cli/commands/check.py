@@ -150,8 +150,8 @@ def _judge_of(
     for one in entrants:
         if not one.node:
             notice(
-                f"'{visible_lines(one.words[0])}' lives beside all of a scenario's own nodes; "
-                "--run NODE=… takes the place of one."
+                f"'{visible_lines(one.words[0])}' runs beside the scenario's own nodes; "
+                "--run NODE=FILE runs it in the place of one."
             )
     workspace = hosting.Workspace(Path.cwd())
     for skipped in workspace.skipped if verbose else ():
