@@ -627,6 +627,9 @@ def test_the_readmes_picture_is_made_from_the_page_as_it_is(chromium, card):
         page.until(lambda: page.text("#sentence") == "gripper in map")
         page.until(lambda: page.text("#chosen") == "gripper")
         page.until(lambda: chromium.execute_script("return tftool.remembered()") >= 240)
+        # What moves may be drawn coarsely.
+        stage.do(lambda world: world.driving.cancel())
+        page.until(lambda: page.said("tftool.scale()") == 1)
         PICTURE.parent.mkdir(exist_ok=True)
         assert chromium.save_screenshot(str(PICTURE))
 

@@ -1,6 +1,6 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
-import { bounds, linesOf, runs, Scale, shownGaps, ticks, told, valueAt } from "../../../../tftool/screens/browser/page/ruler.js";
+import { bounds, linesOf, runs, Scale, shownGaps, ticks, told, valueAt, newestOf } from "../../../../tftool/screens/browser/page/ruler.js";
 
 test("ticks are round, inside the span, and far enough apart", () => {
   for (const [oldest, newest, width] of [[0, 30, 600], [12.34, 12.9, 500], [-3, 700, 900], [0, 90_000, 400], [0, 1e-3, 300]]) {
@@ -63,4 +63,10 @@ test("between two values lies the straight way; beside nothing, the nearer one",
   assert.equal(valueAt([0, 10, null], 1.2, false), 10);
   assert.equal(valueAt([0, 10, null], 1.8, false), null);
   assert.equal(valueAt([179, -179], 0.25, true), 179);
+});
+
+test("the newest value of a line is the last one that is known", () => {
+  assert.equal(newestOf([1, 2, null, null]), 2);
+  assert.equal(newestOf([null]), null);
+  assert.equal(newestOf([]), null);
 });

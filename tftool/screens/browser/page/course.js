@@ -2,7 +2,7 @@
 // The ruler and the plot on the page: ask for what they show, draw it, and go where one clicks.
 import { number } from "./format.js";
 import { $ } from "./panels.js";
-import { bounds, linesOf, PLOTS, runs, Scale, shownGaps, ticks, valueAt } from "./ruler.js";
+import { bounds, linesOf, newestOf, PLOTS, runs, Scale, shownGaps, ticks, valueAt } from "./ruler.js";
 
 const THUMB = 8; // pixels from the slider's end to the middle of its handle there
 const NEAR = 5; // pixels
@@ -132,7 +132,7 @@ export class Course {
     const { series } = this;
     const plotted = choices.plot !== "none" && series !== null && series.target === choices.target && series.source === choices.source;
     if (this.plot.hidden === plotted) this.plot.hidden = !plotted;
-    if (plotted) this.drawPlot(ink, at ?? reach.newest, /** @type {keyof typeof PLOTS} */ (choices.plot));
+    if (plotted) this.drawPlot(ink, at, reach.newest, /** @type {keyof typeof PLOTS} */ (choices.plot));
   }
 
   drawRuler(ink, reach) {
@@ -162,7 +162,7 @@ export class Course {
     }
   }
 
-  drawPlot(ink, moment, plot) {
+  drawPlot(ink, at, newest, plot) {
     const { pen, width, height } = fresh(this.plot);
     const lines = linesOf(this.series, plot);
     const [least, most] = (this.limits = bounds(lines));
@@ -192,21 +192,21 @@ export class Course {
       pen.stroke();
     }
     pen.fillStyle = ink.text;
-    pen.fillRect(Math.round(this.scale.pixel(moment)), LEGEND, 1, height);
-    this.legend(pen, ink, lines, moment, PLOTS[plot].unit);
+    pen.fillRect(Math.round(this.scale.pixel(at ?? newest)), LEGEND, 1, height);
+    this.legend(pen, ink, lines, at, PLOTS[plot].unit);
     pen.fillStyle = ink.text;
     pen.textBaseline = "top";
     pen.fillText(`${number(least, 2)} … ${number(most, 2)} ${PLOTS[plot].unit}`, THUMB, 1);
   }
 
-  /** Each line's name and value at the moment, at the right end above the lines. */
-  legend(pen, ink, lines, moment, unit) {
+  /** Each line's name and value at the moment, or its newest one in the present, at the right end above the lines. */
+  legend(pen, ink, lines, at, unit) {
     const { times } = this.series;
-    const exact = ((moment - times[0]) / (times[times.length - 1] - times[0])) * (times.length - 1);
+    const exact = ((at - times[0]) / (times[times.length - 1] - times[0])) * (times.length - 1);
     let right = this.plot.clientWidth - THUMB;
     pen.textBaseline = "top";
     for (const { name, values } of [...lines].reverse()) {
-      const text = `${name} ${number(valueAt(values, exact, unit === "°"), 3)} ${unit}`;
+      const text = `${name} ${number(at === null ? newestOf(values) : valueAt(values, exact, unit === "°"), 3)} ${unit}`;
       right -= pen.measureText(text).width;
       pen.fillStyle = ink.tones[TONE_OF[name]];
       pen.fillText(text, right, 1);

@@ -161,6 +161,15 @@ export function runs(values, circular) {
 }
 
 /**
+ * The last value of a line that is known: the newest moments often are not yet.
+ * @param {(number | null)[]} values
+ */
+export function newestOf(values) {
+  for (let at = values.length - 1; at >= 0; at--) if (values[at] !== null) return values[at];
+  return null;
+}
+
+/**
  * The value between two of a line's, on the straight way; null where one of them is missing.
  * @param {(number | null)[]} values
  * @param {number} place index, with a fraction

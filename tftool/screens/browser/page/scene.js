@@ -31,6 +31,8 @@ const AXES = ["#f0454b", "#3fc45c", "#3d84ff"];
 const SHAFT = "#cfbf57";
 const HEAD = "#ff3d94";
 const FEW = 60; // frames that are drawn in full even without a graphics card
+const FONT = "600 12px system-ui, -apple-system, 'Segoe UI', Roboto, 'DejaVu Sans', sans-serif";
+const LINE = 22; // pixels, of a name with its halo
 const ROOMY = 0.84; // of the picture that the frames' origins fill: names and axes reach beyond
 const SMALLEST = 0.56; // metres from the middle to the sides
 const CORNER = { width: 124, height: 108 }; // pixels of the scale and the axes in the corner
@@ -552,13 +554,14 @@ export class Stage {
       pen.arc(x, y, at === 0 || at === spots.length - 1 ? 6 : 4, 0, 7);
       pen.fill();
     });
-    const sign = this.sign(distance, this.theme.accent);
-    const [width, height] = [sign.width / this.ratio, sign.height / this.ratio];
+    // Another text in every picture: a sign of its own would not be used again.
+    pen.font = FONT;
+    const [width, height] = [pen.measureText(distance).width + 8, LINE];
     const [x, y] = [(first[0] + last[0]) / 2 - width / 2, (first[1] + last[1]) / 2 - height / 2];
     this.reserved.push([x, y, width, height]);
     pen.fillStyle = this.theme.halo;
     pen.fillRect(x, y + 2, width, height - 6);
-    pen.drawImage(sign, Math.round(x), Math.round(y), width, height);
+    this.write(pen, distance, this.theme.accent, Math.round(x), Math.round(y));
   }
 
   /** Names beside their frames; one that has to stand aside gets a line. */
@@ -667,24 +670,28 @@ export class Stage {
     const known = this.signs.get(key);
     if (known) return known;
     const text = name.length > 48 ? `${name.slice(0, 30)}…${name.slice(-16)}` : name;
-    const font = "600 12px system-ui, -apple-system, 'Segoe UI', Roboto, 'DejaVu Sans', sans-serif";
     const sheet = document.createElement("canvas");
     const pen = flat(sheet);
-    pen.font = font;
+    pen.font = FONT;
     sheet.width = Math.ceil((pen.measureText(text).width + 8) * this.ratio);
-    sheet.height = Math.ceil(22 * this.ratio);
+    sheet.height = Math.ceil(LINE * this.ratio);
     pen.scale(this.ratio, this.ratio);
-    pen.font = font; // a new size forgets it
+    this.write(pen, text, color, 0, 0);
+    if (this.signs.size > 5000) this.signs.clear();
+    this.signs.set(key, sheet);
+    return sheet;
+  }
+
+  /** Paint a text with a halo below and to the right of a place. */
+  write(pen, text, color, x, y) {
+    pen.font = FONT;
     pen.textBaseline = "top";
     pen.lineJoin = "round";
     pen.lineWidth = 4;
     pen.strokeStyle = this.theme.halo;
-    pen.strokeText(text, 4, 3);
+    pen.strokeText(text, x + 4, y + 3);
     pen.fillStyle = color;
-    pen.fillText(text, 4, 3);
-    if (this.signs.size > 5000) this.signs.clear();
-    this.signs.set(key, sheet);
-    return sheet;
+    pen.fillText(text, x + 4, y + 3);
   }
 
   /** Everything visible, as one canvas. Call in the same task as `draw`. */
