@@ -353,3 +353,15 @@ def test_rows_are_adopted_together_or_not_at_all(place):
     assert buffer.frames() == []
     assert buffer.adopt_records("world", "turtle1", sound)
     assert len(buffer.samples("turtle1")) == 10_000
+
+
+def test_many_samples_of_one_stamp_are_compared_with_the_last_of_them_either_way():
+    numbers = [*range(40), 39, 20, 0, 1, 0, *range(40)]
+    rows = [(5, Transform((float(x), 0.0, 0.0))) for x in numbers]
+    one_by_one, at_once = Buffer(seconds(10)), Buffer(seconds(10))
+    for stamp, pose in rows:
+        one_by_one.set_transform(TransformStamped(stamp, "world", "a", pose), "me")
+    together(at_once, "world", "a", rows)
+
+    assert len(one_by_one.samples("a")) > 40
+    assert (at_once.samples("a").poses == one_by_one.samples("a").poses).all()

@@ -12,6 +12,7 @@ from tftool.frames.history import (
     BACKWARD,
     FORWARD,
     KNOWN,
+    MOST_ALIKE,
     NEEDS_CHECK,
     NO_DATA,
     PARENT_CHANGED,
@@ -294,3 +295,15 @@ def test_samples_decades_apart_are_interpolated_at_the_first_question():
 
     assert history.at(2 * 10**18)[0] == 3.0
     assert history.at(5 * 10**17)[0] == pytest.approx(0.5)
+
+
+def test_a_sample_is_looked_for_among_the_last_of_its_stamp_alone():
+    poses = [(float(x), 0.0, 0.0, *NO_TURN) for x in range(MOST_ALIKE + 1)]
+    history = History(10)
+    for pose in poses:
+        history.insert(5, 0, pose, True)
+
+    assert history.insert(5, 0, poses[1], True) == KNOWN
+    assert history.insert(5, 0, poses[0], True) == STORED
+    assert history.insert(5, 0, poses[0], True) == KNOWN
+    assert len(history) == MOST_ALIKE + 2

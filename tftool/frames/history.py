@@ -42,6 +42,9 @@ Columns: TypeAlias = "tuple[memoryview[int], array[int] | None, int]"
 Words: TypeAlias = "array[int] | memoryview[int]"
 """Records, one behind the other."""
 
+MOST_ALIKE: Final = 32
+"""Among how many samples of one stamp it is looked whether one that comes is known."""
+
 NO_PARENT: Final = -1
 """In place of a parent's number or an origin: none."""
 
@@ -491,7 +494,9 @@ class History(Fields):
             return TOO_OLD
         place = self._after(stamp)
         behind = place - 1
-        while behind >= self.start and self._stamp(behind) == stamp:
+        # Not all of them: who never sets a stamp has every sample look at those before.
+        last = max(self.start, place - MOST_ALIKE)
+        while behind >= last and self._stamp(behind) == stamp:
             if self._sample(behind) == sample and self._parent(behind) == parent:
                 return KNOWN
             behind -= 1

@@ -1,6 +1,7 @@
 """Many samples of one link at once, in numpy: `Buffer.set_transforms`."""
 
 from array import array
+from collections import deque
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from typing import TypeAlias
@@ -10,7 +11,15 @@ import numpy.typing as npt
 
 from tftool.frames import refusals
 from tftool.frames.batch.columns import Column, Indices, Stamps, stamps_of
-from tftool.frames.history import LONGEST, PARENT_MASK, SHORTEST, WORDS, History, Sample
+from tftool.frames.history import (
+    LONGEST,
+    MOST_ALIKE,
+    PARENT_MASK,
+    SHORTEST,
+    WORDS,
+    History,
+    Sample,
+)
 from tftool.frames.native import IS_NATIVE
 from tftool.frames.tree import FrameTree, stripped
 from tftool.geometry import batch
@@ -287,19 +296,22 @@ def merge(history: History, origin: int, stamps: Stamps, samples: Floats) -> Fla
 def _first_of_their_kind(
     stamps: Stamps, samples: Floats, parents: npt.NDArray[np.int64], order: Indices
 ) -> Flags:
-    """Which samples are not the very same as an earlier one with the same stamp."""
+    """Which samples are not the very same as one of the last before it with the same stamp."""
     keep = np.ones(len(order), dtype=np.bool_)
     ordered = stamps[order]
     equal = np.flatnonzero(ordered[1:] == ordered[:-1])
-    seen: set[tuple[float, ...]] = set()
+    seen: deque[tuple[float, ...]] = deque(maxlen=MOST_ALIKE)
     last = -2
     for place in equal.tolist():
         if place != last + 1:
-            seen = {_kind(samples, parents, int(order[place]))}
+            seen.clear()
+            seen.append(_kind(samples, parents, int(order[place])))
         last = place
         kind = _kind(samples, parents, int(order[place + 1]))
-        keep[place + 1] = kind not in seen
-        seen.add(kind)
+        if kind in seen:
+            keep[place + 1] = False
+        else:
+            seen.append(kind)
     return keep
 
 
