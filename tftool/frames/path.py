@@ -88,19 +88,20 @@ def folded(links: Iterable[Link]) -> tuple[Link, ...]:
         if link.is_static:
             run.append(link)
             continue
-        result += _folded_run(run)
-        run.clear()
+        if run:
+            result += _folded_run(run)
+            run = []
         result.append(link)
-    return tuple(result + _folded_run(run))
+    return tuple(result + _folded_run(run)) if run else tuple(result)
 
 
 def _folded_run(run: list[Link]) -> list[Link]:
-    return [StaticLink(chain(tuple(run), 0))] if len(run) > 1 else list(run)
+    return [StaticLink(chain(tuple(run), 0))] if len(run) > 1 else run
 
 
 def path_of(tree: FrameTree, walk: Walk) -> Path:
     """The path of a walk that arrived."""
     frames = tree.frames
-    up = folded(link for number in walk.up if (link := frames[number].link) is not None)
-    down = folded(link for number in walk.down if (link := frames[number].link) is not None)
+    up = folded([link for number in walk.up if (link := frames[number].link) is not None])
+    down = folded([link for number in walk.down if (link := frames[number].link) is not None])
     return Path(up, down, tuple([link for link in up + down if isinstance(link, History)]))
