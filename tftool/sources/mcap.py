@@ -62,7 +62,7 @@ _FOOTER_SIZE = 37
 _LARGEST_SUMMARY = 1 << 30
 _SPARSE = 4096  # bytes that one message more is worth when reading them singly
 _BLOCK = 1 << 18
-_INDEX_AT_ONCE = 512
+_INDEX_AT_ONCE = 128
 
 
 class Mcap:
