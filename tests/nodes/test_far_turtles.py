@@ -216,6 +216,26 @@ def test_of_another_simulator_the_background_is_seen_and_trails_by_the_poses(wor
     ]
 
 
+def test_beside_one_that_tells_its_strokes_another_is_drawn_by_the_poses(world):
+    Turtlesim(world, "a/sim", namespace="a", background=Color(9, 9, 9))
+    Turtlesim(world, "b/sim", namespace="b")
+    far = FarTurtles(world)
+    ahead, back = (world.topic(f"{one}/turtle1/cmd_vel", Twist2D) for one in "ab")
+    Script(
+        world,
+        (1, lambda: ahead.publish(Twist2D(1.0))),
+        (1, lambda: back.publish(Twist2D(-1.0))),
+    )
+
+    lived(world, 4)
+
+    ends = [one.x1 for one in far.trail.segments]
+    assert far.background == Color(9, 9, 9)
+    # 63 updates of 16 ms each way.
+    assert (max(ends), min(ends)) == pytest.approx((5.544445 + 1.008, 5.544445 - 1.008), abs=1e-4)
+    assert len(ends) == 2 * 63
+
+
 def test_a_simulator_that_refuses_to_answer_is_drawn_as_it_begins(world):
     strange, far = StrangeSimulator(world, "strange"), FarTurtles(world)
 

@@ -79,7 +79,8 @@ class FarTurtles(Node):
         self._known: dict[str, FarTurtle] = {}
         self._subscriptions: dict[str, Callable[[], None]] = {}
         self._drawing = FarDrawing(self.trail)
-        self._is_told = False
+        # Turtles whose strokes their simulator tells.
+        self._told: frozenset[str] = frozenset()
         world.watch(self._look, name)
         self._look()
 
@@ -105,10 +106,11 @@ class FarTurtles(Node):
 
     def _simulator(self) -> str:
         """The node that sends the poses of the first turtle; "" where that is not known."""
-        for name in self.turtles:
-            for one in self.world.endpoints.of(name + _POSE, PUBLISHER):
-                return one.node
-        return ""
+        return next(filter(None, map(self._sender, self.turtles)), "")
+
+    def _sender(self, turtle: str) -> str:
+        """The node that sends the poses of a turtle; "" where that is not known."""
+        return next((one.node for one in self.world.endpoints.of(turtle + _POSE, PUBLISHER)), "")
 
     async def _ask_background(self, simulator: str) -> None:
         kind: Any = INTERFACES.find("rcl_interfaces", "srv", "GetParameters")
@@ -124,8 +126,10 @@ class FarTurtles(Node):
     async def _ask_strokes(self, simulator: str) -> None:
         request = self._drawing.request()
         told = await self._ask(f"{simulator}/{SERVICE}", request)
-        self._is_told = told is not None
-        if told is not None:
+        if told is None:
+            self._told = frozenset()
+        else:
+            self._told = frozenset(one for one in self.turtles if self._sender(one) == simulator)
             self._drawing.take(told)
 
     async def _ask(self, service: str, request: Any) -> Any:
@@ -155,7 +159,7 @@ class FarTurtles(Node):
             now = self.world.clock.now()
             turtle = self._known.get(name)
             if turtle is None or turtle.heard < now - SILENT:
-                if not self.turtles and not self._is_told:
+                if not self.turtles and not self._told:
                     # The first, or the first of another simulator, on an empty sheet.
                     self.trail.wipe()
                 self._known[name] = FarTurtle(name, pose, now)
@@ -164,7 +168,7 @@ class FarTurtles(Node):
             before, turtle.pose, turtle.heard = turtle.pose, pose, now
             if pose != before:
                 self.revision += 1
-            if (pose.x, pose.y) != (before.x, before.y) and not self._is_told:
+            if (pose.x, pose.y) != (before.x, before.y) and name not in self._told:
                 ends = (before.x, before.y, pose.x, pose.y)
                 self.trail.draw(Segment(*ends, PEN_COLOR, PEN_WIDTH))
 
