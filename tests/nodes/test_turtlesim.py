@@ -597,3 +597,19 @@ def test_commands_of_a_publisher_that_never_pauses_are_bounded_until_the_next_ti
         f"Ignoring a velocity command for [turtle1]: {MOST_WAITING} wait for the next tick already"
     ]
     assert sim.turtles["turtle1"].place.x > 5.544445
+
+
+def test_two_simulators_of_one_namespace_both_move_and_the_second_names_the_remedy():
+    world = new_world()
+    first, second = Turtlesim(world), Turtlesim(world, "sim_2")
+    At(world, (2 * TICK, drive(world, Twist2D(1.0))))
+    play(world, 1.0)
+
+    said = log_texts(world, "sim_2")
+    assert [text for text in said if "a namespace of its own" in text] == [
+        f"'{first.name}' answers the services here already: give this simulator a namespace of "
+        "its own (-r __ns:=/sim2), or the two share every topic"
+    ]
+    placed = [sim.turtles["turtle1"].place for sim in (first, second)]
+    assert placed[0] == placed[1]
+    assert placed[0].x > CENTRE + 0.5

@@ -65,7 +65,7 @@ class TurtlePorts:
             self.color.close,
             world.subscribe(node, f"{self._prefix}cmd_vel", Twist2D, self._on_command),
             *(
-                world.serve(self._prefix + name, handler, kind, node=node)
+                world.serve(self._prefix + name, handler, kind, node=node, shares=True)
                 for name, handler, kind in (
                     ("teleport_absolute", self._on_teleport_absolute, TeleportAbsolute),
                     ("teleport_relative", self._on_teleport_relative, TeleportRelative),
@@ -73,7 +73,11 @@ class TurtlePorts:
                 )
             ),
             world.serve_action(
-                f"{self._prefix}rotate_absolute", self._on_rotate, RotateAbsolute, node=node
+                f"{self._prefix}rotate_absolute",
+                self._on_rotate,
+                RotateAbsolute,
+                node=node,
+                shares=True,
             ),
         ]
 

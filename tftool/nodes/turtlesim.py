@@ -127,13 +127,20 @@ class Turtlesim(Node):
         # Two simulators in one world carry their namespace in their names as well.
         name = self.name.removeprefix(self._prefix)
         self.info(f"Starting turtlesim with node name /{self._prefix}{name}")
+        there = self.world.services().get(f"{self._prefix}spawn")
+        if there is not None and not there.is_remote:
+            # As in ROS 2 both move on one cmd_vel, and one of them answers services.
+            self.warn(
+                f"'{there.node}' answers the services here already: give this simulator a "
+                "namespace of its own (-r __ns:=/sim2), or the two share every topic"
+            )
         for service, handler, kind in (
             ("spawn", self._on_spawn, Spawn),
             ("kill", self._on_kill, Kill),
             ("clear", self._on_clear, Clear),
             ("reset", self._on_reset, Reset),
         ):
-            self.serve(self._prefix + service, handler, kind)
+            self.serve(self._prefix + service, handler, kind, shares=True)
         ParameterServices(self)
         DrawingService(self, self.trail)
         start = self.clock.now()

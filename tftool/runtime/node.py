@@ -141,10 +141,10 @@ class Node(Resident):
         return self._until_end(self.world.subscribe(self.name, topic, kind, callback, quality))
 
     def serve(
-        self, name: str, handler: Callable[[Any], Any], kind: Any = None
+        self, name: str, handler: Callable[[Any], Any], kind: Any = None, *, shares: bool = False
     ) -> Callable[[], None]:
-        """Answer a service until this node ends; `kind` is its type for other processes."""
-        return self._until_end(self.world.serve(name, handler, kind, node=self.name))
+        """Answer a service until this node ends; the arguments are those of `World.serve`."""
+        return self._until_end(self.world.serve(name, handler, kind, node=self.name, shares=shares))
 
     def serve_action(
         self, name: str, accept: Callable[[Any], None], kind: Any = None

@@ -404,6 +404,7 @@ class World:
         *,
         node: str = "",
         is_remote: bool = False,
+        shares: bool = False,
     ) -> Callable[[], None]:
         """Take goals of an action by `accept`; call what is returned to stop.
 
@@ -414,7 +415,7 @@ class World:
         """
         take = accepting(accept, kind) if kind in values.ACTIONS else accept
         offer = Offer(take, values.interface_class(kind), node, is_remote)
-        return self._offer(self._actions, name, offer, "action")
+        return self._offer(self._actions, name, offer, "action", shares=shares)
 
     def actions(self) -> Mapping[str, Offer[Acceptor]]:
         """Every action by its name, read-only."""
