@@ -5,8 +5,8 @@ from typing import Final
 from tftool.frames.buffer import Buffer
 from tftool.stamps import Duration, Stamp, seconds
 
-SETTLING: Final[Duration] = seconds(1)
-"""How long after a recording's beginning all of its frames are expected to have come."""
+SETTLING: Final[Duration] = seconds(3)
+"""How long after the beginning all frames are expected to have come; a scenario's turtles have."""
 
 
 def first_moment(buffer: Buffer, begin: Stamp, end: Stamp) -> Stamp | None:
