@@ -236,3 +236,31 @@ def test_a_command_that_will_not_end_is_made_to(tmp_path, capsys, monkeypatch):
     told = capsys.readouterr().err
     assert "[deaf-1]: process has finished cleanly" in told
     assert "[deafer-2]: process has died, exit status -9" in told
+
+
+def test_a_nodes_file_imports_its_own_package_by_name(ros_runtime, tmp_path):
+    package = tmp_path / "own_package"
+    package.mkdir()
+    (package / "__init__.py").touch()
+    (package / "words.py").write_text("WORD = 'from beside'\n")
+    (package / "speaker.py").write_text(
+        "import rclpy\n"
+        "from own_package.words import WORD\n"
+        "rclpy.init()\n"
+        "rclpy.create_node('speaker').get_logger().info(WORD)\n"
+    )
+
+    ros_runtime.start(package / "speaker.py")
+    ros_runtime.sleep(1.0)
+
+    assert ros_runtime.log("speaker") == ["from beside"]
+
+
+def test_a_file_with_zero_bytes_is_no_python_text(tmp_path):
+    from tftool.errors import InputError
+    from tftool.ros.host.user_code import compile_file
+
+    file = tmp_path / "node.pyc"
+    file.write_bytes(b"a = 1\0")
+    with pytest.raises(InputError, match=r"node\.pyc' is no Python text: source code"):
+        compile_file(file)

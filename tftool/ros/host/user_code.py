@@ -24,7 +24,11 @@ def file_body(path: Path) -> Callable[[], None]:
     code = compile_file(path)
 
     def body() -> None:
-        importing.look_in(path.resolve().parent)
+        folder = path.resolve().parent
+        if (folder / "__init__.py").is_file():
+            # A node's file in its package imports that package by name, as when installed.
+            importing.look_in(folder.parent)
+        importing.look_in(folder)
         module = ModuleType("__main__")
         module.__file__ = str(path)
         module.__dict__["__builtins__"] = builtins_for_users()
@@ -55,6 +59,8 @@ def compile_file(path: Path) -> Any:
         # An attribute that users' own `from __future__` decides, not ours.
         return compile(source, str(path), "exec", dont_inherit=True)
     except SyntaxError as error:
+        if error.filename is None:
+            raise InputError(f"'{path}' is no Python text: {error.msg}") from None
         raise InputError(syntax_sentence(error)) from None
     except ValueError as error:
         raise InputError(f"'{path}' is no Python text: {error}") from None
