@@ -30,6 +30,7 @@ from tftool.frames.buffer import Buffer
 from tftool.frames.sample import Snapshot
 from tftool.runtime.clock import Clock, Phase, pace_of
 from tftool.screens.browser import assets, protocol
+from tftool.screens.browser.cadence import Cadence
 from tftool.screens.browser.client import PageClient, Poses, SharedMoment, TreeMessage
 from tftool.screens.browser.live import LiveDisplays
 from tftool.screens.browser.marks import marks_of
@@ -216,15 +217,14 @@ class PageServer:
         """Take snapshots and offer them to the pages, for ever."""
         clock = pace_of(self.source.clock)
         due = displays_due = clock.now()
+        cadence = Cadence(self._period, due)
         while True:
             await clock.sleep_until(due, Phase.WATCH)
             began = clock.now()
             self._tick(self.source.clock.now())
             if self._live is not None and clock.now() >= displays_due:
                 displays_due = self._tell_displays(self._live, clock)
-            ended = clock.now()
-            # Thousands of frames may take longer than a period: never more than half the time.
-            due = max(due + self._period, ended + (ended - began))
+            due = cadence.after(began, clock.now())
 
     def _tick(self, now: Stamp) -> None:
         self._ticks += 1
