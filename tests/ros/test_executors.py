@@ -117,6 +117,38 @@ def test_a_multi_threaded_executor_lets_other_callbacks_through_while_one_blocks
     ]
 
 
+def test_a_multi_threaded_executor_whose_threads_were_all_busy_goes_on_in_its_next_turn(
+    ros_runtime,
+):
+    import rclpy
+    from rclpy.callback_groups import ReentrantCallbackGroup
+    from rclpy.executors import MultiThreadedExecutor
+    from rclpy.task import Future
+
+    trace = []
+
+    def main():
+        rclpy.init()
+        node = rclpy.create_node("busy")
+
+        def call():
+            trace.append(ros_runtime.elapsed())
+            if len(trace) <= 2:
+                node.get_clock().sleep_for(rclpy.duration.Duration(seconds=0.9))
+
+        node.create_timer(0.25, call, callback_group=ReentrantCallbackGroup())
+        executor = MultiThreadedExecutor(num_threads=2)
+        executor.add_node(node)
+        executor.spin_until_future_complete(Future(), timeout_sec=0.6)
+        executor.spin()
+
+    ros_runtime.start(main)
+    ros_runtime.sleep(2.0)
+
+    # Until 1.15 both threads sleep; the timer is late then, and on its grid again after that.
+    assert trace == [0.25, 0.5, 1.15, 1.25, 1.5, 1.75, 2.0]
+
+
 def test_a_failing_callback_of_a_multi_threaded_executor_fails_its_program():
     from tftool.errors import NodeFailed
     from tftool.ros.testing import RosRuntime

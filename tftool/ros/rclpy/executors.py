@@ -387,8 +387,14 @@ class MultiThreadedExecutor(Executor):
             except BaseException as error:
                 self._failure = error
             finally:
-                self._workers -= 1
-                self._program.ask(self.wake)
+                self._program.ask(left)
+
+        def left() -> None:
+            self._workers -= 1
+            if self._let_go is not None and self._let_go is not let_go:
+                # Busy when the next turn began, which counted on it: that needs another one.
+                self._hire(self._let_go)
+            self.wake()
 
         for number in range(self._workers, self._threads):
             self._workers += 1
