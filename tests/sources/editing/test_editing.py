@@ -653,3 +653,32 @@ def test_a_damaged_database_is_read_row_by_row_and_comes_out_whole(tmp_path):
     with closing(sqlite3.connect(out)) as base:
         assert base.execute("pragma integrity_check").fetchone() == ("ok",)
     assert len(rows(out)) == report.messages
+
+
+def test_a_database_of_many_pages_becomes_another_container_message_by_message(tmp_path):
+    """Its pages are read in pieces, and several of those are at hand at once."""
+    path = next(CONTAINERS["db3"](tmp_path, SENT).glob("*.db3"))
+    rows_of_a_page = [
+        (number, bytes([0, 1, 0, 0]) + number.to_bytes(3000)) for number in range(1600)
+    ]
+    with closing(sqlite3.connect(path)) as base:
+        topic = base.execute("select id from topics where name = '/imu'").fetchone()
+        topic = topic or base.execute("select id from topics where name not like '/tf%'").fetchone()
+        base.execute("delete from messages")
+        base.executemany(
+            "insert into messages (topic_id, timestamp, data) values (?, ?, ?)",
+            [(topic[0], START + number, data) for number, data in rows_of_a_page],
+        )
+        base.commit()
+        assert base.execute("pragma page_count").fetchone()[0] > 4 * 256
+    out = tmp_path / "out.mcap"
+
+    edit([str(path)], out, Edits())
+
+    with out.open("rb") as file:
+        read = [
+            (log, one.data)
+            for *_, one in SeekingReader(file).iter_messages()
+            for log in [one.log_time]
+        ]
+    assert read == [(START + number, data) for number, data in rows_of_a_page]

@@ -3,6 +3,7 @@
 import sqlite3
 from collections.abc import Iterator, Mapping
 from contextlib import suppress
+from dataclasses import replace
 from pathlib import Path
 from typing import Any, Final
 from urllib.parse import quote
@@ -73,7 +74,8 @@ class SqliteTape:
         """Its rows, in the order they were recorded."""
         for batch in self._base.batches(list(self.channels)):
             if len(batch):
-                yield _Rows(batch, self._unpacks)
+                # Kept while further ones are read, into the same memory.
+                yield _Rows(replace(batch, buffer=batch.buffer.copy()), self._unpacks)
 
 
 class _Rows:
