@@ -689,8 +689,13 @@ static int put(Link *link, int64_t stamp, int64_t origin, Pose *pose) {
     if (!(1.0 - ROUNDING < square && square < 1.0 + ROUNDING && n[0] + n[1] + n[2] < HUGE_VAL))
         return 0;
     if (link->is_static || link->mixed || link->borrowed || link->origins != Py_None
-        || link->origin != origin || link->limit < 0 || link->records == NULL
-        || !make_room(link, stamp) || !read_records(link, PyBUF_WRITABLE, &view))
+        || link->origin != origin || link->limit < 0 || link->records == NULL)
+        return 0;
+    /* Making room calls Python, whose collector may run code that gives the link other records. */
+    PyObject *records_held = Py_NewRef(link->records);
+    const int has_room = make_room(link, stamp);
+    Py_DECREF(records_held);
+    if (!has_room || !read_records(link, PyBUF_WRITABLE, &view))
         return 0;
     char *records = view.buf;
     const int64_t newest = link->newest_stamp;
