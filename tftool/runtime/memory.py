@@ -9,6 +9,7 @@ import os
 from collections.abc import Callable, Mapping
 from typing import Final
 
+from tftool.errors import UsageError
 from tftool.frames.buffer import Buffer
 
 MAX_BYTES: Final = 512 << 20
@@ -25,9 +26,21 @@ Say = Callable[[str], object]
 
 
 def allowed(environment: Mapping[str, str] = os.environ) -> int:
-    """How many bytes a buffer's samples may take: as the environment says, else `MAX_BYTES`."""
+    """How many bytes a buffer's samples may take: as the environment says, else `MAX_BYTES`.
+
+    Raises:
+        UsageError: If the environment names no number of megabytes.
+    """
     given = environment.get(VARIABLE, "")
-    return int(given) << 20 if given.isdecimal() and 0 < int(given) < 1 << 40 else MAX_BYTES
+    if not given:
+        return MAX_BYTES
+    megabytes = int(given) if given.isdecimal() and len(given) < 10 else 0
+    if not megabytes:
+        raise UsageError(
+            f"{VARIABLE}={given[:40]!r} is no number of megabytes: set it to {MAX_BYTES >> 20}, "
+            "or unset it."
+        )
+    return megabytes << 20
 
 
 class MemoryBound:
