@@ -15,6 +15,9 @@ Duration: TypeAlias = int
 LATEST: Stamp = 0
 """In a question: the latest time for which every link of the chain has data."""
 
+LAST_STAMP: Stamp = 2**63 - 1
+"""The last moment there is: stamps have 64 bits."""
+
 NANOSECONDS = 1_000_000_000
 """Nanoseconds in a second."""
 

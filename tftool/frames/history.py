@@ -23,7 +23,7 @@ from typing import TYPE_CHECKING, Any, Final, Literal, TypeAlias, cast
 
 from tftool.frames.native import IS_NATIVE
 from tftool.geometry import poses, quaternions
-from tftool.stamps import Duration, Stamp
+from tftool.stamps import LAST_STAMP, Duration, Stamp
 
 Sample: TypeAlias = tuple[float, float, float, float, float, float, float]
 """A pose: x, y, z in metres and a unit quaternion x, y, z, w of tf2's sign."""
@@ -72,7 +72,6 @@ STORED: Final = 2
 PARENT_CHANGED: Final = 3
 NEEDS_CHECK: Final = 4
 
-_LATEST_STAMP: Final = 2**63 - 1
 
 _pack: Final = struct.Struct("q7d").pack
 _unpack_pose: Final = struct.Struct("7d").unpack_from
@@ -192,7 +191,7 @@ class History(Fields):
     def __init__(self, limit: Duration) -> None:
         self.is_static: Literal[False] = False
         # More than any two stamps can be apart.
-        self.limit: Duration = min(limit, _LATEST_STAMP)
+        self.limit: Duration = min(limit, LAST_STAMP)
         self.period: Duration = 1
         self.clear()
 
@@ -423,7 +422,7 @@ class History(Fields):
             else:
                 self.start = start
                 self.oldest_stamp = oldest
-                self._prune_after = prune_after if prune_after < _LATEST_STAMP else _LATEST_STAMP
+                self._prune_after = prune_after if prune_after < LAST_STAMP else LAST_STAMP
         records = self._own() if self._borrowed else self.records
         if IS_NATIVE:
             # In place of the room that the kernel makes behind.
@@ -705,7 +704,7 @@ class History(Fields):
         """Have the samples begin at a record."""
         self.start = start
         self.oldest_stamp = oldest = self._stamp(start)
-        self._prune_after = min(oldest + self.limit, _LATEST_STAMP)
+        self._prune_after = min(oldest + self.limit, LAST_STAMP)
 
 
 def _copied(records: Words, start: int, stop: int) -> "array[int]":

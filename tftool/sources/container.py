@@ -16,8 +16,6 @@ from tftool.stamps import Stamp
 MOST_STREAMS: Final = 65_536
 """Streams of one recording; those beyond are left out, and that is told."""
 
-LATEST_STAMP: Final = 2**63 - 1
-
 TRANSIENT_LOCAL: Final = "transient_local"
 
 _OFFER = re.compile(r"(durability|reliability):\s*([\w\"']+)")

@@ -10,7 +10,7 @@ from typing import Any, Final, NamedTuple
 
 from tftool.errors import MalformedMessage
 from tftool.interfaces.classes import Interfaces
-from tftool.stamps import NANOSECONDS, Stamp
+from tftool.stamps import LAST_STAMP, NANOSECONDS, Stamp
 from tftool.wire.codec import Codec
 from tftool.wire.layouts import CDR, ROS1
 
@@ -27,7 +27,6 @@ class Shaped(NamedTuple):
 Decoder = Callable[[bytes], Iterable[Shaped]]
 
 _FOXGLOVE: Final = {"FrameTransform": False, "FrameTransforms": True}
-_MOST_STAMP: Final = 2**63 - 1
 _DOUBLE = struct.Struct("<d")
 
 
@@ -177,7 +176,7 @@ def _of_protobuf(payload: bytes) -> Shaped:
 
 
 def _checked(stamp: int) -> Stamp:
-    if not -_MOST_STAMP <= stamp <= _MOST_STAMP:
+    if not -LAST_STAMP <= stamp <= LAST_STAMP:
         raise ValueError(f"its stamp {stamp} ns does not fit 64 bits")
     return stamp
 

@@ -16,7 +16,6 @@ from tftool.errors import InputError
 from tftool.sources.columns import Batch, in_order, words_at
 from tftool.sources.compressed import Ahead
 from tftool.sources.container import (
-    LATEST_STAMP,
     MOST_STREAMS,
     File,
     MessageStream,
@@ -42,6 +41,7 @@ from tftool.sources.mcap_records import (
     strings_at,
     text_at,
 )
+from tftool.stamps import LAST_STAMP
 
 _FOOTER: Final = 0x02
 _SCHEMA: Final = 0x03
@@ -158,7 +158,7 @@ class Mcap:
                 self.counts[self._numbers[channel]] += count
         if not has_statistics:
             span = min(one.start for one in chunks), max(one.end for one in chunks)
-        self.start, self.end = (min(moment, LATEST_STAMP) for moment in span)
+        self.start, self.end = (min(moment, LAST_STAMP) for moment in span)
         self._chunks = sorted(chunks, key=lambda one: one.place)
         if not has_statistics:
             for chunk in chunks:
@@ -270,8 +270,8 @@ class Mcap:
         moments = [moment for one in self._chunks for moment in (one.start, one.end) if moment]
         moments += [f(self._loose.log_times) for f in (min, max) if self._loose.log_times]
         if moments:
-            self.start = min(min(moments), LATEST_STAMP)
-            self.end = min(max(moments), LATEST_STAMP)
+            self.start = min(min(moments), LAST_STAMP)
+            self.end = min(max(moments), LAST_STAMP)
 
     def _take_chunk(self, body: int, length: int, cut: bool) -> None:
         head = self._file.up_to(body, min(length, 256))
@@ -291,7 +291,7 @@ class Mcap:
         found = chunk.walked = WalkedMessages()
         data = bytes(unpacked_piece(self._file, chunk, self._note))
         numbers, counts = self._numbers, self.counts
-        low, high = LATEST_STAMP, 0
+        low, high = LAST_STAMP, 0
         try:
             for code, first, last in records_in(data):
                 if code == MESSAGE:

@@ -13,8 +13,9 @@ import numpy as np
 
 from tftool.errors import InputError
 from tftool.sources.columns import Batch
-from tftool.sources.container import LATEST_STAMP, File
+from tftool.sources.container import File
 from tftool.sources.contract import Indexes, Stamps
+from tftool.stamps import LAST_STAMP
 from tftool.wire.native import SCAN
 from tftool.wire.rows import Bytes, rows_of
 
@@ -77,7 +78,7 @@ class WalkedMessages:
     def append(self, channel: int, log_time: int, place: int) -> None:
         """Take one: its channel, when it was received, and where its record begins."""
         self.channels.append(channel)
-        self.log_times.append(min(log_time, LATEST_STAMP))
+        self.log_times.append(min(log_time, LAST_STAMP))
         self.places.append(place)
 
 
@@ -143,7 +144,7 @@ class SingleMessages:
         if whole > len(piece):
             piece += self._file.at(place + len(piece), whole - len(piece))
             self._guess = min(max(self._guess, whole + 64), 65_536)
-        self._log_times.append(min(log_time, LATEST_STAMP))
+        self._log_times.append(min(log_time, LAST_STAMP))
         self._owners.append(channel)
         self._pieces.append(piece[:whole])
         self._bytes += whole

@@ -206,6 +206,27 @@ def test_what_the_buffer_remembers_is_told_at_even_steps_and_fewer_for_many_fram
     assert protocol.moments([]) == []
 
 
+def test_trails_leave_out_what_is_too_far_away_to_be_rounded():
+    far = Buffer()
+    for second, x in ((1001, 1e305), (1002, 2.0)):
+        far.set_transform(
+            TransformStamped(seconds(second), "world", "turtle", Transform((x, 0.0, 0.0))), "me"
+        )
+    asked = TrailsRequest("world", ("turtle",), 1.0, 2.0, 2)
+
+    told = json.loads(protocol.encode_trails(far, EPOCH, asked), parse_constant=pytest.fail)
+
+    assert told["places"] == {"turtle": [None, [2.0, 0.0, 0.0]]}
+
+
+def test_trails_to_a_moment_that_no_stamp_holds_are_answered():
+    asked = TrailsRequest("world", ("turtle",), 1.0, 1e12, 2)
+
+    told = json.loads(protocol.encode_trails(buffer(), EPOCH, asked))
+
+    assert told["places"] == {"turtle": [[1.0, 0.0, 0.0], None]}
+
+
 def test_trails_are_places_at_even_moments_and_null_where_none_is_known():
     asked = TrailsRequest("world", ("turtle", "camera", "nobody"), 1.0, 4.0, 4)
 

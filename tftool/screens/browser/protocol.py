@@ -43,7 +43,7 @@ from tftool.errors import InputError, TransformException
 from tftool.frames.buffer import Buffer
 from tftool.frames.sample import FrameInfo, Snapshot
 from tftool.geometry.conversions import rpy_from_quaternion
-from tftool.stamps import NANOSECONDS, Stamp, display
+from tftool.stamps import LAST_STAMP, NANOSECONDS, Stamp, display
 from tftool.views.forest import grow
 
 MAGIC = b"TFP1"
@@ -233,7 +233,7 @@ def since(epoch: Stamp, stamp: Stamp) -> float:
 
 def stamp_at(epoch: Stamp, moment: float) -> Stamp:
     """Turn seconds since the epoch into a stamp; never 0, which would mean the latest."""
-    return max(1, epoch + round(moment * NANOSECONDS))
+    return min(max(1, epoch + round(moment * NANOSECONDS)), LAST_STAMP)
 
 
 def reach(frames: Iterable[FrameInfo]) -> tuple[Stamp, Stamp] | None:
@@ -400,8 +400,11 @@ def encode_trails(buffer: Buffer, epoch: Stamp, asked: TrailsRequest) -> str:
             path = buffer.lookup_transforms(asked.fixed, frame, stamps, missing="nan")
         except TransformException:
             continue
-        known = path.valid & np.isfinite(path.translations).all(axis=1)
-        rows = np.round(path.translations, _TRAIL_DIGITS).tolist()
+        # A place that is very far away has no digits behind the point to round to.
+        with np.errstate(over="ignore"):
+            rounded = np.round(path.translations, _TRAIL_DIGITS)
+        known = path.valid & np.isfinite(rounded).all(axis=1)
+        rows = rounded.tolist()
         for at in np.flatnonzero(known).tolist():
             places[frame][at] = rows[at]
     told = {"type": "trails", "fixed": asked.fixed, "from": asked.first, "to": asked.last}

@@ -8,7 +8,6 @@ from dataclasses import dataclass
 from tftool.errors import InputError
 from tftool.frames.sample import TransformStamped
 from tftool.frames.tree import stripped
-from tftool.sources.container import LATEST_STAMP
 from tftool.sources.editing.changes import (
     LAYOUTS,
     Changer,
@@ -20,7 +19,7 @@ from tftool.sources.editing.outputs import EditedFile
 from tftool.sources.editing.tape import Taken, Tape
 from tftool.sources.writing.channel import Channel
 from tftool.sources.writing.ros2 import TRANSFORMS, ros2_channel
-from tftool.stamps import Stamp
+from tftool.stamps import LAST_STAMP, Stamp
 from tftool.wire.splicing import TransformRow, TransformRows, encode_rows
 
 
@@ -130,7 +129,7 @@ class StaticHeads:
         if not self.wanted:
             return
         edits = self._edits
-        start, end = max(start, self._start), LATEST_STAMP
+        start, end = max(start, self._start), LAST_STAMP
         if edits.split_every:
             start = self._start + number * edits.split_every
             end = start + edits.split_every - 1

@@ -8,14 +8,14 @@ from typing import Any, Final
 
 from tftool.errors import InputError
 from tftool.sources.compressed import unpack, unpack_beginning
-from tftool.sources.container import LATEST_STAMP, File
+from tftool.sources.container import File
 from tftool.sources.editing.pieces import Piece
 from tftool.sources.editing.tape import Extras, Taken
 from tftool.sources.find import MCAP_MAGIC
 from tftool.sources.writing import mcap as format
 from tftool.sources.writing.channel import Channel
 from tftool.sources.writing.mcap import ChunkEntry
-from tftool.stamps import Stamp
+from tftool.stamps import LAST_STAMP, Stamp
 
 _U16, _U32, _U64 = struct.Struct("<H"), struct.Struct("<I"), struct.Struct("<Q")
 _MESSAGE_HEAD = struct.Struct("<HIQQ")
@@ -249,8 +249,8 @@ class McapChunk:
         self._packed = min(packed, end - self._data)
         if packed != self._packed:
             self._cut = True
-        self.start: Stamp = min(start, LATEST_STAMP)
-        self.end: Stamp = min(stop, LATEST_STAMP)
+        self.start: Stamp = min(start, LAST_STAMP)
+        self.end: Stamp = min(stop, LAST_STAMP)
         tape.style["chunked"] = True
         tape.style["compression"] = self.method or "none"
         tape.style["with_chunk_crc"] = bool(self._crc)
@@ -376,7 +376,7 @@ def _message(data: bytes, first: int, last: int) -> Taken:
         raise struct.error("a message's record is shorter than its head")
     channel, sequence, log_time, publish_time = _MESSAGE_HEAD.unpack_from(data, first)
     payload = data[first + _MESSAGE_HEAD.size : last]
-    return Taken(channel, min(log_time, LATEST_STAMP), payload, publish_time, sequence)
+    return Taken(channel, min(log_time, LAST_STAMP), payload, publish_time, sequence)
 
 
 def _records(data: bytes) -> Iterator[tuple[int, int, int]]:

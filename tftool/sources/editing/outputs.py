@@ -9,7 +9,7 @@ from typing import Any, Final
 
 from tftool.errors import InputError, TftoolError, UsageError
 from tftool.interfaces.schema import full_name
-from tftool.sources.container import LATEST_STAMP, TRANSIENT_LOCAL, offers_of
+from tftool.sources.container import TRANSIENT_LOCAL, offers_of
 from tftool.sources.editing.mcap_tape import McapChunk, McapTape
 from tftool.sources.editing.rosbag1_tape import Rosbag1Chunk, Rosbag1Tape
 from tftool.sources.editing.tape import Block, Taken, Tape
@@ -23,7 +23,7 @@ from tftool.sources.writing.recording import library_name
 from tftool.sources.writing.rosbag1 import CHUNK_SIZE as BAG_CHUNK_SIZE
 from tftool.sources.writing.rosbag1 import Rosbag1Writer
 from tftool.sources.writing.sqlite import SqliteWriter
-from tftool.stamps import Stamp
+from tftool.stamps import LAST_STAMP, Stamp
 
 _LARGEST_CHUNK: Final = 1 << 26
 _HEAD = struct.Struct("<qqQ")
@@ -91,7 +91,7 @@ class EditedFile:
         self.counts: Counter[int] = Counter()
         self.digests: dict[tuple[str, str], int] = {}
         self.copied: dict[int, Copied] = {}
-        self.start: Stamp = LATEST_STAMP
+        self.start: Stamp = LAST_STAMP
         self.end: Stamp = 0
         self.left_out: dict[str, str] = {}
         self._mcap: McapWriter | None = None

@@ -7,7 +7,6 @@ import numpy as np
 
 from tftool.errors import TransformException, UsageError
 from tftool.geometry.rigid import Transform
-from tftool.sources.container import LATEST_STAMP
 from tftool.sources.editing.changes import (
     Changer,
     Edits,
@@ -17,7 +16,7 @@ from tftool.sources.editing.changes import (
     fits,
 )
 from tftool.sources.recording import Recording
-from tftool.stamps import Stamp
+from tftool.stamps import LAST_STAMP, Stamp
 
 
 def changer_for(edits: Edits, recordings: Sequence[Recording]) -> Changer:
@@ -81,7 +80,7 @@ def _window(edits: Edits, recordings: Sequence[Recording]) -> Window | None:
     if not edits.cuts:
         return None
     low = edits.start if edits.start is not None else 0
-    high = edits.end if edits.end is not None else LATEST_STAMP
+    high = edits.end if edits.end is not None else LAST_STAMP
     if high < low:
         raise UsageError("--to lies before --from.")
     moving = [(one, edge) for one in recordings for edge in one.edges if not edge.static]
@@ -102,7 +101,7 @@ def _window(edits: Edits, recordings: Sequence[Recording]) -> Window | None:
     if edits.by_record_time or not offsets:
         return Window(low, high, None, spans if edits.by_record_time else {})
     offset = int(np.median(np.concatenate(offsets)))
-    end = high if high == LATEST_STAMP else high + offset
+    end = high if high == LAST_STAMP else high + offset
     start = 0 if edits.start is None else low + offset
     return Window(start, end, (low, high), spans)
 
