@@ -3,6 +3,7 @@
 import pytest
 
 from tests.ros.spinning import spin
+from tftool.ros.rclpy.context import Context
 
 
 def test_a_coroutine_callback_may_await_an_answer(node):
@@ -179,6 +180,64 @@ def test_an_executor_can_be_shut_down(node):
     assert executor.get_nodes() == []
     with pytest.raises(ShutdownException):
         executor.spin_once(timeout_sec=0.0)
+
+
+class Counting(Context):
+    """Knows who is to be told of its end."""
+
+    def __init__(self):
+        super().__init__()
+        self.told = []
+
+    def on_change(self, callback):
+        stop = super().on_change(callback)
+        self.told.append(callback)
+
+        def forget():
+            self.told.remove(callback)
+            stop()
+
+        return forget
+
+
+def test_an_executor_that_is_shut_down_is_let_go_by_its_context(ros_runtime):
+    from rclpy.executors import SingleThreadedExecutor
+
+    context = Counting()
+    executor = SingleThreadedExecutor(context=context)
+    assert len(context.told) == 1
+    executor.shutdown()
+    executor.shutdown()
+
+    assert context.told == []
+
+
+def test_an_executor_without_nodes_is_woken_by_its_own_end(ros_runtime):
+    import rclpy
+    from rclpy.executors import SingleThreadedExecutor
+
+    rclpy.init()
+    executor = SingleThreadedExecutor()
+    spinning = ros_runtime.start(executor.spin)
+    ros_runtime.sleep(0.5)
+    assert spinning.status is None
+    executor.shutdown()
+    ros_runtime.sleep(0.5)
+
+    assert spinning.status == 0
+
+
+def test_to_wait_for_a_message_in_another_context_leaves_nothing_there(ros_runtime):
+    import rclpy
+    from rclpy.wait_for_message import wait_for_message
+    from std_msgs.msg import Int32
+
+    rclpy.init(context=(context := Counting()))
+    node = rclpy.create_node("probe", context=context)
+    before = list(context.told)
+
+    assert wait_for_message(Int32, node, "numbers", time_to_wait=0.5) == (False, None)
+    assert (context.told, node.executor) == (before, None)
 
 
 def test_a_loop_that_only_polls_sees_time_pass(node, ros_runtime):

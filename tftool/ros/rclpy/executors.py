@@ -43,7 +43,7 @@ class Executor:
         self._over = False
         self.spins_once = False
         self._failure: BaseException | None = None
-        self._context.on_change(self._wake_from_anywhere)
+        self._leave_context = self._context.on_change(self._wake_from_anywhere)
 
     @property
     def context(self) -> Context:
@@ -97,7 +97,10 @@ class Executor:
 
     def shutdown(self, timeout_sec: float | None = None) -> bool:
         """Serve no node any more."""
-        self._over = True
+        if not self._over:
+            self._over = True
+            self._leave_context()
+            self._wake_from_anywhere()
         for seat in list(self._seats):
             self.leave(seat)
         return True
@@ -413,7 +416,10 @@ def wait_for(seat: NodeSeat, future: Future, timeout_sec: float | None) -> None:
     """Block until a future is done, serving the node meanwhile if no executor does."""
     executor = seat.executor or executor_of(seat.program)
     if seat.executor is None and executor.context is not seat.context:
-        executor = SingleThreadedExecutor(context=seat.context)
+        with SingleThreadedExecutor(context=seat.context) as temporary:
+            temporary.serve(seat)
+            temporary.spin_until_future_complete(future, timeout_sec)
+        return
     added = executor.serve(seat)
     try:
         executor.spin_until_future_complete(future, timeout_sec)
