@@ -73,3 +73,25 @@ def test_a_rate_paces_a_loop(node, ros_runtime):
     rate.destroy()
     with pytest.raises(Exception, match="destroyed"):
         rate.sleep()
+
+
+def test_a_rate_that_is_given_up_is_no_longer_its_nodes(node):
+    rate = node.create_rate(4)
+    rate.destroy()
+
+    assert not node.destroy_rate(rate)
+
+
+def test_the_end_of_a_node_ends_its_rates_and_wakes_who_sleeps_by_them(node, ros_runtime):
+    asleep, idle = node.create_rate(1e-6), node.create_rate(4)
+    sleeper = ros_runtime.start(asleep.sleep)
+    ros_runtime.sleep(0.5)
+    assert sleeper.status is None
+    node.destroy_node()
+    ros_runtime.sleep(0.5)
+
+    assert sleeper.status == 0
+    assert not node.destroy_rate(asleep)
+    for rate in (asleep, idle):
+        with pytest.raises(RuntimeError, match="destroyed"):
+            rate.sleep()

@@ -276,15 +276,12 @@ class Node(NodeGraph, NodeParameters):
 
     def create_rate(self, frequency: float, clock: Clock | None = None) -> Rate:
         """Something to pace a loop with."""
-        rate = Rate(frequency, self._tftool.program, self._context)
-        self._tftool.rates.add(rate)
-        return rate
+        return Rate(frequency, self._tftool)
 
     def destroy_rate(self, rate: Rate) -> bool:
         """Give a rate up; whether it was one of this node."""
         if rate not in self._tftool.rates:
             return False
-        self._tftool.rates.remove(rate)
         rate.destroy()
         return True
 

@@ -126,6 +126,8 @@ class NodeSeat:
     def leave(self) -> None:
         """Withdraw everything, from the program's thread."""
         if not self._destroyed:
+            for rate in tuple(self.rates):
+                rate.destroy()
             self.program.ask(self.withdraw)
             if self in self.program.nodes:
                 self.program.nodes.remove(self)

@@ -350,16 +350,18 @@ class JumpHandle:
 class Rate:
     """Sleeps so that a loop runs so many times a second."""
 
-    def __init__(self, frequency: float, owner: Any, context: Any) -> None:
+    def __init__(self, frequency: float, seat: Any) -> None:
         if frequency <= 0:
             raise ValueError("frequency must be greater than 0")
         self._period = int(S_TO_NS / frequency)
-        self._program = owner
-        self._due = owner.clock.now() + self._period
-        self._context = context
-        self._sleep = _Sleep(owner)
-        self._stop = context.on_change(self._sleep.end)
+        self._program = seat.program
+        self._due = self._program.clock.now() + self._period
+        self._context = seat.context
+        self._sleep = _Sleep(self._program)
+        self._stop = self._context.on_change(self._sleep.end)
         self._over = False
+        self._siblings = seat.rates
+        self._siblings.add(self)
 
     def sleep(self) -> None:
         """Block until the next moment of the grid.
@@ -387,5 +389,6 @@ class Rate:
         """Give it up, and wake who sleeps."""
         if not self._over:
             self._over = True
+            self._siblings.discard(self)
             self._stop()
             self._sleep.end()
