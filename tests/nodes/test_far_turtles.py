@@ -101,6 +101,18 @@ def test_of_a_crowd_only_the_first_are_listened_to(world):
     assert sum(topic.near_subscribers for topic in world.topics().values()) == MOST
 
 
+def test_one_that_has_ended_listens_to_nobody(world):
+    far = FarTurtles(world)
+    first = world.topic("turtle1/pose", Pose2D)
+    first.publish(pose(1.0))
+    far.close()
+    first.publish(pose(2.0))
+    world.topic("turtle2/pose", Pose2D).publish(pose(3.0))
+
+    assert {name: one.pose.x for name, one in far.turtles.items()} == {"turtle1": 1.0}
+    assert all(topic.near_subscribers == 0 for topic in world.topics().values())
+
+
 def test_another_simulator_begins_on_an_empty_sheet(world):
     far = FarTurtles(world)
     topic = world.topic("turtle1/pose", Pose2D)

@@ -77,11 +77,11 @@ class FarTurtles(Node):
         self.background: Color = BACKGROUND
         self.revision = 0
         self._known: dict[str, FarTurtle] = {}
-        self._subscriptions: dict[str, Callable[[], None]] = {}
+        self._listened_to: set[str] = set()
         self._drawing = FarDrawing(self.trail)
         # Turtles whose strokes their simulator tells.
         self._told: frozenset[str] = frozenset()
-        world.watch(self._look, name)
+        self._until_end(world.watch(self._look, name))
         self._look()
 
     @property
@@ -145,14 +145,14 @@ class FarTurtles(Node):
     def _look(self) -> None:
         pose = message_class(Pose2D)
         for name, topic in tuple(self.world.topics().items()):
-            if len(self._subscriptions) >= MOST:
+            if len(self._listened_to) >= MOST:
                 return
-            if name.endswith(_POSE) and topic.kind is pose and name not in self._subscriptions:
+            if name.endswith(_POSE) and topic.kind is pose and name not in self._listened_to:
                 turtle = name.removesuffix(_POSE)
                 # Noted first: to subscribe may call this again.
-                self._subscriptions[name] = lambda: None
+                self._listened_to.add(name)
                 poses = self.world.value_topic(topic, Pose2D)
-                self._subscriptions[name] = poses.subscribe(self._taker(turtle), self.name)
+                self._until_end(poses.subscribe(self._taker(turtle), self.name))
 
     def _taker(self, name: str) -> Callable[[Pose2D], None]:
         def take(pose: Pose2D) -> None:
