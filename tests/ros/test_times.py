@@ -25,6 +25,7 @@ def test_times_and_durations_calculate_and_compare(ros_runtime):
     assert Duration(seconds=1) + Duration(seconds=2) == Duration(seconds=3)
     assert Duration(seconds=3) - Duration(seconds=2) == Duration(seconds=1)
     assert (Duration(seconds=1) * 2).nanoseconds == 2_000_000_000
+    assert str(Duration(seconds=1) * float("inf")) == "Infinite"
     assert Duration.from_msg(Duration(seconds=-1.5).to_msg()) == Duration(seconds=-1.5)
     assert str(Duration(nanoseconds=3)) == "3 nanoseconds"
     assert repr(Duration(nanoseconds=3)) == "Duration(nanoseconds=3)"
@@ -50,6 +51,8 @@ def test_times_and_durations_calculate_and_compare(ros_runtime):
         ),
         (lambda t, d, c: t.Time() < 3, TypeError, "Can't compare"),
         (lambda t, d, c: d.Duration() < 3, TypeError, "Can't compare"),
+        (lambda t, d, c: d.Duration() * float("nan"), ValueError, "Can't multiply"),
+        (lambda t, d, c: d.Duration() * float("-inf"), ValueError, "Can't multiply"),
         (lambda t, d, c: t.Time() + t.Time(), TypeError, "unsupported operand"),
         (lambda t, d, c: c.Clock(clock_type=1), TypeError, "ClockType"),
     ],

@@ -1,6 +1,7 @@
 """rclpy's times, durations, clocks and rates, on the world's clock."""
 
 import asyncio
+import math
 from enum import IntEnum
 from typing import Any
 
@@ -70,6 +71,10 @@ class Duration:
         return Duration(nanoseconds=self._nanoseconds - _length(other))
 
     def __mul__(self, factor: float) -> "Duration":
+        if isinstance(factor, float) and not math.isfinite(factor):
+            if factor > 0:
+                return Infinite
+            raise ValueError(f"Can't multiply duration with {factor}")
         return Duration(nanoseconds=self._nanoseconds * factor)
 
     def to_msg(self) -> Any:
