@@ -197,6 +197,13 @@ def test_a_folder_without_package_xml_is_named(tmp_path):
         Workspace(tmp_path).package("robot")
 
 
+def test_the_folder_named_is_the_packages_and_not_that_of_its_modules(tmp_path):
+    package(tmp_path / "src" / "robot" / "robot", node__py="")
+
+    with pytest.raises(UsageError, match=r"src.robot' has no package\.xml"):
+        Workspace(tmp_path).package("robot")
+
+
 def test_a_packages_own_interfaces_can_be_imported(tmp_path):
     folder = package(
         tmp_path / "my_shapes", package__xml="<package><name>my_shapes</name></package>"

@@ -3,6 +3,7 @@
 import sys
 from collections.abc import Iterator
 from difflib import get_close_matches
+from itertools import chain
 from pathlib import Path
 
 from tftool.errors import InputError, UsageError
@@ -83,7 +84,9 @@ class Workspace:
         """A folder of that name with Python in it that would be a package, had it a package.xml."""
         for root in self._roots():
             for folder in _folders(root, _DEPTH):
-                if folder.name == name and any(folder.glob("*.py")):
+                if folder.name == name and any(
+                    chain(folder.glob("*.py"), folder.glob(f"{name}/*.py"))
+                ):
                     return folder
         return None
 
