@@ -144,6 +144,13 @@ def test_what_is_true_holds(expectation):
             3,
         ),
         (
+            "{at: 3 s, rate: posst, above: 1 Hz}",
+            "at 3 s: rate of posst above 1 Hz",
+            'LookupException: frame "posst" does not exist. '
+            "No transform of 'posst' has come yet; did you mean 'post'?",
+            3,
+        ),
+        (
             "{at: 3 s, frame: post, static: no, parent: world, broadcaster: me}",
             "at 3 s: frame post is dynamic, hangs under world, comes from me",
             "static, under map, from static",

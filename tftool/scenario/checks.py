@@ -43,7 +43,10 @@ class AnswerCheck(ABC):
 
     def refused(self, error: TransformException) -> Judged:
         """Judge that there is no answer."""
-        return Judged(False, f"{type(error).__name__}: {error}{did_you_mean(error)}")
+        # Some of tf2's sentences end in a full stop and a blank, others in neither.
+        hint = did_you_mean(error)
+        said = f"{str(error).rstrip(' .')}. {hint}" if hint else str(error)
+        return Judged(False, f"{type(error).__name__}: {said}")
 
     @abstractmethod
     def __str__(self) -> str: ...

@@ -85,7 +85,8 @@ class ScenarioWorld:
         """
         snapshot = self.world.buffer.snapshot(self.now)
         if name not in snapshot:
-            raise LookupException(f'frame "{name}" does not exist', frame=name)
+            names = [info.frame for info in snapshot.frames]
+            raise LookupException(f'frame "{name}" does not exist', frame=name, known=names)
         return snapshot.frame(name)
 
     def roots(self) -> tuple[str, ...]:
