@@ -3,12 +3,13 @@
 import asyncio
 import subprocess
 import sys
+from contextlib import contextmanager
 from pathlib import Path
 
 import pytest
 
 import tftool
-from tftool.errors import NodeFailed, ScenarioError, UsageError
+from tftool.errors import NodeFailed, ScenarioError, TftoolError, UsageError
 from tftool.messages import Pose2D
 from tftool.runtime.clock import SimClock, run
 from tftool.runtime.node import Node
@@ -99,16 +100,27 @@ def test_an_endless_play_ends_when_the_world_is_stopped():
     assert clock.elapsed() == seconds(5)
 
 
-TWO_SIMULATORS = (
-    "duration: 5 s\nnodes:\n  - turtlesim: {name: first}\n  - turtlesim: {name: second}\n"
-    "expect:\n  - {at: 1 s, turtles: [turtle1]}\n"
-)
+ONE_SIMULATOR = "duration: 5 s\nnodes: [turtlesim]\nexpect:\n  - {at: 1 s, turtles: [turtle1]}\n"
+
+
+class Failing(Node):
+    """Fails at once."""
+
+    async def run(self):
+        raise TftoolError("its port is taken")
+
+
+@contextmanager
+def with_one_that_fails(world):
+    """A scenario's world, with a node in it that fails."""
+    Failing(world, "second")
+    yield
 
 
 def test_a_node_that_fails_is_part_of_the_verdict():
-    verdict = run_scenario(parse(TWO_SIMULATORS, "s.yaml"))
+    verdict = run_scenario(parse(ONE_SIMULATOR, "s.yaml"), watch=with_one_that_fails)
 
-    assert verdict.failure.startswith("node 'second' failed: TftoolError: ")
+    assert verdict.failure.startswith("node 'second' failed: TftoolError: its port is taken (")
     assert verdict.lasted == 0
     assert [one.reached for one in verdict.outcomes] == [False]
     assert not verdict.ok
@@ -116,7 +128,8 @@ def test_a_node_that_fails_is_part_of_the_verdict():
 
 def test_a_node_that_fails_ends_the_play_with_its_name():
     clock = SimClock()
-    played = build(parse(TWO_SIMULATORS, "s.yaml"), clock)
+    played = build(parse(ONE_SIMULATOR, "s.yaml"), clock)
+    Failing(played.world, "second")
 
     with pytest.raises(NodeFailed, match="node 'second' failed"):
         run(clock, played.live())
