@@ -158,6 +158,12 @@ def test_what_is_true_holds(expectation):
         ),
         ("{at: 3 s, frame: post, exists: no}", "at 3 s: frame post does not exist", None, 3),
         ("{at: 3 s, frame: bat}", "at 3 s: frame bat exists", "no such frame", 3),
+        (
+            "{at: 3 s, frame: posst}",
+            "at 3 s: frame posst exists",
+            "no such frame; did you mean 'post'?",
+            3,
+        ),
         ("{at: 3 s, frame: map, static: yes}", "at 3 s: frame map is static", "a root", 3),
         ("{at: 3 s, trees: 1}", "at 3 s: number of trees is 1", "2", 3),
         ("{at: 3 s, roots: []}", "at 3 s: roots are none", "map, world", 3),

@@ -76,6 +76,18 @@ def test_nothing_is_refused(tmp_path):
         find(missing)
 
 
+def test_a_path_that_holds_one_folder_further_down_is_told(tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    wanted = tmp_path / "src" / "frames" / "scenarios" / "follow.yaml"
+    wanted.parent.mkdir(parents=True)
+    wanted.write_text("duration: 1 s")
+
+    with pytest.raises(InputError, match=r"Did you mean 'src/frames/scenarios/follow\.yaml'\?"):
+        find("frames/scenarios/follow.yaml")
+    with pytest.raises(InputError, match=r"folder 'frames/scenarios/lead\.yaml'\.$"):
+        find("frames/scenarios/lead.yaml")
+
+
 def test_a_link_to_nothing_says_where_it_leads(tmp_path):
     (tmp_path / "link").symlink_to(tmp_path / "gone")
 

@@ -6,7 +6,7 @@ the check judges answers and says in words what it expects and what it found.
 
 from abc import ABC, abstractmethod
 from collections.abc import Iterable, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import Any
 
 from tftool.errors import LookupException, TransformException
@@ -156,12 +156,21 @@ class RangeForm(Form):
 
 @dataclass(frozen=True, slots=True)
 class FrameFacts:
-    """What is known of a frame; all None when it is not known at all."""
+    """What is known of a frame; all None when it is not known at all.
+
+    Attributes:
+        exists: Whether it is known.
+        parent: What it hangs from.
+        static: Whether it holds at all times.
+        broadcaster: Who sends it.
+        near: Of one that is not known, a name like it that is; empty without one.
+    """
 
     exists: bool
     parent: str | None = None
     static: bool | None = None
     broadcaster: str | None = None
+    near: str = field(default="", compare=False)
 
 
 @dataclass(frozen=True, slots=True)
@@ -173,7 +182,8 @@ class FrameCheck(AnswerCheck):
     def judge(self, answer: FrameFacts) -> Judged:
         """Compare an answer."""
         if not answer.exists:
-            return Judged(not self.wanted.exists, "no such frame")
+            hint = f"; did you mean '{answer.near}'?" if answer.near else ""
+            return Judged(not self.wanted.exists, f"no such frame{hint}")
         ok = self.wanted.exists
         for key in ("parent", "static", "broadcaster"):
             want = getattr(self.wanted, key)

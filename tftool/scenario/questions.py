@@ -380,7 +380,10 @@ class FrameOf(Subject):
         """Find the answer, now."""
         snapshot = scene.world.buffer.snapshot(scene.now)
         if self.name not in snapshot:
-            return FrameFacts(False)
+            from difflib import get_close_matches
+
+            near = get_close_matches(self.name, [info.frame for info in snapshot.frames], n=1)
+            return FrameFacts(False, near=near[0] if near else "")
         info = snapshot.frame(self.name)
         return FrameFacts(True, info.parent, info.is_static, info.authority)
 

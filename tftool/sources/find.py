@@ -3,6 +3,7 @@
 Only names, sizes and the first bytes are looked at; what reads the source finds out more.
 """
 
+import contextlib
 import glob
 import os
 import re
@@ -88,6 +89,18 @@ def names_a_path(word: str) -> bool:
         return False  # a zero character
 
 
+def _meant(path: Path) -> str:
+    """Where such a path lies one folder further down, as in the src of a workspace; or nothing."""
+    if path.is_absolute() or ".." in path.parts:
+        return ""
+    with contextlib.suppress(OSError):
+        below = [os.path.join(one, path) for one in sorted(os.listdir())]
+        # What cannot be looked into is not it.
+        found = next((one for one in below if os.path.exists(one)), "")
+        return f" Did you mean '{found}'?" if found else ""
+    return ""
+
+
 def find(word: str) -> Found:
     """What a path or a glob names.
 
@@ -102,7 +115,7 @@ def find(word: str) -> Found:
                 return _several(word, matches)
             if path.is_symlink():
                 raise InputError(f"'{word}' is a link to nothing: {os.readlink(path)}")
-            raise InputError(f"There is no file or folder '{word}'.")
+            raise InputError(f"There is no file or folder '{word}'.{_meant(path)}")
         if path.is_dir():
             return _folder(word, path)
         if path.name == METADATA and _is_metadata(path):
