@@ -45,6 +45,19 @@ def test_what_has_not_come_yet_is_told_with_the_wait_that_serves_it():
     assert not found.remedies[1].possible
 
 
+@pytest.mark.parametrize(("hz", "advised"), [(4, True), (50, False)])
+def test_a_higher_rate_is_advised_only_where_the_link_comes_too_seldom(hz, advised):
+    """A wait of 100 ms is met by 10 Hz where nothing arrives late."""
+    made = robot(odometry=False, scans=False)
+    made.moving("odom", "base_link", hz=hz, latency=0.0)
+    made.hears("/scan", "laser", hz=20, latency=0.0)
+
+    found = asked(made, "odom", "laser", 4.005)
+
+    assert found.cause is Cause.LATE
+    assert ("rate" in [remedy.kind for remedy in found.remedies]) is advised
+
+
 def test_waiting_so_long_answers():
     made = robot(odometry=False, scans=False)
     made.moving("odom", "base_link", hz=5, latency=0.25)

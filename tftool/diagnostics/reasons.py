@@ -322,14 +322,16 @@ def _late(known: TraceResult, link: TracedLink, track: Track) -> Reason:
     elif cause is Cause.LATE:
         later = link.latency - (heard.median_latency if heard is not None else 0)
         left = USUAL_WAIT - later / NANOSECONDS
-        remedies.append(
-            Remedy(
-                "rate",
-                least_rate(later, USUAL_WAIT),
-                least=None if left <= 0 else round(left * NANOSECONDS),
-                possible=left > 0,
+        # What comes often enough already need not come more often.
+        if not 0 < link.period <= left * NANOSECONDS:
+            remedies.append(
+                Remedy(
+                    "rate",
+                    least_rate(later, USUAL_WAIT),
+                    least=None if left <= 0 else round(left * NANOSECONDS),
+                    possible=left > 0,
+                )
             )
-        )
     useless = [
         f"latest instead of the stamp: {trace.question.source} would be placed where it was "
         f"{span(link.short_by)} before",
