@@ -139,6 +139,15 @@ def test_what_cannot_be_run_is_said_in_one_sentence(capsys, argv, status, told):
     assert "Traceback" not in said.err
 
 
+@pytest.mark.parametrize("words", [["nothing", "talker"], ["turtlesim", "turtlesim_nod"]])
+def test_nothing_is_hosted_for_an_executable_that_there_is_not(capsys, words):
+    assert main(["run", *words]) == 2
+
+    (said,) = capsys.readouterr().err.splitlines()
+    assert words[0] in said
+    assert said.startswith("tftool: ")
+
+
 NODE = "import rclpy\nrclpy.init()\nnode = rclpy.create_node('mine')\n"
 
 

@@ -278,6 +278,35 @@ _ELSEWHERE = {
 OUR_PACKAGES = tuple(sorted({package for package, _ in _OURS}))
 
 
+def check(workspace: Workspace, package: str, executable: str) -> None:
+    """Refuse an executable that there is not.
+
+    Raises:
+        HasItsOwnCommand: If it is one for a terminal of its own.
+        UsageError: If there is no such package or executable; the nearest is told.
+    """
+    found = workspace.packages.get(package)
+    if found is not None and (executable in found.scripts or found.script_file(executable)):
+        return
+    if (package, executable) in _OURS:
+        return
+    elsewhere = _ELSEWHERE.get((package, executable))
+    if elsewhere is not None:
+        raise HasItsOwnCommand(
+            f"'{package} {executable}' is '{elsewhere}' here, in a terminal of its own"
+        )
+    known = [name for one, name in _OURS if one == package]
+    known += found.scripts if found is not None else []
+    if not known and found is None:
+        raise UsageError(missing_package(package, workspace, OUR_PACKAGES))
+    near = get_close_matches(executable, known, n=1)
+    hint = f"; did you mean '{near[0]}'?" if near else ""
+    raise UsageError(
+        f"package '{package}' has no executable '{executable}'{hint} "
+        f"(it has {', '.join(sorted(known)) or 'none'})"
+    )
+
+
 def start(
     world: World,
     workspace: Workspace,
@@ -312,6 +341,7 @@ def start(
         return start_file(
             world, Path(executable), label=label, argv=argv, options=options, on_exit=on_exit
         )
+    check(workspace, package, executable)
     found = workspace.packages.get(package)
     if found is not None and executable in found.scripts:
         module, _, function = found.scripts[executable].partition(":")
@@ -319,24 +349,7 @@ def start(
         return _program(world, label, body, argv, options, on_exit)
     if found is not None and (file := found.script_file(executable)) is not None:
         return _program(world, label, user_code.file_body(file), argv, options, on_exit)
-    ours = _OURS.get((package, executable))
-    if ours is not None:
-        return _start_ours(world, ours, arguments, options)
-    elsewhere = _ELSEWHERE.get((package, executable))
-    if elsewhere is not None:
-        raise HasItsOwnCommand(
-            f"'{package} {executable}' is '{elsewhere}' here, in a terminal of its own"
-        )
-    known = [name for one, name in _OURS if one == package]
-    known += found.scripts if found is not None else []
-    if not known and found is None:
-        raise UsageError(missing_package(package, workspace, OUR_PACKAGES))
-    near = get_close_matches(executable, known, n=1)
-    hint = f"; did you mean '{near[0]}'?" if near else ""
-    raise UsageError(
-        f"package '{package}' has no executable '{executable}'{hint} "
-        f"(it has {', '.join(sorted(known)) or 'none'})"
-    )
+    return _start_ours(world, _OURS[package, executable], arguments, options)
 
 
 def start_file(

@@ -35,7 +35,8 @@ def check_program(workspace: Workspace, target: str, rest: Sequence[str]) -> Non
     """Refuse words that `start_program` would refuse, before there is a world.
 
     Raises:
-        UsageError: If no executable is named, or what follows `--ros-args` is malformed.
+        UsageError: If no executable is named, or there is none of that name, or what follows
+            `--ros-args` is malformed.
         InputError: If the file cannot be read or is no Python.
     """
     words = rest
@@ -47,6 +48,7 @@ def check_program(workspace: Workspace, target: str, rest: Sequence[str]) -> Non
         user_code.compile_file(_file(workspace, target))
     else:
         _need_executable(workspace, target, rest)
+        executables.check(workspace, target, rest[0])
         words = rest[1:]
     names.parse(words)
 
