@@ -99,8 +99,11 @@ class SceneQuestion:
             return self._wished
         names = [info.frame for info in snapshot.frames if info.parent is not None]
         simulator = self.scene.simulator
-        soon = simulator is not None and bool(simulator.turtles) and moment.elapsed < PATIENCE
-        if self._picked or soon or not names or all(name in snapshot for name in asked):
+        early = moment.elapsed < PATIENCE
+        soon = early and simulator is not None and bool(simulator.turtles)
+        # What is shown in place of the pair may get another root as long as links come.
+        settled = not early or asked == self._wished
+        if self._picked or soon or not names or (settled and all(n in snapshot for n in asked)):
             return asked
         last = "base_link" if "base_link" in names else names[-1]
         source = self.source if self.source in snapshot else last

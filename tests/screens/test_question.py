@@ -1,0 +1,47 @@
+"""Which pair of frames a screen begins with, where the one it would show is not there."""
+
+from tftool import Transform, TransformStamped, seconds
+from tftool.runtime.clock import SimClock, run
+from tftool.runtime.world import World
+from tftool.screens.question import SceneQuestion
+from tftool.screens.scene import Scene
+
+
+def pairs_shown(*links):
+    """The pair shown after each link has come: seconds after the start, parent, child."""
+    world = World(SimClock())
+    clock, begin = world.clock, world.clock.now()
+    scene = Scene(world)
+    scene.start = begin
+    question = SceneQuestion(scene, ("turtle2", "turtle1"))
+    shown = []
+
+    async def story():
+        for moment, parent, child in links:
+            await clock.sleep_until(begin + seconds(moment))
+            pose = Transform((1.0, 0.0, 0.0))
+            world.broadcast([TransformStamped(clock.now(), parent, child, pose)], "me")
+            scene.look()
+            question.ask()
+            shown.append((question.target, question.source))
+
+    run(clock, story())
+    return shown
+
+
+def test_a_pair_shown_in_place_of_another_is_that_to_the_root_that_comes_a_little_later():
+    links = [(0.0, "odom", "base_link"), (0.1, "map", "odom")]
+
+    assert pairs_shown(*links) == [("odom", "base_link"), ("map", "base_link")]
+
+
+def test_a_pair_that_was_shown_for_a_while_stays():
+    links = [(0.0, "map", "base_link"), (20.0, "earth", "map")]
+
+    assert pairs_shown(*links) == [("map", "base_link"), ("map", "base_link")]
+
+
+def test_the_pair_asked_for_is_shown_once_its_frames_have_come():
+    links = [(0.0, "world", "turtle1"), (9.0, "world", "turtle2")]
+
+    assert pairs_shown(*links)[-1] == ("turtle2", "turtle1")
