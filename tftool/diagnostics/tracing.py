@@ -7,7 +7,7 @@ from enum import Enum
 import numpy as np
 
 from tftool.diagnostics.findings import Edge
-from tftool.diagnostics.model import Model, Settings
+from tftool.diagnostics.model import Model, Settings, climbed, up_to_join
 from tftool.diagnostics.streams import Heard, Track
 from tftool.errors import InputError
 from tftool.frames.buffer import Buffer
@@ -185,24 +185,12 @@ class LookupTrace:
 
     def way(self) -> list[Track] | None:
         """The edges from source to target by the parents at the moment; None without a join."""
-        ups, downs = self._above(self.question.source), self._above(self.question.target)
-        names = [self.question.source, *(track.parent for track in ups)]
-        others = [self.question.target, *(track.parent for track in downs)]
-        for place, name in enumerate(names):
-            if name in others:
-                return ups[:place] + list(reversed(downs[: others.index(name)]))
-        return None
-
-    def _above(self, frame: str) -> list[Track]:
-        edges: list[Track] = []
-        seen = {frame}
-        while (track := self._parent(frame)) is not None:
-            edges.append(track)
-            frame = track.parent
-            if frame in seen:
-                break
-            seen.add(frame)
-        return edges
+        legs = up_to_join(
+            self.question.source,
+            self.question.target,
+            lambda frame: climbed(frame, self._parent),
+        )
+        return None if legs is None else [*legs[0], *reversed(legs[1])]
 
     def _parent(self, frame: str) -> Track | None:
         """The edge above a frame at the moment asked about; of several, the nearest in time."""
