@@ -240,25 +240,41 @@ def entries_at(body: bytes, place: int, end: int) -> dict[int, int]:
     return dict(_ENTRY.iter_unpack(body[place : place + length // 10 * 10]))
 
 
-def strings_at(body: bytes, place: int) -> dict[str, str]:
-    """A map of texts."""
+READABLE: Final = "backslashreplace"
+"""How a text is read that is shown."""
+
+AS_IT_IS: Final = "surrogateescape"
+"""How a text is read that is written again, byte for byte."""
+
+
+def strings_at(body: bytes, place: int, errors: str = READABLE) -> dict[str, str]:
+    """A map of texts; `errors` as of `text_at`."""
     (length,) = U32.unpack_from(body, place)
     place += 4
     end = place + length
     found: dict[str, str] = {}
     while place < end and len(found) < 1000:
-        key, place = text_at(body, place)
-        found[key], place = text_at(body, place)
+        key, place = text_at(body, place, errors=errors)
+        found[key], place = text_at(body, place, errors=errors)
     return found
 
 
-def text_at(body: bytes, place: int, last: int | None = None) -> tuple[str, int]:
-    """A text, and where it ends; not behind `last`, if that is said."""
+def text_at(
+    body: bytes, place: int, last: int | None = None, errors: str = READABLE
+) -> tuple[str, int]:
+    """A text, and where it ends; not behind `last`, if that is said.
+
+    Args:
+        body: The record.
+        place: Where it begins.
+        last: Where it ends at the latest.
+        errors: How bytes that are not UTF-8 are read: to be shown, or to be written again.
+    """
     (length,) = U32.unpack_from(body, place)
     end = place + 4 + length
     if end > (len(body) if last is None else last):
         raise InputError(f"a text announces {length} bytes")
-    return body[place + 4 : end].decode("utf-8", "backslashreplace"), end
+    return body[place + 4 : end].decode("utf-8", errors), end
 
 
 def reason_of(error: Exception) -> str:

@@ -12,6 +12,7 @@ from tftool.sources.container import File
 from tftool.sources.editing.pieces import Piece
 from tftool.sources.editing.tape import Extras, Taken
 from tftool.sources.find import MCAP_MAGIC
+from tftool.sources.mcap_records import AS_IT_IS, reason_of, strings_at, text_at
 from tftool.sources.writing import mcap as format
 from tftool.sources.writing.channel import Channel
 from tftool.sources.writing.mcap import ChunkEntry
@@ -80,8 +81,8 @@ class McapTape:
                 code, length = format.RECORD.unpack(self._file.at(position, 9))
                 if code == format.HEADER:
                     head = self._file.at(position + 9, length)
-                    self.style["profile"], place = _text(head, 0)
-                    self.style["library"], _ = _text(head, place)
+                    self.style["profile"], place = text_at(head, 0, errors=AS_IT_IS)
+                    self.style["library"], _ = text_at(head, place, errors=AS_IT_IS)
                 elif code == format.CHUNK:
                     McapChunk(self, position, min(position + 9 + length, self.size), False)
                     return
@@ -119,17 +120,17 @@ class McapTape:
         """Take what a record tells of schemas and channels."""
         if code == format.SCHEMA:
             (number,) = _U16.unpack_from(body)
-            name, place = _text(body, 2)
-            encoding, place = _text(body, place)
+            name, place = text_at(body, 2, errors=AS_IT_IS)
+            encoding, place = text_at(body, place, errors=AS_IT_IS)
             (length,) = _U32.unpack_from(body, place)
             self.schemas.setdefault(number, (name, encoding, body[place + 4 : place + 4 + length]))
         elif code == format.CHANNEL:
             number, schema = struct.unpack_from("<HH", body)
             if number in self.channels:
                 return
-            topic, place = _text(body, 4)
-            encoding, place = _text(body, place)
-            metadata = _strings(body, place)
+            topic, place = text_at(body, 4, errors=AS_IT_IS)
+            encoding, place = text_at(body, place, errors=AS_IT_IS)
+            metadata = strings_at(body, place, AS_IT_IS)
             name, kind, data = self.schemas.get(schema, ("", "", b""))
             self.schema_of[number] = schema
             self.channels[number] = Channel(
@@ -172,7 +173,7 @@ class McapTape:
                 elif code == format.METADATA:
                     self.extras.metadata.append(self._file.at(body, length))
             except (InputError, struct.error) as error:
-                self.note(f"A record at byte {position} cannot be read ({_reason(error)}).")
+                self.note(f"A record at byte {position} cannot be read ({reason_of(error)}).")
             if end > size:
                 break
             position = end
@@ -322,7 +323,7 @@ class McapChunk:
                     tape.learn(code, data[first:last])
         except (InputError, struct.error) as error:
             if not self._cut:
-                tape.note(f"The chunk at byte {self.position} is damaged ({_reason(error)}).")
+                tape.note(f"The chunk at byte {self.position} is damaged ({reason_of(error)}).")
             self.whole = False
         self._found = found
         counts: dict[int, int] = {}
@@ -389,26 +390,3 @@ def _records(data: bytes) -> Iterator[tuple[int, int, int]]:
         if position > size:
             raise InputError("it ends within a record")
         yield code, first, position
-
-
-def _strings(body: bytes, place: int) -> dict[str, str]:
-    (length,) = _U32.unpack_from(body, place)
-    place += 4
-    end = place + length
-    found: dict[str, str] = {}
-    while place < end and len(found) < 1000:
-        key, place = _text(body, place)
-        found[key], place = _text(body, place)
-    return found
-
-
-def _text(body: bytes, place: int) -> tuple[str, int]:
-    (length,) = _U32.unpack_from(body, place)
-    end = place + 4 + length
-    if end > len(body):
-        raise InputError(f"a text announces {length} bytes")
-    return body[place + 4 : end].decode("utf-8", "surrogateescape"), end
-
-
-def _reason(error: Exception) -> str:
-    return "a record is cut" if isinstance(error, struct.error) else str(error)
