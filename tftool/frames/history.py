@@ -390,9 +390,7 @@ class History(Fields):
         Raises:
             struct.error: If the stamp does not fit 64 bits; nothing was done.
         """
-        # A `Sample`, which compiled code takes apart here alone: it is kept as it came.
-        numbers: Sample = sample
-        x, y, z, qx, qy, qz, qw = numbers
+        x, y, z, qx, qy, qz, qw = sample
         if not validated:
             # NaN is not below anything; nor is a place so far off that it cannot be told from it.
             if not (
