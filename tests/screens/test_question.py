@@ -35,6 +35,18 @@ def test_a_pair_shown_in_place_of_another_is_that_to_the_root_that_comes_a_littl
     assert pairs_shown(*links) == [("odom", "base_link"), ("map", "base_link")]
 
 
+def test_base_link_is_shown_in_place_of_the_pair_though_another_frame_came_first():
+    links = [(0.0, "base_link", "laser"), (0.1, "odom", "base_link"), (0.2, "map", "odom")]
+
+    assert pairs_shown(*links)[1:] == [("odom", "base_link"), ("map", "base_link")]
+
+
+def test_a_root_may_come_later_however_late_the_first_link_came():
+    links = [(30.0, "odom", "base_link"), (30.1, "map", "odom")]
+
+    assert pairs_shown(*links)[-1] == ("map", "base_link")
+
+
 def test_a_pair_that_was_shown_for_a_while_stays():
     links = [(0.0, "map", "base_link"), (20.0, "earth", "map")]
 

@@ -7,7 +7,7 @@ from tftool.screens.scene import Scene, SceneMoment
 from tftool.stamps import Duration, Stamp, seconds
 
 PATIENCE = seconds(4.0)
-"""For how long after the start the frames of the first pair are waited for."""
+"""For how long the frames of the first pair are waited for, and then those of another."""
 
 
 class SceneQuestion:
@@ -32,6 +32,7 @@ class SceneQuestion:
         self.fixed = ""
         self.moment: SceneMoment | None = None
         self._picked = False
+        self._first_link_at: Duration | None = None
 
     def ask(self) -> SceneMoment:
         """Look anew."""
@@ -98,13 +99,18 @@ class SceneQuestion:
             # They came late.
             return self._wished
         names = [info.frame for info in snapshot.frames if info.parent is not None]
+        if self._picked or not names:
+            return asked
+        if self._first_link_at is None:
+            self._first_link_at = moment.elapsed
         simulator = self.scene.simulator
-        early = moment.elapsed < PATIENCE
-        soon = early and simulator is not None and bool(simulator.turtles)
+        turtles = simulator is not None and bool(simulator.turtles)
+        soon = turtles and moment.elapsed < PATIENCE
         # What is shown in place of the pair may get another root as long as links come.
-        settled = not early or asked == self._wished
-        if self._picked or soon or not names or (settled and all(n in snapshot for n in asked)):
+        settled = asked == self._wished or moment.elapsed >= self._first_link_at + PATIENCE
+        if soon or (settled and all(name in snapshot for name in asked)):
             return asked
         last = "base_link" if "base_link" in names else names[-1]
-        source = self.source if self.source in snapshot else last
+        wished = self._wished[1]
+        source = wished if wished in snapshot else last
         return snapshot.frame(source).root or names[0], source
