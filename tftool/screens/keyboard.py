@@ -2,6 +2,7 @@
 
 from typing import Any
 
+from textual._xterm_parser import XTermParser
 from textual.driver import Driver
 
 
@@ -23,7 +24,11 @@ def tolerant(driver: type[Driver]) -> type[Driver]:
             while True:
                 try:
                     super().run_input_thread()
-                except UnicodeDecodeError:
+                except UnicodeDecodeError as error:
+                    # What was read together with them is kept; the next round reads what follows.
+                    typed = error.object.decode(errors="ignore")
+                    for event in XTermParser().feed(typed):
+                        self.process_message(event)
                     continue
                 return
 
