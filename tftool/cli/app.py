@@ -10,13 +10,12 @@ from enum import IntEnum
 TYPE_CHECKING = False
 
 if TYPE_CHECKING:
-    from collections.abc import Callable, Collection, Sequence
+    from collections.abc import Callable, Sequence
     from types import FrameType
     from typing import Any
 
-    import typer
-
     from tftool.cli.connection import Providers
+    from tftool.cli.help import Commands
 
 # In the order of the help, with what the help says of each: reading that from the commands
 # themselves would import them all. Each is a function of its own name in a module of that name.
@@ -91,21 +90,17 @@ class ExitStatus(IntEnum):
     INTERRUPTED = 130
 
 
-def build(
-    words: "Collection[str]" = COMMANDS, providers: "Providers | None" = None
-) -> "typer.Typer":
-    """Give the app; what a command needs is imported when it runs.
+def build() -> "Commands":
+    """Give the app; a command is made when it is asked for, and imports what it needs.
 
-    Args:
-        words: What the command line says. A command that is not among them is listed, but
-            not described: that takes longer, for all of them, than to start Python twice.
-        providers: Where clocks and links come from; the real ones when None.
+    The `obj` of its context says where clocks and links come from; the real ones when None.
     """
-    from typing import Annotated
+    from typing import Annotated, cast
 
     import typer
+    from typer.main import get_command
 
-    from tftool.cli.help import Command, Commands
+    from tftool.cli.help import Commands
 
     app = typer.Typer(
         name="tftool",
@@ -161,20 +156,11 @@ def build(
         if context.invoked_subcommand is None:
             sys.stdout.write(context.get_help() + "\n")
 
-    for name, summary in COMMANDS.items():
-        command = _load(name, providers) if name in words else _unasked
-        app.command(
-            name,
-            cls=Command,
-            help=_laid_out(command),
-            short_help=summary,
-            context_settings=SETTINGS.get(name),
-        )(command)
-    return app
+    return cast(Commands, get_command(app))
 
 
-def _load(name: str, providers: "Providers | None") -> "Callable[..., Any]":
-    """A command with all its options."""
+def load(name: str, providers: "Providers | None") -> "Callable[..., Any]":
+    """Import a command, and give it all its options."""
     from importlib import import_module
 
     from tftool.cli.connection import (
@@ -193,19 +179,6 @@ def _load(name: str, providers: "Providers | None") -> "Callable[..., Any]":
         **(RECORDING_OPTIONS if name in RECORDED else {}),
     }
     return with_connection(command, providers, options)
-
-
-def _unasked() -> None:
-    """Stand for a command that is only listed."""
-
-
-def _laid_out(command: "Callable[..., Any]") -> str:
-    """The docstring of a command as its help; examples keep their lines."""
-    from inspect import cleandoc
-
-    paragraphs = cleandoc(command.__doc__ or "").split("\n\n")
-    # The mark by which click leaves a paragraph as it is.
-    return "\n\n".join(f"\b\n{one}" if one.startswith("tftool ") else one for one in paragraphs)
 
 
 def main(argv: "Sequence[str] | None" = None, providers: "Providers | None" = None) -> int:
@@ -343,7 +316,6 @@ def _run(argv: list[str], providers: "Providers | None") -> int:
     from typing import cast
 
     import typer
-    from typer.main import get_command
 
     from tftool.errors import InputError, TftoolError, TransformException, UsageError
 
@@ -351,10 +323,10 @@ def _run(argv: list[str], providers: "Providers | None") -> int:
     # exports, so that either kind is caught.
     wrong_usage = cast(type[Exception], typer.BadParameter.__mro__[1])
     try:
-        command = get_command(build(argv, providers))
-        with command.make_context("tftool", argv) as context:
+        commands = build()
+        with commands.make_context("tftool", argv, obj=providers) as context:
             gc.enable()
-            result = command.invoke(context)
+            result = commands.invoke(context)
     except typer.Exit as done:
         return done.exit_code
     except typer.Abort:

@@ -112,12 +112,12 @@ def _is_plain(word: str, current: str) -> bool:
 
 def _of_command(name: str, before: Sequence[str], current: str) -> Iterator[Offer]:
     """What one command takes next."""
-    from typer.main import get_command
+    import typer
 
     from tftool.cli.app import build
 
-    group: Any = get_command(build([name]))
-    params = group.commands[name].params
+    commands = build()
+    params = commands.get_command(typer.Context(commands), name).params
     options = {one: param for param in params for one in (*param.opts, *param.secondary_opts)}
     arguments = [param for param in params if param.param_type_name == "argument"]
     if before and (option := options.get(before[-1])) is not None and _takes_value(option):

@@ -2,11 +2,15 @@
 
 import re
 from collections.abc import Callable, Sequence
+from inspect import cleandoc
 from itertools import pairwise
 from typing import Any
 
 import typer
 from typer.core import TyperCommand, TyperGroup
+from typer.main import get_command
+
+from tftool.cli.app import COMMANDS, SETTINGS, load
 
 GROUPS = {
     "Learn": ("demo", "teleop", "follow", "static"),
@@ -24,20 +28,43 @@ _ARGUMENT = re.compile(r"[A-Za-z_]\w*:=")
 
 
 class Commands(TyperGroup):
-    """The `tftool` command, whose help lists its commands by group."""
+    """The `tftool` command, whose help lists its commands by group.
+
+    Only a command that is asked for is made: for all of them that takes longer than to start
+    Python twice.
+    """
+
+    def list_commands(self, ctx: Any) -> list[str]:
+        """Give the names of the commands."""
+        return list(COMMANDS)
+
+    def get_command(self, ctx: Any, cmd_name: str) -> Any:
+        """Make a command; None if there is none of that name."""
+        if cmd_name not in COMMANDS:
+            return None
+        command = load(cmd_name, ctx.obj)
+        app = typer.Typer(rich_markup_mode=None, add_completion=False)
+        app.command(
+            cmd_name,
+            cls=Command,
+            help=_laid_out(command),
+            context_settings=SETTINGS.get(cmd_name),
+        )(command)
+        return get_command(app)
 
     def format_commands(self, ctx: Any, formatter: Any) -> None:
         """Write the groups of commands."""
-        width = max(len(name) for name in self.commands)
+        width = max(len(name) for name in COMMANDS)
         for title, names in GROUPS.items():
-            rows = [
-                (name.ljust(width), self.commands[name].get_short_help_str(formatter.width))
-                for name in names
-                if name in self.commands
-            ]
-            if rows:
-                with formatter.section(title):
-                    formatter.write_dl(rows)
+            with formatter.section(title):
+                formatter.write_dl([(name.ljust(width), COMMANDS[name]) for name in names])
+
+
+def _laid_out(command: Callable[..., Any]) -> str:
+    """The docstring of a command as its help; examples keep their lines."""
+    paragraphs = cleandoc(command.__doc__ or "").split("\n\n")
+    # The mark by which click leaves a paragraph as it is.
+    return "\n\n".join(f"\b\n{one}" if one.startswith("tftool ") else one for one in paragraphs)
 
 
 class Command(TyperCommand):
