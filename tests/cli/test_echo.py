@@ -4,7 +4,7 @@ import re
 import pytest
 
 from tests.cli.test_app import start
-from tftool.cli.commands.echo import LivePrinter
+from tftool.cli.echoing import LivePrinter
 from tftool.cli.hosting import HOME
 from tftool.cli.redrawing import Redrawing
 from tftool.cli.waiting import FramePair

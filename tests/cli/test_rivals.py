@@ -2,7 +2,7 @@
 
 import pytest
 
-from tftool.cli.commands.echo import Echo, Printer
+from tftool.cli.echoing import Echo, Printer
 from tftool.cli.rivals import rivalries, twins
 from tftool.cli.session import Session
 from tftool.cli.waiting import FramePair

@@ -4,7 +4,7 @@ import json
 
 import pytest
 
-from tftool.cli.commands.echo import Echo, Printer
+from tftool.cli.echoing import Echo, Printer
 from tftool.cli.session import Session
 from tftool.cli.waiting import FramePair
 from tftool.errors import BackwardExtrapolationException, LookupException, TransformException

@@ -8,14 +8,16 @@ import math
 import re
 from collections.abc import Callable
 from dataclasses import dataclass
-from decimal import ROUND_HALF_UP, Decimal, InvalidOperation
 from pathlib import Path
-from typing import Annotated, Any
+from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
 from tftool.errors import UsageError
 from tftool.stamps import NANOSECONDS, Duration, Stamp, as_seconds, seconds
+
+if TYPE_CHECKING:
+    from decimal import Decimal
 
 MOST = 9e9
 """The largest number an option takes: as seconds, about what a stamp of 64 bits can hold."""
@@ -100,15 +102,30 @@ def duration(check: Callable[[float | None], float | None]) -> Callable[[str | i
             return text  # a default, in nanoseconds already
         try:
             check(float(text))
-            exact = Decimal(text) * NANOSECONDS
-        except (ValueError, InvalidOperation):
+            found, exact = _nanoseconds(text)
+        except ValueError:
             raise typer.BadParameter(f"'{text}' is not a number.") from None
-        found = int(exact.to_integral_value(ROUND_HALF_UP))
         if exact and not found:
             raise typer.BadParameter(f"{text} is less than a nanosecond.")
         return found
 
     return parse
+
+
+def _nanoseconds(text: str) -> "tuple[int, Decimal]":
+    """Nanoseconds of a number of seconds, and what they are before rounding.
+
+    Raises:
+        ValueError: If it is no number.
+    """
+    # Imported here: the help of a command does without it.
+    from decimal import Decimal, InvalidOperation
+
+    try:
+        exact = Decimal(text) * NANOSECONDS
+    except InvalidOperation as error:
+        raise ValueError(text) from error
+    return int(exact.to_integral_value("ROUND_HALF_UP")), exact
 
 
 def refuse_long_simulation(lasting: Duration | None) -> None:
@@ -163,14 +180,13 @@ def moment(text: str) -> At:
         return _date(text)
     try:
         not_negative(float(text))
-        exact = Decimal(text)
-    except (ValueError, InvalidOperation):
+        found, exact = _nanoseconds(text)
+    except ValueError:
         raise typer.BadParameter(
             f"'{text}' is no moment: give seconds since the start, such as 12.5, or a stamp, "
             "such as 1663952504.7 or 2022-09-23T17:01:44.7Z."
         ) from None
-    found = int((exact * NANOSECONDS).to_integral_value(ROUND_HALF_UP))
-    return At(found, exact >= FIRST_STAMP and not text.startswith("+"))
+    return At(found, exact >= FIRST_STAMP * NANOSECONDS and not text.startswith("+"))
 
 
 def _date(text: str) -> At:

@@ -1,11 +1,7 @@
 """`tftool echo`: one transform, again and again, as tf2_echo prints it."""
 
 import contextlib
-import json
-import sys
-from collections.abc import Callable
-from dataclasses import dataclass
-from typing import TYPE_CHECKING, Annotated
+from typing import Annotated
 
 import typer
 
@@ -23,16 +19,8 @@ from tftool.cli.options import (
     not_negative,
     within,
 )
-from tftool.errors import TransformException, UsageError
-from tftool.stamps import Duration, Stamp, seconds
-from tftool.views import echo as view
-
-if TYPE_CHECKING:
-    from tftool.cli.redrawing import Redrawing
-    from tftool.cli.waiting import FramePair
-    from tftool.frames.buffer import Buffer
-    from tftool.frames.sample import TransformStamped
-    from tftool.runtime.world import World
+from tftool.errors import UsageError
+from tftool.stamps import Duration, seconds
 
 
 def echo(
@@ -134,12 +122,14 @@ def echo(
     tftool echo map laser_link robot --at 12.5
     tftool echo turtle2 turtle1 --offset -5 --fixed-frame world
     """
+    from tftool.cli.echoing import Echo, LivePrinter, Printer
     from tftool.cli.hosting import A_MOMENT, NO_SESSION, open_session
     from tftool.cli.naming import named
     from tftool.cli.notices import notice
     from tftool.cli.redrawing import Redrawing, can_redraw
     from tftool.cli.waiting import FramePair
     from tftool.sources.find import Kind
+    from tftool.views.echo import in_words
 
     place, rate = _place_or_rate(place, rate)
     if once and count not in (None, 1):
@@ -168,7 +158,7 @@ def echo(
 
         refuse_to_share(connection, place)
         blocks = Printer(precision, distance, for_programs)
-        notice(f"{view.in_words(target, source)}:")
+        notice(f"{in_words(target, source)}:")
         stored = connection.open_stored(found)
         for answer in moments(stored, target, source, rate=rate, topic=stamps_of, most=count):
             blocks.found(answer.stamp, answer)
@@ -183,7 +173,7 @@ def echo(
         cache_time=cache_time,
         because=NO_SESSION if at is None else A_MOMENT,
     )
-    heading = view.in_words(target, source)
+    heading = in_words(target, source)
     stamp = 0
     if at is not None:
         stamp = session.moment(at)
@@ -216,162 +206,6 @@ def echo(
         )
         session.run(echoing.run())
     return ExitStatus.DONE
-
-
-@dataclass(frozen=True, slots=True)
-class Printer:
-    """How answers are written to stdout."""
-
-    precision: int = 3
-    with_distance: bool = False
-    for_programs: bool = False
-
-    def found(self, now: Stamp, found: "TransformStamped") -> None:
-        """Print an answer."""
-        if self.for_programs:
-            self._line(view.as_object(found, with_distance=self.with_distance))
-        elif sys.stdout.isatty():
-            from tftool.cli.printing import write
-
-            write(
-                view.painted(found, precision=self.precision, with_distance=self.with_distance),
-                end="",
-            )
-            sys.stdout.flush()
-        else:
-            self._write(
-                view.block(found, precision=self.precision, with_distance=self.with_distance)
-            )
-
-    def failed(self, now: Stamp, refusal: TransformException, buffer: "Buffer") -> None:
-        """Print a refusal."""
-        if self.for_programs:
-            self._line(view.failure_as_object(now, refusal))
-        else:
-            self._write(view.failure(now, refusal, buffer.all_frames_as_string()))
-
-    def _line(self, what: object) -> None:
-        self._write(json.dumps(what, allow_nan=False) + "\n")
-
-    def _write(self, text: str) -> None:
-        sys.stdout.write(text)
-        sys.stdout.flush()
-
-
-class LivePrinter:
-    """How answers are shown where each takes the place of the one before."""
-
-    def __init__(
-        self, redrawing: "Redrawing", pair: "FramePair", precision: int, with_distance: bool
-    ) -> None:
-        """Prepare to show answers about `pair`."""
-        self.redrawing = redrawing
-        self.pair = pair
-        self.precision = precision
-        self.with_distance = with_distance
-
-    def found(self, now: Stamp, found: "TransformStamped") -> None:
-        """Show an answer and how old it is."""
-        age = now - found.stamp if found.stamp else None
-        heading = view.live_heading(self.pair.target, self.pair.source, age)
-        answer = view.painted(found, precision=self.precision, with_distance=self.with_distance)
-        answer.rstrip()
-        self.redrawing.show(heading.append_text(answer))
-
-    def failed(self, now: Stamp, refusal: TransformException, buffer: "Buffer") -> None:
-        """Show a refusal, as much of it as there is room for."""
-        from rich.text import Text
-
-        words = view.in_words(self.pair.target, self.pair.source)
-        told = view.failure(now, refusal, buffer.all_frames_as_string()).rstrip()
-        text = Text().append(f"{words}\n", style="bold").append(told, style="yellow")
-        self.redrawing.show(text)
-
-
-class Echo:
-    """One pair of frames, looked up in one world until enough answers are printed."""
-
-    def __init__(
-        self,
-        world: "World",
-        pair: "FramePair",
-        printer: Printer | LivePrinter,
-        *,
-        period: Duration,
-        count: int | None = None,
-        patience: Duration | None = None,
-        tells: bool = True,
-        departures: Callable[[], int] = lambda: 0,
-    ) -> None:
-        """Prepare to ask.
-
-        Args:
-            world: Whose frames.
-            pair: What to look up.
-            printer: How to print it.
-            period: Nanoseconds between two answers.
-            count: How many answers to print; None for no end.
-            patience: How long to wait for the first, in nanoseconds; None for ever.
-            tells: Whether to say why it waits; on simulated time there is no need to.
-            departures: Says how many have left that transforms came from; when another one
-                has, it waits again, for something new.
-        """
-        from tftool.cli.waiting import Waiter
-
-        self.world = world
-        self.pair = pair
-        self.printer = printer
-        self.period = period
-        self.count = count
-        self.departures = departures
-        self.waiter = Waiter(world, pair, patience=patience, tells=tells)
-
-    async def run(self) -> None:
-        """Print answers until there are enough.
-
-        Raises:
-            TransformException: If the first does not come in time, or never will.
-        """
-        from tftool.cli.notices import notice
-        from tftool.runtime.clock import Phase, pace_of
-
-        clock, pace = self.world.clock, pace_of(self.world.clock)
-        await self.waiter.wait()
-        left = self.departures()
-        due = pace.now()
-        printed = 0
-        said: set[str] = set()
-        while True:
-            if self.departures() != left:
-                left = self.departures()
-                await self.waiter.wait(stale=self.pair.newest(self.world.buffer))
-                due = pace.now()
-            now = clock.now()
-            try:
-                self.printer.found(now, self.pair.ask(self.world.buffer, now))
-                printed += 1
-                for sentence in self._oddities():
-                    if sentence not in said:
-                        said.add(sentence)
-                        notice(sentence)
-            except TransformException as refusal:
-                self.printer.failed(now, refusal, self.world.buffer)
-            if printed == self.count:
-                return
-            due += self.period
-            await pace.sleep_until(due, Phase.WATCH)
-            # Late by more than a period: what was missed is not made up for.
-            due = max(due, pace.now() - self.period)
-
-    def _oddities(self) -> list[str]:
-        from tftool.cli.rivals import rivalries, twins
-
-        buffer = self.world.buffer
-        try:
-            frames = buffer.chain(self.pair.target, self.pair.source)
-        except TransformException:
-            return []
-        return [*rivalries(buffer, frames), *twins(self.world)]
 
 
 def _place_or_rate(place: str | None, rate: float | None) -> tuple[str | None, float | None]:
