@@ -7,7 +7,8 @@ import pytest
 
 from tests.certificates import certificates, needs_openssl
 from tests.cli.conftest import Simulated
-from tftool.cli.connection import Connection, Mode, Providers, with_connection
+from tftool.cli.connection import Connection, Mode, Providers
+from tftool.cli.connection_options import with_connection
 
 
 @pytest.fixture

@@ -163,7 +163,7 @@ def load(name: str, providers: "Providers | None") -> "Callable[..., Any]":
     """Import a command, and give it all its options."""
     from importlib import import_module
 
-    from tftool.cli.connection import (
+    from tftool.cli.connection_options import (
         RECORDING_OPTIONS,
         ROBOT_OPTIONS,
         URDF_OPTION,

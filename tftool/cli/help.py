@@ -125,7 +125,7 @@ def _is_of_session(param: Any) -> bool:
     if param.name in ("help", _SESSION):
         return False
     # The list of commands, none of which is described there, does without it.
-    from tftool.cli.connection import SESSION_OPTIONS
+    from tftool.cli.connection_options import SESSION_OPTIONS
 
     return param.name in SESSION_OPTIONS
 

@@ -8,7 +8,6 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 from tftool.cli.app import ExitStatus
-from tftool.cli.connection import Connection
 from tftool.cli.options import (
     Ascii,
     Json,
@@ -22,11 +21,12 @@ from tftool.errors import UsageError
 from tftool.stamps import Duration
 
 if TYPE_CHECKING:
+    from tftool.cli.connection import Connection
     from tftool.scenario.schema import Scenario
 
 
 def demo(
-    connection: Connection,
+    connection: "Connection",
     scenario: Annotated[
         str | None,
         typer.Argument(
@@ -147,7 +147,7 @@ def demo(
 class _Showing:
     """Puts scenarios on the terminal, one after the other, as the options say."""
 
-    connection: Connection
+    connection: "Connection"
     rate: float
     lasting: Duration | None
     recording: Path | None
@@ -238,7 +238,7 @@ def _list(*, for_programs: bool) -> None:
         typer.echo(f"{name:{wide}}{about}")
 
 
-def _show_recording(connection: Connection, word: str, *, ascii_only: bool, light: bool) -> None:
+def _show_recording(connection: "Connection", word: str, *, ascii_only: bool, light: bool) -> None:
     """Show a recording at rest, from its beginning on."""
     from pathlib import Path
 

@@ -7,12 +7,12 @@ from typing import TYPE_CHECKING, Annotated, Literal
 import typer
 
 from tftool.cli.app import ExitStatus
-from tftool.cli.connection import Connection
 from tftool.cli.options import OUTPUT, Json, RunFor, not_negative
 from tftool.errors import UsageError
 from tftool.stamps import Duration, seconds
 
 if TYPE_CHECKING:
+    from tftool.cli.connection import Connection
     from tftool.comparing.compare import Side
 
 SESSION = "session"
@@ -20,7 +20,7 @@ SESSION = "session"
 
 
 def diff(
-    connection: Connection,
+    connection: "Connection",
     first: Annotated[
         str,
         typer.Argument(
@@ -106,7 +106,7 @@ def diff(
     return ExitStatus.FAILED if found else ExitStatus.DONE
 
 
-def _side(connection: Connection, word: str, lasting: Duration | None) -> "Side":
+def _side(connection: "Connection", word: str, lasting: Duration | None) -> "Side":
     """The frames that a word names, as one side.
 
     Raises:

@@ -9,7 +9,6 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 from tftool.cli.app import ExitStatus
-from tftool.cli.connection import Connection
 from tftool.cli.options import (
     At,
     CacheTime,
@@ -25,6 +24,7 @@ from tftool.errors import InputError, UsageError
 from tftool.stamps import Duration, seconds
 
 if TYPE_CHECKING:
+    from tftool.cli.connection import Connection
     from tftool.diagnostics.catalogue import Check
     from tftool.diagnostics.findings import Severity
     from tftool.diagnostics.judge import Diagnosis
@@ -42,7 +42,7 @@ class FailOn(StrEnum):
 
 
 def doctor(
-    connection: Connection,
+    connection: "Connection",
     places: Annotated[
         list[str] | None,
         typer.Argument(
@@ -184,7 +184,7 @@ def doctor(
 
 
 def _diagnosed(
-    connection: Connection,
+    connection: "Connection",
     places: Sequence[str | None],
     lasting: Duration | None,
     settings: "Settings",

@@ -1,12 +1,11 @@
 """`tftool echo`: one transform, again and again, as tf2_echo prints it."""
 
 import contextlib
-from typing import Annotated
+from typing import TYPE_CHECKING, Annotated
 
 import typer
 
 from tftool.cli.app import ExitStatus
-from tftool.cli.connection import Connection
 from tftool.cli.options import (
     OUTPUT,
     WHEN,
@@ -22,9 +21,12 @@ from tftool.cli.options import (
 from tftool.errors import UsageError
 from tftool.stamps import Duration, seconds
 
+if TYPE_CHECKING:
+    from tftool.cli.connection import Connection
+
 
 def echo(
-    connection: Connection,
+    connection: "Connection",
     target: Annotated[
         str, typer.Argument(metavar="TARGET", help="Frame to look from: the answer is given in it.")
     ],

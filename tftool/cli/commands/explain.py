@@ -7,7 +7,6 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 from tftool.cli.app import ExitStatus
-from tftool.cli.connection import Connection
 from tftool.cli.options import (
     At,
     AtOption,
@@ -23,11 +22,12 @@ from tftool.errors import UsageError
 from tftool.stamps import LATEST, Duration, seconds
 
 if TYPE_CHECKING:
+    from tftool.cli.connection import Connection
     from tftool.sources.find import Found
 
 
 def explain(
-    connection: Connection,
+    connection: "Connection",
     target: Annotated[str, typer.Argument(metavar="TARGET", help="Frame to express it in.")],
     source: Annotated[str, typer.Argument(metavar="SOURCE", help="Frame whose pose is asked for.")],
     place: From = None,
@@ -119,7 +119,7 @@ def explain(
 
 
 def _described(
-    connection: Connection, found: "Found", target: str, source: str, *, for_programs: bool
+    connection: "Connection", found: "Found", target: str, source: str, *, for_programs: bool
 ) -> ExitStatus:
     """The same in a robot description, joint by joint."""
     from tftool.cli.described import load_described, tell_beyond

@@ -6,7 +6,6 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 from tftool.cli.app import ExitStatus
-from tftool.cli.connection import Connection
 from tftool.cli.options import (
     OUTPUT,
     AtOption,
@@ -26,11 +25,12 @@ from tftool.sinks.formats import Format, format_of
 from tftool.stamps import LATEST, seconds
 
 if TYPE_CHECKING:
+    from tftool.cli.connection import Connection
     from tftool.sinks.export import Exported
 
 
 def export(
-    connection: Connection,
+    connection: "Connection",
     words: Annotated[
         list[str] | None,
         typer.Argument(

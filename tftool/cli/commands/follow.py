@@ -5,11 +5,11 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 from tftool.cli.app import ExitStatus
-from tftool.cli.connection import Connection
 from tftool.cli.options import CacheTime, RunFor, duration, finite, not_negative, positive
 from tftool.stamps import Duration, as_seconds, seconds
 
 if TYPE_CHECKING:
+    from tftool.cli.connection import Connection
     from tftool.runtime.log import LogRecord
 
 NAME = "turtle_following"
@@ -19,7 +19,7 @@ SETTLE = seconds(0.5)
 
 
 def follow(
-    connection: Connection,
+    connection: "Connection",
     leader: Annotated[str, typer.Argument(metavar="[LEADER]", help="Frame to follow.")] = "turtle1",
     follower: Annotated[
         str, typer.Argument(metavar="[FOLLOWER]", help="Turtle to spawn and to steer.")

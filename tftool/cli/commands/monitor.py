@@ -9,7 +9,6 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 from tftool.cli.app import ExitStatus
-from tftool.cli.connection import Connection
 from tftool.cli.options import OUTPUT, WHEN, CacheTime, Json, RunFor, duration, positive
 from tftool.errors import InputError, TransformException, UsageError
 from tftool.frames.sample import TransformStamped
@@ -17,6 +16,7 @@ from tftool.frames.traffic import NetDelay, Traffic
 from tftool.stamps import Duration, as_seconds, seconds
 
 if TYPE_CHECKING:
+    from tftool.cli.connection import Connection
     from tftool.runtime.clock import Clock
     from tftool.runtime.world import TransformMessage, World
     from tftool.views import monitor as view
@@ -26,7 +26,7 @@ ASK_EVERY = seconds(0.5)
 
 
 def monitor(
-    connection: Connection,
+    connection: "Connection",
     words: Annotated[
         list[str] | None,
         typer.Argument(

@@ -6,12 +6,12 @@ from typing import TYPE_CHECKING, Annotated, Literal
 import typer
 
 from tftool.cli.app import ExitStatus
-from tftool.cli.connection import Connection
 from tftool.cli.options import WHEN, At, RunFor, moment, within
 from tftool.errors import UsageError
 from tftool.stamps import Duration, Stamp, as_seconds
 
 if TYPE_CHECKING:
+    from tftool.cli.connection import Connection
     from tftool.cli.playing import Display
     from tftool.link.feed import TopicFeed
     from tftool.link.session import Link
@@ -23,7 +23,7 @@ if TYPE_CHECKING:
 
 
 def play(
-    connection: Connection,
+    connection: "Connection",
     file: Annotated[
         str,
         typer.Argument(metavar="RECORDING", help="What to play: a file, a folder, a glob."),

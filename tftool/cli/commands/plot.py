@@ -8,7 +8,6 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 from tftool.cli.app import ExitStatus
-from tftool.cli.connection import Connection
 from tftool.cli.options import (
     OUTPUT,
     WHEN,
@@ -32,6 +31,7 @@ from tftool.stamps import Duration, Stamp, as_seconds, seconds
 if TYPE_CHECKING:
     from rich.text import Text
 
+    from tftool.cli.connection import Connection
     from tftool.cli.session import Session
     from tftool.trajectories.sampling import Trajectory
     from tftool.views.line_plot import PlotLook
@@ -41,7 +41,7 @@ ON_ITS_WAY = seconds(1)
 
 
 def plot(
-    connection: Connection,
+    connection: "Connection",
     words: Annotated[
         list[str] | None,
         typer.Argument(
@@ -207,7 +207,7 @@ def _picture(
 
 
 def _live(
-    connection: Connection,
+    connection: "Connection",
     pairs: list[tuple[str, str]],
     quantities: Sequence[str],
     from_above: bool,

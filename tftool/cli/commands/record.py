@@ -12,7 +12,6 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 from tftool.cli.app import ExitStatus
-from tftool.cli.connection import Connection
 from tftool.cli.options import OUTPUT, WHEN, Force, Json, RunFor, duration, positive
 from tftool.errors import UsageError
 from tftool.stamps import Duration, seconds
@@ -20,6 +19,7 @@ from tftool.stamps import Duration, seconds
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
+    from tftool.cli.connection import Connection
     from tftool.sources.writing.rolling import RollingRecording
 
 _SIZE = re.compile(r"(\d+(?:\.\d+)?)\s*([kMG]?)(?:i?B)?", re.ASCII)
@@ -30,7 +30,7 @@ RING = seconds(60)
 
 
 def record(
-    connection: Connection,
+    connection: "Connection",
     output: Annotated[
         Path,
         typer.Option(

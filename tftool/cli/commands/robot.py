@@ -6,12 +6,12 @@ from typing import TYPE_CHECKING, Annotated, Any
 import typer
 
 from tftool.cli.app import ExitStatus
-from tftool.cli.connection import Connection
 from tftool.cli.options import Ascii, Light, RunFor, within
 from tftool.errors import UsageError
 from tftool.stamps import Duration
 
 if TYPE_CHECKING:
+    from tftool.cli.connection import Connection
     from tftool.cli.session import Session
     from tftool.nodes.joints import JointStatePublisher
     from tftool.screens.setting import Setting
@@ -19,7 +19,7 @@ if TYPE_CHECKING:
 
 
 def robot(
-    connection: Connection,
+    connection: "Connection",
     place: Annotated[
         str, typer.Argument(metavar="FILE", help="A robot description: URDF or xacro.")
     ],

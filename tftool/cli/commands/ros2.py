@@ -1,15 +1,17 @@
 """`tftool ros2`: the words of ROS 2's own command line, over our sessions."""
 
-from typing import Annotated
+from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from tftool.cli.connection import Connection
 from tftool.cli.options import RunFor
+
+if TYPE_CHECKING:
+    from tftool.cli.connection import Connection
 
 
 def ros2(
-    connection: Connection,
+    connection: "Connection",
     words: Annotated[
         list[str],
         typer.Argument(metavar="COMMAND VERB …", help="What stands behind ros2 with ROS."),

@@ -6,7 +6,6 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from tftool.cli.connection import Connection
 from tftool.cli.options import RunFor, SkippedFolders, refuse_long_simulation
 from tftool.views.escaping import visible, visible_lines
 
@@ -19,6 +18,7 @@ KEYBOARD = ("turtlesim", "turtle_teleop_key")
 SIMULATED = "Simulated time is a world's own, and shares no session"
 
 if TYPE_CHECKING:
+    from tftool.cli.connection import Connection
     from tftool.ros.host.workspace import Workspace
     from tftool.runtime.log import LogRecord
 
@@ -58,7 +58,7 @@ def misplaced(words: Sequence[str], own: Collection[str]) -> list[str]:
 
 
 def run(
-    connection: Connection,
+    connection: "Connection",
     context: typer.Context,
     target: Annotated[
         str, typer.Argument(metavar="FILE|PACKAGE", help="A node's file, or a package.")

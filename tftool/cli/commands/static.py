@@ -7,9 +7,9 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 from tftool.cli.app import ExitStatus
-from tftool.cli.connection import Connection
 
 if TYPE_CHECKING:
+    from tftool.cli.connection import Connection
     from tftool.cli.session import Session
     from tftool.notation.static_arguments import StaticArguments
 
@@ -19,7 +19,7 @@ Radians = Annotated[str | None, typer.Option(metavar="RADIANS")]
 
 
 def static(
-    connection: Connection,
+    connection: "Connection",
     words: Annotated[
         list[str] | None,
         typer.Argument(metavar="[X Y Z YAW PITCH ROLL PARENT CHILD]", show_default=False),
@@ -74,7 +74,7 @@ def static(
     return ExitStatus.DONE
 
 
-def publish(connection: Connection, said: "StaticArguments", *, spin: bool) -> None:
+def publish(connection: "Connection", said: "StaticArguments", *, spin: bool) -> None:
     """Publish a static transform, say what it is, and hold on to it.
 
     Raises:

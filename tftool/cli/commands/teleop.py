@@ -8,13 +8,13 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 from tftool.cli.app import ExitStatus
-from tftool.cli.connection import Connection
 from tftool.cli.options import Ascii, Light
 from tftool.errors import UsageError
 from tftool.messages import Pose2D
 from tftool.stamps import seconds
 
 if TYPE_CHECKING:
+    from tftool.cli.connection import Connection
     from tftool.runtime.world import World
 
 START = seconds(5)
@@ -26,7 +26,7 @@ PATIENCE = seconds(10)
 
 
 def teleop(
-    connection: Connection,
+    connection: "Connection",
     turtle: Annotated[str, typer.Argument(metavar="[TURTLE]", help="Whom to drive.")] = "turtle1",
     keys: Annotated[
         str | None,
@@ -88,7 +88,7 @@ def teleop(
     return ExitStatus.DONE
 
 
-def press_all(connection: Connection, turtle: str, keys: str) -> str:
+def press_all(connection: "Connection", turtle: str, keys: str) -> str:
     """Press keys, each when what the one before it did is over.
 
     Args:

@@ -8,7 +8,6 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 from tftool.cli.app import ExitStatus
-from tftool.cli.connection import Connection
 from tftool.cli.options import OUTPUT, AtOption, CacheTime, From, Json, RunFor, output_file
 from tftool.errors import InputError, UsageError
 from tftool.stamps import Duration, seconds
@@ -19,6 +18,7 @@ if TYPE_CHECKING:
     from rich.console import Console
     from rich.text import Text
 
+    from tftool.cli.connection import Connection
     from tftool.cli.session import Session
     from tftool.frames.sample import Snapshot
     from tftool.runtime.log import LogRecord
@@ -51,7 +51,7 @@ TEXTS = {
 
 
 def tree(
-    connection: Connection,
+    connection: "Connection",
     place: From = None,
     form: Annotated[
         TreeFormat | None,

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 import typer
 
 from tftool.cli.app import ExitStatus
-from tftool.cli.connection import ROBOT, Connection
+from tftool.cli.connection_options import ROBOT
 from tftool.cli.options import CacheTime, Force, From, RunFor, output_file, within
 from tftool.errors import UsageError
 from tftool.stamps import Duration, as_seconds
@@ -16,6 +16,7 @@ from tftool.stamps import Duration, as_seconds
 if TYPE_CHECKING:
     from collections.abc import Callable, Sequence
 
+    from tftool.cli.connection import Connection
     from tftool.cli.hosting import StoredFrames
     from tftool.cli.session import Session
     from tftool.runtime.world import World
@@ -27,7 +28,7 @@ _MOST_TOLD = 5
 
 
 def view(
-    connection: Connection,
+    connection: "Connection",
     place: From = None,
     port: Annotated[
         int,
@@ -125,7 +126,7 @@ def view(
 
 
 def _write(
-    connection: Connection,
+    connection: "Connection",
     place: str | None,
     output: Path,
     run_for: Duration | None,
@@ -196,7 +197,7 @@ def _write(
 
 
 def _robot_of(
-    connection: Connection, stored: "StoredFrames", meshes: "Sequence[Path]"
+    connection: "Connection", stored: "StoredFrames", meshes: "Sequence[Path]"
 ) -> "ShownRobot | None":
     """The robot of a description, or that of a recording."""
     from tftool.cli.naming import named
@@ -217,7 +218,7 @@ def _robot_of(
 
 
 def _alive(
-    connection: Connection, found: "Found", meshes: "Sequence[Path]"
+    connection: "Connection", found: "Found", meshes: "Sequence[Path]"
 ) -> "tuple[Session, ShownRobot]":
     """A world with one robot, whose joints the page moves."""
     from tftool.cli.described import load_described, tell_beyond
