@@ -81,7 +81,7 @@ def test_the_nearest_option_is_named_first(tftool):
 
 
 def test_one_option_is_spelt_alike_in_all_commands():
-    from typer.main import get_command
+    import typer
 
     # A frequency where something is printed or drawn; where time runs, how fast.
     other = {("demo", "--rate"), ("play", "--rate")}
@@ -90,7 +90,9 @@ def test_one_option_is_spelt_alike_in_all_commands():
     # One world's recording, and those of many.
     other |= {("check", "--record")}
     spelt = {}
-    for command in get_command(app.build(COMMANDS)).commands.values():
+    commands = app.build()
+    context = typer.Context(commands)
+    for command in (commands.get_command(context, name) for name in COMMANDS):
         for param in command.params:
             for name in param.opts:
                 if name.startswith("--") and (command.name, name) not in other:
