@@ -86,7 +86,7 @@ class Observed:
         """The frames that something is wrong with, and the ids of the doctor's checks."""
         if self.moving is not None:
             return {}  # a description at rest sends nothing
-        from tftool.diagnostics.asking import marks
+        from tftool.diagnostics.marking import marks
 
         return marks(self.buffer)
 

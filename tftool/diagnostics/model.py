@@ -15,7 +15,6 @@ from tftool.sources.contract import (
     SIMULATED_BELOW,
     Stamps,
 )
-from tftool.sources.described import prefix_of
 from tftool.sources.robot_description import RobotJoint
 from tftool.sources.timeline import through_clock
 from tftool.stamps import CACHE_TIME, Duration, Stamp, seconds
@@ -162,7 +161,12 @@ class Model:
     def prefix(self) -> str:
         """What stands before a described link's name in that of its frame; usually nothing."""
         robot = self.material.robot
-        return "" if robot is None else prefix_of(robot, self.frames)
+        if robot is None:
+            return ""
+        # Reads what is recorded, too, which takes its time to import.
+        from tftool.sources.described import prefix_of
+
+        return prefix_of(robot, self.frames)
 
     @cached_property
     def joint_above(self) -> Mapping[str, RobotJoint]:

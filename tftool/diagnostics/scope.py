@@ -6,7 +6,8 @@ from typing import Protocol
 
 import numpy as np
 
-from tftool.diagnostics.material import Described, Material, read
+from tftool.diagnostics.material import Material
+from tftool.diagnostics.recorded import Described, read
 from tftool.errors import InputError
 from tftool.sources.contract import Edge, Headers, Source, Transforms
 from tftool.stamps import Stamp

@@ -1,7 +1,6 @@
 """A sensor that is not quite where it says: a frame with seeded noise and drift."""
 
 import math
-from random import Random
 from typing import ClassVar
 
 from tftool.errors import UsageError
@@ -59,6 +58,9 @@ class Noise(Node):
         Raises:
             UsageError: If a deviation is negative.
         """
+        # Imported here: few scenarios have noise, and all import this module.
+        from random import Random
+
         super().__init__(world, name)
         if min(position, angle, drift, turn_drift) < 0:
             raise UsageError("a deviation is zero or more; noise has no other sign")

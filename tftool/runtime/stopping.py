@@ -8,7 +8,6 @@ ended in the same way when a node holds up the loop beyond it.
 
 import asyncio
 import contextlib
-import ctypes
 import os
 import signal
 import socket
@@ -193,6 +192,8 @@ class Stopper:
         patience = PATIENCE if due else self._standstill
         if patience is not None and now >= self._asked_at + patience:
             self._raised_at = now
+            import ctypes  # takes as long as all of this module
+
             ctypes.pythonapi.PyThreadState_SetAsyncExc(
                 ctypes.c_ulong(self._loop_thread), ctypes.py_object(Overdue)
             )

@@ -1,14 +1,14 @@
-"""What a scenario, or a file beside a recording, asks of the doctor; and listening for it."""
+"""What a scenario, or a file beside a recording, asks of the doctor; and listening for it.
+
+The doctor itself, and the numpy it needs, is imported where one is asked: most scenarios ask none.
+"""
 
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
 from types import MappingProxyType
+from typing import TYPE_CHECKING
 
-from tftool.diagnostics.catalogue import CHECKS
-from tftool.diagnostics.findings import Area
-from tftool.diagnostics.hearing import Hearing
-from tftool.diagnostics.model import Settings
 from tftool.errors import ScenarioError
 from tftool.runtime.world import TransformMessage, World
 from tftool.scenario import values
@@ -16,10 +16,12 @@ from tftool.scenario.document import Document, Node
 from tftool.scenario.reading import Key, Reading, Unreadable, quoted, suggest
 from tftool.scenario.text_file import text_of
 
+if TYPE_CHECKING:
+    from tftool.diagnostics.hearing import Hearing
+    from tftool.diagnostics.model import Settings
+
 ENDING = ".doctor.yaml"
 """What the name of a recording's own list ends in."""
-
-_AREAS = tuple(area.value.replace(" ", "-") for area in Area)
 
 
 @dataclass(frozen=True, slots=True)
@@ -34,8 +36,10 @@ class DoctorRules:
     ignore: tuple[str, ...] = ()
     limits: Mapping[str, Mapping[str, float]] = field(default_factory=dict)
 
-    def settings(self, given: Settings) -> Settings:
+    def settings(self, given: "Settings") -> "Settings":
         """What a command line says, and these thresholds where it says nothing."""
+        from tftool.diagnostics.model import Settings
+
         limits = {name: dict(of) for name, of in self.limits.items()}
         for name, of in given.limits.items():
             limits.setdefault(name, {}).update(of)
@@ -47,8 +51,11 @@ NO_RULES = DoctorRules()
 
 def check_or_area(node: Node, reading: Reading) -> str:
     """Read the id of a check, or an area of them."""
+    from tftool.diagnostics.catalogue import CHECKS
+    from tftool.diagnostics.findings import Area
+
     word = reading.text(node, "a check").replace(" ", "-")
-    known = (*CHECKS, *_AREAS)
+    known = (*CHECKS, *(area.value.replace(" ", "-") for area in Area))
     if word not in known:
         near = suggest(word, known) or "; 'tftool doctor --list' shows all"
         raise reading.refuse(node, f"there is no check or area {quoted(word)}{near}")
@@ -57,6 +64,8 @@ def check_or_area(node: Node, reading: Reading) -> str:
 
 def limits(node: Node, reading: Reading) -> Mapping[str, Mapping[str, float]]:
     """Read thresholds: `gap.seconds: 2`."""
+    from tftool.diagnostics.catalogue import CHECKS
+
     found: dict[str, dict[str, float]] = {}
     number = values.quantity(values.NUMBER, least=0.0)
     whole = True
@@ -114,8 +123,10 @@ def _parsed(text: str, name: str) -> DoctorRules:
     return found
 
 
-def heard_in(world: World) -> tuple[Hearing, list[Callable[[], None]]]:
+def heard_in(world: World) -> "tuple[Hearing, list[Callable[[], None]]]":
     """Begin to listen to a world's transforms; what is returned beside ends it."""
+    from tftool.diagnostics.hearing import Hearing
+
     hearing = Hearing()
 
     def hear(message: TransformMessage, *, is_static: bool) -> None:

@@ -10,12 +10,8 @@ from abc import ABC, abstractmethod
 from collections.abc import Mapping
 from dataclasses import dataclass
 from types import MappingProxyType
-from typing import Any, ClassVar
+from typing import TYPE_CHECKING, Any, ClassVar
 
-from tftool.diagnostics.findings import Severity
-from tftool.diagnostics.hearing import Hearing
-from tftool.diagnostics.judge import judge
-from tftool.diagnostics.model import Settings
 from tftool.errors import LookupException
 from tftool.frames.sample import FrameInfo
 from tftool.frames.velocity import Velocity
@@ -50,6 +46,9 @@ from tftool.scenario.values import (
     RelativeMoment,
 )
 from tftool.stamps import Duration, Stamp, as_seconds, seconds
+
+if TYPE_CHECKING:
+    from tftool.diagnostics.hearing import Hearing
 
 
 class ScenarioWorld:
@@ -505,6 +504,10 @@ class Diagnosed(Subject):
 
     def answer(self, scene: ScenarioWorld) -> list[str]:
         """Find the answer, now."""
+        from tftool.diagnostics.findings import Severity
+        from tftool.diagnostics.judge import judge
+        from tftool.diagnostics.model import Settings
+
         if scene.hearing is None:
             return []
         given = Settings(scene.world.buffer.cache_time)

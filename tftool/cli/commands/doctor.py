@@ -126,7 +126,7 @@ def doctor(
     from tftool.cli.workers import workers_of
     from tftool.diagnostics.findings import Severity
     from tftool.diagnostics.judge import refuse_unknown
-    from tftool.diagnostics.material import described_by
+    from tftool.diagnostics.recorded import described_by
     from tftool.diagnostics.scope import Scope
     from tftool.views import findings as view
 

@@ -108,7 +108,7 @@ def _one(connection: Connection, place: str, *, for_programs: bool) -> ExitStatu
             sys.stdout.write(json.dumps(view.as_object(recording), indent=2) + "\n")
         else:
             from tftool.diagnostics.judge import judge
-            from tftool.diagnostics.material import Described
+            from tftool.diagnostics.recorded import Described
             from tftool.diagnostics.scope import Scope
             from tftool.views.findings import brief
 

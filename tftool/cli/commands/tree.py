@@ -256,7 +256,7 @@ def _watch_with_keys(session: "Session", duration: Duration | None) -> None:
     import os
 
     from tftool.cli.notices import is_news
-    from tftool.diagnostics.asking import marks
+    from tftool.diagnostics.marking import marks
     from tftool.runtime.clock import run
     from tftool.screens.setting import Setting, setting_from
     from tftool.screens.showing import show
@@ -281,7 +281,7 @@ async def _redrawn(world: "World", duration: Duration | None, console: "Console"
     from rich.text import Text
 
     from tftool.cli.notices import is_news
-    from tftool.diagnostics.asking import marks
+    from tftool.diagnostics.marking import marks
     from tftool.runtime.clock import Phase, pace_of
     from tftool.runtime.stopping import leave_screen
     from tftool.views.escaping import visible
