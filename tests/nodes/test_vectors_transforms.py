@@ -3,7 +3,7 @@ import math
 
 import pytest
 
-from tests.nodes.vectors import VECTORS, rows
+from tests.nodes.vectors import VECTORS
 from tftool.errors import BackwardExtrapolationException, ForwardExtrapolationException
 from tftool.frames.buffer import Buffer
 from tftool.frames.sample import TransformStamped
@@ -13,8 +13,7 @@ from tftool.geometry.rigid import Transform
 from tftool.messages import Twist2D
 from tftool.motion import pid, pursuit
 from tftool.motion.unicycle import float32
-from tftool.stamps import FRAME_TIMEOUT, seconds
-from tftool.views import theme
+from tftool.stamps import seconds
 
 STAMP = seconds(1000)
 
@@ -175,20 +174,3 @@ def test_links_are_counted_as_the_tree_viewers_count_them(case):
     assert info.newest == base + seconds(case["latest"])
     if "samples" in case:
         assert info.samples == case["samples"]
-
-
-def test_stale_frames_fade_as_in_the_reference():
-    case = VECTORS["stale_fade"]
-    colors = {
-        "x_axis_rgba": theme.AXIS_X,
-        "arrow_shaft_rgba": theme.ARROW_SHAFT,
-        "name_rgba": theme.NAME,
-    }
-    assert case["frame_timeout"] == FRAME_TIMEOUT
-    for row in rows(case):
-        for column, color in colors.items():
-            found = theme.stale_fade(color, row["age"], case["frame_timeout"])
-            if row[column] is None:
-                assert found is None
-            else:
-                assert found == pytest.approx(row[column], abs=1e-9)

@@ -37,9 +37,9 @@ TESTED_IN = {
     "robot_chain": "test_vectors_transforms",
     "euler_to_quaternion": "test_vectors_transforms",
     "tree_statistics": "test_vectors_transforms",
-    "stale_fade": "test_vectors_transforms",
+    "stale_fade": "../screens/browser/test_page",
 }
-"""Every section and the module that runs all of it."""
+"""Every section and the module that runs all of it, from this folder."""
 
 _HEAD = {"format", "tolerances"}
 

@@ -20,7 +20,7 @@ from tftool.views.plane import (
     grid_step,
 )
 
-PEN = theme.PEN
+PEN = Color(179, 184, 255)
 CENTRE = EDGE / 2
 
 

@@ -26,11 +26,6 @@ class Camera:
         self._size = (0, 0)
         self._shown = Viewport(0.0, 0.0, 1.0)
 
-    @property
-    def is_fitted(self) -> bool:
-        """Whether it shows all there is, by itself."""
-        return self._own is None
-
     def view(self, picture: PlanePicture, columns: int, rows: int) -> Viewport:
         """The view of a picture in so many cells."""
         if picture.fixed != self._fixed:

@@ -1,7 +1,6 @@
-"""Colours: turtlesim's own, a stable one per name, and rviz's fading of stale frames.
+"""Colours: turtlesim's own, a stable one per name, and those of screens, dark and light.
 
-Colours are `Color` (0 to 255 a channel); on the way through a fade they are
-floats from 0 to 1, as rviz has them.
+Fading as rviz does is the page's: `screens/browser/page/model.js`.
 """
 
 import zlib
@@ -13,12 +12,9 @@ from tftool.messages import Color
 from tftool.stamps import FRAME_TIMEOUT
 
 BACKGROUND = Color(69, 86, 255)
-PEN = Color(179, 184, 255)
 WALL = Color(255, 92, 87)
 INK = Color(16, 20, 48)
 WHITE = Color(255, 255, 255)
-
-_GREY = 0.7
 
 # Apart from each other and readable on turtlesim's blue, also after a terminal
 # has rounded them to the nearest of its 256.
@@ -34,60 +30,6 @@ _PALETTE = (
     Color(255, 255, 175),
     Color(215, 215, 255),
 )
-
-
-class Rgba(NamedTuple):
-    """A colour from 0 to 1 a channel, and how opaque it is."""
-
-    red: float
-    green: float
-    blue: float
-    alpha: float = 1.0
-
-
-AXIS_X = Rgba(1.0, 0.0, 0.0)
-AXIS_Y = Rgba(0.0, 1.0, 0.0)
-AXIS_Z = Rgba(0.0, 0.0, 1.0)
-ARROW_SHAFT = Rgba(0.8, 0.8, 0.3)
-ARROW_HEAD = Rgba(1.0, 0.1, 0.6)
-NAME = Rgba(1.0, 1.0, 1.0)
-
-
-def stale_fade(color: Rgba, age: float, timeout: float = FRAME_TIMEOUT) -> Rgba | None:
-    """Fade the colour of a frame without a new sample, in rviz's three stages.
-
-    Args:
-        color: The colour of a fresh frame.
-        age: Seconds since its latest stamp last changed; 0 for static frames.
-        timeout: Seconds after which the frame is dead.
-
-    Returns:
-        `color` itself during the first third of `timeout`, a blend to grey during
-        the second, grey that turns transparent during the last, and None (hidden)
-        after that.
-    """
-    third = timeout / 3.0
-    # Asked this way round, an age that is not a number hides the frame.
-    if not age <= timeout:
-        return None
-    if age <= third:
-        return color
-    if age <= 2.0 * third:
-        share = (age - third) / third
-        red, green, blue = (c + share * (_GREY - c) for c in color[:3])
-        return Rgba(red, green, blue, color.alpha)
-    share = (age - 2.0 * third) / third
-    return Rgba(_GREY, _GREY, _GREY, color.alpha * (1.0 - share))
-
-
-def faded(color: Color, age: float, on: Color, timeout: float = FRAME_TIMEOUT) -> Color | None:
-    """Fade `color` as `stale_fade` does, laid over the ground `on` of a screen without alpha."""
-    fresh = Rgba(color.r / 255.0, color.g / 255.0, color.b / 255.0)
-    found = stale_fade(fresh, age, timeout)
-    if found is None:
-        return None
-    solid = Color(*(round(255.0 * channel) for channel in found[:3]))
-    return blend(on, solid, found.alpha)
 
 
 def blend(start: Color, end: Color, share: float) -> Color:
