@@ -9,6 +9,7 @@ import shlex
 from collections.abc import Mapping
 from dataclasses import dataclass
 
+from tftool.diagnostics.climbing import climbed, up_to_join
 from tftool.diagnostics.shape import static_publisher
 from tftool.diagnostics.wording import several
 from tftool.errors import TransformException
@@ -99,21 +100,11 @@ def chained(
 
 
 def _way(robot: Robot, target: str, source: str) -> list[RobotJoint]:
-    """The joints from source to target."""
-    ups, downs = _above(robot, source), _above(robot, target)
-    while ups and downs and ups[-1] is downs[-1]:
-        ups.pop()
-        downs.pop()
-    return ups + downs[::-1]
-
-
-def _above(robot: Robot, link: str) -> list[RobotJoint]:
-    found = []
-    while link != robot.root:
-        joint = robot.joint_above(link)
-        found.append(joint)
-        link = joint.parent
-    return found
+    """The joints from source to target; a description has one root, so they always meet."""
+    joints = {joint.child: joint for joint in robot.joints.values()}
+    legs = up_to_join(source, target, lambda link: climbed(link, joints.get))
+    ups, downs = legs or ([], [])
+    return [*ups, *reversed(downs)]
 
 
 def _link(robot: Robot, joint: RobotJoint, given: Mapping[str, float]) -> ChainLink:

@@ -3,12 +3,13 @@
 Nothing here reads a file; see `material` for what was given.
 """
 
-from collections.abc import Callable, Mapping
+from collections.abc import Mapping
 from dataclasses import dataclass, field
 from functools import cached_property
 
 import numpy as np
 
+from tftool.diagnostics.climbing import climbed, up_to_join
 from tftool.diagnostics.material import Material
 from tftool.diagnostics.streams import Heard, Stream, Track, last_part
 from tftool.sources.contract import (
@@ -369,40 +370,3 @@ def _steps_back(stamps: Stamps) -> list[int]:
     )
     # A stream that goes to and fro all the time tells of no lap.
     return [int(stamped[place + 1]) for place in back[:1000]]
-
-
-def climbed(frame: str, parent: Callable[[str], Track | None]) -> list[Track]:
-    """The edges from a frame up to its root, lowest first; in a loop, each once.
-
-    Args:
-        frame: Where to begin.
-        parent: Gives the edge above a frame; None above a root.
-    """
-    edges: list[Track] = []
-    seen = {frame}
-    while (track := parent(frame)) is not None:
-        edges.append(track)
-        frame = track.parent
-        if frame in seen:
-            break
-        seen.add(frame)
-    return edges
-
-
-def up_to_join(
-    frame: str, other: str, above: Callable[[str], list[Track]]
-) -> tuple[list[Track], list[Track]] | None:
-    """The edges from each of two frames up to where they meet; None where they do not.
-
-    Args:
-        frame: One frame.
-        other: The other.
-        above: Gives the edges from a frame up to its root, lowest first.
-    """
-    up, down = above(frame), above(other)
-    ups = [frame, *(track.parent for track in up)]
-    downs = [other, *(track.parent for track in down)]
-    for place, name in enumerate(ups):
-        if name in downs:
-            return up[:place], down[: downs.index(name)]
-    return None

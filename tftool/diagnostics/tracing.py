@@ -6,8 +6,9 @@ from enum import Enum
 
 import numpy as np
 
+from tftool.diagnostics.climbing import climbed, up_to_join
 from tftool.diagnostics.findings import Edge
-from tftool.diagnostics.model import Model, Settings, climbed, up_to_join
+from tftool.diagnostics.model import Model, Settings
 from tftool.diagnostics.streams import Heard, Track
 from tftool.errors import InputError
 from tftool.frames.buffer import Buffer

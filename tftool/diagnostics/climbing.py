@@ -1,0 +1,52 @@
+"""The way from one frame to another, up the edges above both: of transforms, or of joints."""
+
+from collections.abc import Callable
+from typing import Protocol, TypeVar
+
+
+class Above(Protocol):
+    """What leads from a frame to its parent."""
+
+    @property
+    def parent(self) -> str:
+        """The parent's name."""
+
+
+EdgeT = TypeVar("EdgeT", bound=Above)
+
+
+def climbed(frame: str, parent: Callable[[str], EdgeT | None]) -> list[EdgeT]:
+    """The edges from a frame up to its root, lowest first; in a loop, each once.
+
+    Args:
+        frame: Where to begin.
+        parent: Gives the edge above a frame; None above a root.
+    """
+    edges: list[EdgeT] = []
+    seen = {frame}
+    while (edge := parent(frame)) is not None:
+        edges.append(edge)
+        frame = edge.parent
+        if frame in seen:
+            break
+        seen.add(frame)
+    return edges
+
+
+def up_to_join(
+    frame: str, other: str, above: Callable[[str], list[EdgeT]]
+) -> tuple[list[EdgeT], list[EdgeT]] | None:
+    """The edges from each of two frames up to where they meet; None where they do not.
+
+    Args:
+        frame: One frame.
+        other: The other.
+        above: Gives the edges from a frame up to its root, lowest first.
+    """
+    up, down = above(frame), above(other)
+    ups = [frame, *(edge.parent for edge in up)]
+    downs = [other, *(edge.parent for edge in down)]
+    for place, name in enumerate(ups):
+        if name in downs:
+            return up[:place], down[: downs.index(name)]
+    return None
