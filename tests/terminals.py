@@ -9,7 +9,7 @@ from pathlib import Path
 from threading import Event
 
 ROOT = Path(__file__).parents[1]
-TRIES, PAUSE = 1200, 0.05
+TRIES, PAUSE = 3600, 0.05
 
 
 class Terminal:

@@ -10,6 +10,7 @@ from pathlib import Path
 import pytest
 
 import tftool as package
+from tests.patience import PATIENCE
 from tftool.cli import app
 from tftool.cli.help import GROUPS
 from tftool.errors import (
@@ -134,7 +135,7 @@ def test_the_plain_path_can_be_asked_for():
         capture_output=True,
         text=True,
         check=True,
-        timeout=60,
+        timeout=PATIENCE,
     )
 
     assert told.stdout == f"tftool {package.__version__} (pure Python)\n"
@@ -252,7 +253,7 @@ def test_a_signal_ends_it_quietly_with_130(number):
         # It publishes first, so whoever reads this line knows that it runs.
         assert process.stdout.readline() == "Spinning until stopped - publishing transform\n"
         process.send_signal(number)
-        _, err = process.communicate(timeout=20)
+        _, err = process.communicate(timeout=PATIENCE)
 
     assert process.returncode == 130
     assert "Traceback" not in err
@@ -271,7 +272,7 @@ def test_a_signal_that_comes_when_only_the_interpreter_has_to_end_changes_nothin
         "sys.exit(130)\n"
     )
     done = subprocess.run(
-        [sys.executable, "-c", code], cwd=ROOT, capture_output=True, text=True, timeout=60
+        [sys.executable, "-c", code], cwd=ROOT, capture_output=True, text=True, timeout=PATIENCE
     )
 
     assert (done.returncode, done.stderr) == (130, "")
@@ -289,7 +290,7 @@ def test_too_few_file_descriptors_are_one_line():
         cwd=ROOT,
         capture_output=True,
         text=True,
-        timeout=60,
+        timeout=PATIENCE,
         preexec_fn=limit,
     )
 
@@ -302,7 +303,7 @@ def test_a_reader_that_goes_away_ends_it_quietly():
     with start("static", "--once", "--frame-id", "A", "--child-frame-id", "B") as process:
         process.stdout.close()
         err = process.stderr.read()
-        process.wait(timeout=20)
+        process.wait(timeout=PATIENCE)
 
     assert process.returncode == 0
     assert "Traceback" not in err

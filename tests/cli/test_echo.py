@@ -4,6 +4,7 @@ import re
 import pytest
 
 from tests.cli.test_app import start
+from tests.patience import PATIENCE
 from tftool.cli.echoing import LivePrinter
 from tftool.cli.hosting import HOME
 from tftool.cli.redrawing import Redrawing
@@ -144,10 +145,12 @@ def test_head_ends_a_hosted_echo_quietly():
         assert process.stdout.readline().startswith("At time ")
         process.stdout.close()
         err = process.stderr.read()
-        process.wait(timeout=20)
+        process.wait(timeout=PATIENCE)
 
     assert process.returncode == 0
-    assert err == HOSTING + "turtle1 in turtle2:\n"
+    # A node of a starved world may say beside it that it is behind its timer.
+    told = [line for line in err.splitlines() if "behind its own timer" not in line]
+    assert told == [HOSTING.rstrip("\n"), "turtle1 in turtle2:"]
 
 
 def test_an_unreadable_scenario_says_why(tftool, tmp_path):

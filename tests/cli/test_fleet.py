@@ -17,11 +17,10 @@ pytest.importorskip("mcap", reason="writes the test files")
 pytest.importorskip("zstandard", reason="the extra 'recordings' is not installed")
 
 from tests.cli.test_doctor_recordings import drive
+from tests.patience import PATIENCE
 from tests.sources.writers import write_mcap
 from tftool.runtime.clock import WallClock
 from tftool.stamps import seconds
-
-PATIENCE = seconds(60)
 
 
 @pytest.fixture
@@ -200,7 +199,7 @@ class DaskCluster:
 
 def wait_until(holds):
     clock = WallClock()
-    end = clock.now() + PATIENCE
+    end = clock.now() + seconds(PATIENCE)
     while not holds():
         assert clock.now() < end
         Event().wait(0.02)

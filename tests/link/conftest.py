@@ -5,6 +5,7 @@ from pathlib import Path
 
 import pytest
 
+from tests.patience import PATIENCE
 from tftool.runtime.clock import WallClock
 from tftool.runtime.world import World
 from tftool.stamps import seconds
@@ -18,7 +19,7 @@ def session_dir(monkeypatch):
         yield Path(folder)
 
 
-async def until(condition, *, within=60.0):
+async def until(condition, *, within=PATIENCE):
     """Wait, on the wall clock, for what other threads and processes bring about."""
     clock = WallClock()
     end = clock.now() + seconds(within)

@@ -10,10 +10,10 @@ import threading
 from dataclasses import dataclass
 from pathlib import Path
 
+from tests.patience import PATIENCE
 from tftool.cli.app import main
 
 ROOT = Path(__file__).parents[2]
-PATIENCE = 20  # seconds
 
 
 class Process:
@@ -82,8 +82,8 @@ class Process:
         return self.end()
 
     def end(self):
-        status = self.started.wait(20)
-        self._reader.join(5)
+        status = self.started.wait(PATIENCE)
+        self._reader.join(PATIENCE)
         self.started.stdout.close()
         return status
 
@@ -106,7 +106,7 @@ def run(*words, cwd=ROOT):
         text=True,
         cwd=cwd,
         env={**os.environ, "PYTHONPATH": str(ROOT)},
-        timeout=60,
+        timeout=PATIENCE,
         check=False,
     )
 

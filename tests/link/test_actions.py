@@ -5,6 +5,7 @@ import asyncio
 import pytest
 
 from tests.link.conftest import new_world, until
+from tests.patience import PATIENCE
 from tftool.interfaces.classes import INTERFACES
 from tftool.link import actions
 from tftool.link.actions import ActionServer
@@ -71,7 +72,7 @@ def meet(coroutine, **kwargs):
             await coroutine(stranger, world)
             stranger.server.close()
 
-    run(WallClock(), asyncio.wait_for(attached(), 120))
+    run(WallClock(), asyncio.wait_for(attached(), PATIENCE))
 
 
 @pytest.fixture(autouse=True)

@@ -4,6 +4,7 @@ import threading
 
 import pytest
 
+from tests.patience import PATIENCE
 from tftool.errors import LinkError
 from tftool.link import outbox
 from tftool.link.outbox import Outbox
@@ -25,7 +26,7 @@ class Stuck:
 
     def __call__(self):
         self.begun.set()
-        self.let_go.wait(20)
+        self.let_go.wait(PATIENCE)
 
 
 def test_everything_is_sent_in_its_order_before_the_end(out):
@@ -40,7 +41,7 @@ def test_everything_is_sent_in_its_order_before_the_end(out):
 def test_while_a_reader_takes_nothing_the_loop_goes_on_and_nothing_is_lost(out):
     stuck, sent = Stuck(), []
     out.put(stuck)
-    assert stuck.begun.wait(20)
+    assert stuck.begun.wait(PATIENCE)
     for number in range(1000):
         out.put(lambda number=number: sent.append(number))
     # All of them were taken while the sender stood still.
@@ -68,7 +69,7 @@ def test_a_message_goes_out_by_a_reader_that_takes_nothing_without_waiting_for_i
     outlet.put(b"one", b"1")
     outlet.put(b"two", b"2")
     outlet.close()
-    assert publisher.stuck.begun.wait(20)
+    assert publisher.stuck.begun.wait(PATIENCE)
     assert publisher.calls == []
     publisher.stuck.let_go.set()
     out.close()
@@ -83,7 +84,7 @@ def test_there_is_an_end_to_what_waits(out, monkeypatch, bound, most, size):
     monkeypatch.setattr(outbox, bound, most)
     stuck, sent = Stuck(), []
     out.put(stuck)
-    assert stuck.begun.wait(20)
+    assert stuck.begun.wait(PATIENCE)
     ahead = threading.Event()
 
     def publish():
@@ -94,7 +95,7 @@ def test_there_is_an_end_to_what_waits(out, monkeypatch, bound, most, size):
 
     publishing = threading.Thread(target=publish)
     publishing.start()
-    assert ahead.wait(20)
+    assert ahead.wait(PATIENCE)
     publishing.join(0.05)
     assert publishing.is_alive()
     stuck.let_go.set()
@@ -109,7 +110,7 @@ def test_a_sender_that_never_returns_holds_up_the_loop_once_and_not_for_ever(out
     monkeypatch.setattr(outbox, "LONGEST_WAIT", 0.02)
     stuck, sent = Stuck(), []
     out.put(stuck)
-    assert stuck.begun.wait(20)
+    assert stuck.begun.wait(PATIENCE)
     for number in range(1000):
         out.put(lambda number=number: sent.append(number))
     assert out.dropped > 900
@@ -130,7 +131,7 @@ def test_the_bytes_of_a_message_count_until_it_is_sent(out, monkeypatch):
     outlet = KeyPublisher(Publisher(), out, keeps=False)
     publishing = threading.Thread(target=outlet.put, args=(bytes(101), b""))
     publishing.start()
-    assert stuck.begun.wait(20)
+    assert stuck.begun.wait(PATIENCE)
     publishing.join(0.05)
     assert publishing.is_alive()
     stuck.let_go.set()

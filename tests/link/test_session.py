@@ -11,6 +11,7 @@ import pytest
 
 from tests.certificates import certificates, needs_openssl
 from tests.link.conftest import new_world, until
+from tests.patience import PATIENCE
 from tftool.errors import LinkError, TftoolError
 from tftool.frames.buffer import Buffer
 from tftool.frames.sample import TransformStamped
@@ -70,7 +71,7 @@ class Two:
 
 
 def play(coroutine):
-    return run(WallClock(), asyncio.wait_for(coroutine, 120))
+    return run(WallClock(), asyncio.wait_for(coroutine, PATIENCE))
 
 
 def texts(world):

@@ -222,14 +222,24 @@ def test_a_command_that_will_not_end_is_made_to(tmp_path, capsys, monkeypatch):
 
     monkeypatch.delenv("ROS_DISTRO", raising=False)
     monkeypatch.setenv("TFTOOL_SESSION_DIR", str(tmp_path / "session"))
-    monkeypatch.setattr(ending, "PATIENCE", 0.2)
-    file = tmp_path / "a.launch.xml"
-    # Both the shell and what it runs ignore the first signal, the second one also the next.
+    monkeypatch.setattr(ending, "PATIENCE", 1.0)
+    file = tmp_path / "a.launch.py"
+    # Both the shell and what it runs ignore the first signal, the second one also the next. Nothing
+    # is sent before both have said that they do.
     file.write_text(
-        "<launch>\n"
-        "<executable shell='true' cmd=\"trap '' INT; sleep 60\" name='deaf'/>\n"
-        "<executable shell='true' cmd=\"trap '' INT TERM; sleep 60\" name='deafer'/>\n"
-        "<timer period='0.5'><shutdown reason='enough'/></timer></launch>\n"
+        "from launch import LaunchDescription\nfrom launch.actions import *\n"
+        "from launch.event_handlers import OnProcessIO\n"
+        "heard = []\n"
+        "def hear(event):\n"
+        "    heard.append(event)\n"
+        "    return Shutdown(reason='enough') if len(heard) == 2 else None\n"
+        "def command(name, signals):\n"
+        "    words = f\"trap '' {signals}; echo ready; sleep 60\"\n"
+        "    return ExecuteProcess(cmd=[words], shell=True, name=name)\n"
+        "def generate_launch_description():\n"
+        "    return LaunchDescription([\n"
+        "        RegisterEventHandler(OnProcessIO(on_stdout=hear)),\n"
+        "        command('deaf', 'INT'), command('deafer', 'INT TERM')])\n"
     )
 
     assert main(["launch", "--host", str(file)]) == 1

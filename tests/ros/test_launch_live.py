@@ -52,10 +52,14 @@ def package(folder, **scripts):
 def test_nodes_of_one_name_live_side_by_side(tmp_path):
     package(
         tmp_path,
-        # Each stays until the last has come: a name that somebody has left is free again.
-        same="import time\nimport rclpy\nfrom rclpy.lifecycle import LifecycleNode\nrclpy.init()\n"
+        # Each stays until all have seen the last: a name that somebody has left is free again.
+        same="import pathlib\nimport time\nimport uuid\n"
+        "import rclpy\nfrom rclpy.lifecycle import LifecycleNode\nrclpy.init()\n"
         "node = LifecycleNode('same')\nnode.get_logger().info('here')\n"
-        "while len(node.get_node_names()) < 8:\n    time.sleep(0.05)\ntime.sleep(1.0)\n",
+        "while len(node.get_node_names()) < 8:\n    time.sleep(0.05)\n"
+        f"seen = pathlib.Path({str(tmp_path)!r}, 'seen')\nseen.mkdir(exist_ok=True)\n"
+        "(seen / uuid.uuid4().hex).touch()\n"
+        "while len(list(seen.iterdir())) < 8:\n    time.sleep(0.05)\n",
     )
     file = tmp_path / "many.launch.yaml"
     file.write_text("launch:\n" + 8 * "- node: {pkg: pkg, exec: same.py}\n")

@@ -4,6 +4,8 @@ import threading
 
 import pytest
 
+from tests.patience import PATIENCE
+
 PROGRAM = """
 import queue
 import threading
@@ -183,8 +185,8 @@ def test_threads_of_no_program_share_a_lock_in_real_time():
     thread = threading.Thread(target=feed)
     with ready:
         thread.start()
-        assert ready.wait_for(lambda: box, timeout=10.0) == [1]
-    assert seen.wait(10.0)
+        assert ready.wait_for(lambda: box, timeout=PATIENCE) == [1]
+    assert seen.wait(PATIENCE)
     thread.join()
 
 

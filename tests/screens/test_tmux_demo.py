@@ -5,6 +5,7 @@ import shutil
 
 import pytest
 
+from tests.link.processes import Process
 from tests.terminals import Terminal
 
 pytestmark = pytest.mark.skipif(
@@ -83,11 +84,18 @@ def test_the_demo_shows_turtle2_reaching_turtle1_and_obeys_the_keys(terminal, wi
     demo.ended(0)
 
 
-def test_two_trees_that_are_joined_are_drawn_where_the_echo_says(terminal):
-    demo = terminal(110, 30, *DEMO, "two_trees", "--rate", "8")
+def test_two_trees_that_are_joined_are_drawn_where_the_echo_says(terminal, tmp_path):
+    # As scenario `two_trees`, but joined only when the two have been seen.
+    file = tmp_path / "two.yaml"
+    file.write_text(
+        "duration: 10 s\nnodes: [turtlesim, broadcaster: {turtle: turtle1},\n"
+        "  static: {parent: map, child: station, x: 1 m, y: 2 m, yaw: 90 deg}]\n"
+    )
+    demo = terminal(110, 30, *DEMO, str(file), "--host")
 
     demo.shows("apart: map, 2 frames")
-    demo.until(lambda text: "Frames in map" in text and "apart" not in text, "one tree")
+    with Process("static", "--x", "10", "--frame-id", "map", "--child-frame-id", "world"):
+        demo.until(lambda text: "Frames in map" in text and "apart" not in text, "one tree")
     # The echo of the pair the picture is about: 10 m from map to world, the turtle in the centre.
     demo.until(lambda text: "turtle1 in world" in text, "turtle1 in world")
     demo.press("k", "Enter", "k", "k", "k", "Enter", "j", "j", "j")

@@ -13,6 +13,7 @@ pytest.importorskip("rosbags", reason="writes the test files")
 pytest.importorskip("mcap", reason="writes the test files")
 pytest.importorskip("zstandard", reason="the extra 'recordings' is not installed")
 
+from tests.patience import PATIENCE
 from tests.sources.writers import content, write_mcap
 from tftool import open_recording
 from tftool.sources import cache_heads as caching
@@ -172,7 +173,7 @@ def test_two_processes_share_it(file, cache):
     words = [sys.executable, "-c", WRITER, str(file), str(cache.folder)]
     both = [subprocess.Popen(words, cwd=Path(__file__).parents[2]) for _ in range(2)]
 
-    assert [one.wait(120) for one in both] == [0, 0]
+    assert [one.wait(PATIENCE) for one in both] == [0, 0]
     assert not list(cache.folder.glob("*.part"))
 
 

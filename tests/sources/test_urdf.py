@@ -4,6 +4,7 @@ import subprocess
 
 import pytest
 
+from tests.patience import PATIENCE
 from tftool.errors import DescriptionError, InputError
 from tftool.sources.robot_description import (
     BoxShape,
@@ -319,7 +320,9 @@ def test_urdfdom_takes_and_refuses_the_same(tmp_path):
     for number, (before, after) in enumerate(changes):
         file = tmp_path / f"{number}.urdf"
         file.write_text(ARM.replace(before, after, 1))
-        told = subprocess.run(["check_urdf", file], capture_output=True, check=False, timeout=60)
+        told = subprocess.run(
+            ["check_urdf", file], capture_output=True, check=False, timeout=PATIENCE
+        )
         theirs.append((number, told.returncode == 0))
         try:
             load_description(file)

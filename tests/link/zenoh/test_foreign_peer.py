@@ -11,6 +11,7 @@ from pathlib import Path
 import pytest
 
 from tests.link.conftest import new_world, until
+from tests.patience import PATIENCE
 from tests.wire.definitions import SERVICES
 from tftool.frames.sample import TransformStamped
 from tftool.geometry.rigid import Transform
@@ -142,9 +143,7 @@ def test_a_foreign_ros_2_peer_hears_us_and_is_heard(tmp_path):
             foreign = Foreign(port, tmp_path)
             try:
                 # Transforms: its own in our buffer, under the name of its node ...
-                await until(
-                    lambda: foreign.check() and world.buffer.frame_exists("foreign"), within=60
-                )
+                await until(lambda: foreign.check() and world.buffer.frame_exists("foreign"))
                 found = world.buffer.lookup_transform("world", "foreign")
                 assert found.transform.translation == (1.5, -2.5, 3.5)
                 assert found.transform.rotation == pytest.approx((0.0, 0.0, 0.6, 0.8))
@@ -159,9 +158,7 @@ def test_a_foreign_ros_2_peer_hears_us_and_is_heard(tmp_path):
                     return foreign.check() and foreign.with_key("topic", child="ours", x=0.25)
 
                 await until(ours)
-                await until(
-                    lambda: foreign.check() and foreign.with_key("topic", child="fixed"), within=30
-                )
+                await until(lambda: foreign.check() and foreign.with_key("topic", child="fixed"))
                 assert foreign.with_key("topic", child="fixed")[0] == {
                     "topic": "tf_static", "parent": "world", "child": "fixed", "x": 4.5, "w": 1.0,
                 }  # fmt: skip
@@ -171,7 +168,7 @@ def test_a_foreign_ros_2_peer_hears_us_and_is_heard(tmp_path):
                 assert simulator.turtles["turtle1"].pose.angular_velocity == 0.5
 
                 # The graph as it sees it, and a service of ours answered to it.
-                await until(lambda: foreign.check() and foreign.with_key("topics"), within=60)
+                await until(lambda: foreign.check() and foreign.with_key("topics"))
                 (graph,) = foreign.with_key("topics")
                 assert graph["topics"]["/turtle1/pose"] == ["turtlesim/msg/Pose"]
                 assert graph["services"]["/spawn"] == ["turtlesim/srv/Spawn"]
@@ -209,4 +206,4 @@ def test_a_foreign_ros_2_peer_hears_us_and_is_heard(tmp_path):
                 await asyncio.gather(living, return_exceptions=True)
                 foreign.close()
 
-    run(WallClock(), asyncio.wait_for(meet(), 180))
+    run(WallClock(), asyncio.wait_for(meet(), 2 * PATIENCE))

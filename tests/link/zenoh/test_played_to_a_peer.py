@@ -14,7 +14,7 @@ from tests.link.processes import Process
 from tests.link.zenoh.test_foreign_peer import Foreign
 from tests.sources.writers import content, write_mcap
 
-TRIES, PAUSE = 1200, 0.05
+TRIES, PAUSE = 3600, 0.05
 
 
 def until(condition, play):

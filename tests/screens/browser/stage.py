@@ -3,6 +3,7 @@
 import asyncio
 import threading
 
+from tests.patience import PATIENCE
 from tftool.cli.connection import Connection
 from tftool.cli.hosting import open_session
 from tftool.frames.sample import TransformStamped
@@ -12,8 +13,6 @@ from tftool.runtime.world import World
 from tftool.screens.browser.live import LiveDisplays
 from tftool.screens.browser.server import PageServer
 from tftool.stamps import seconds
-
-PATIENCE = 60
 
 
 class Stage:

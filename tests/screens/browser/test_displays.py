@@ -13,6 +13,7 @@ import numpy as np
 import pytest
 
 import tftool
+from tests.patience import PATIENCE
 from tftool.cli.app import main
 from tftool.frames.sample import TransformStamped
 from tftool.geometry.rigid import Transform
@@ -333,10 +334,10 @@ def test_a_server_shows_them_where_they_were(chromium, run):
 
     thread = threading.Thread(target=lambda: session.run(serve()))
     thread.start()
-    assert ready.wait(60)
+    assert ready.wait(PATIENCE)
     try:
         check_displays(Page(chromium, found, "fixed=world&at=0.5"))
     finally:
         found.loop.call_soon_threadsafe(found.over.set)
-        thread.join(60)
+        thread.join(PATIENCE)
         connection.__exit__()

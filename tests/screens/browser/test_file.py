@@ -59,20 +59,21 @@ def test_trails_of_a_long_recording_are_as_fine_as_it(chromium, tmp_path):
     path = file_of(tmp_path, buffer, end=599.9, begin=EPOCH + seconds(300))
     page = opened(chromium, path, "fixed=map&trails=1&length=10")
 
+    def fine(moment):
+        """The trail once it is that of a moment: until its places come, a coarse one is drawn."""
+        points = page.said("tftool.trailOf('runner')") or []
+        steps = [math.dist(one, other) for one, other in itertools.pairwise(points)]
+        angle = math.tau * moment / 6
+        ends = points and math.dist(points[-1], (math.cos(angle), math.sin(angle), 0.0)) < 1e-3
+        # 30 places a second, on the circle, up to where the frame is now.
+        is_fine = ends and len(steps) >= 299 and max(steps) < 1.1 * math.tau / 6 / 30
+        return points if is_fine else None
+
     for moment in (300, 555.5):
         page.scrub(moment)
-        page.until(lambda: page.said("tftool.trails()")[0] >= 300)
-        points = page.said("tftool.trailOf('runner')")
-        steps = [math.dist(one, other) for one, other in itertools.pairwise(points)]
-        # 30 places a second, on the circle, up to where the frame is now.
-        assert max(steps) < 1.1 * math.tau / 6 / 30
+        points = page.until(lambda moment=moment: fine(moment))
         assert all(math.hypot(x, y) > 0.99 for x, y, _ in points)
-        page.until(
-            lambda: (
-                page.said("tftool.trailOf('runner').at(-1)")
-                == pytest.approx(page.drawn()["runner"]["pose"][:3])
-            )
-        )
+        assert points[-1] == pytest.approx(page.drawn()["runner"]["pose"][:3])
     assert page.complaints() == []
 
 

@@ -12,7 +12,7 @@ pytest.importorskip("websockets", reason="the extra `view` is not installed")
 from websockets.asyncio.client import connect
 
 from tests.link.processes import Process
-from tests.screens.browser.stage import PATIENCE
+from tests.patience import PATIENCE
 
 pytestmark = pytest.mark.skipif(sys.platform == "win32", reason="signals as POSIX has them")
 

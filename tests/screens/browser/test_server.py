@@ -16,6 +16,7 @@ websockets = pytest.importorskip("websockets", reason="the extra `view` is not i
 from websockets.asyncio.client import connect  # noqa: E402
 from websockets.exceptions import ConnectionClosed, InvalidStatus  # noqa: E402
 
+from tests.patience import PATIENCE  # noqa: E402
 from tftool.errors import TftoolError  # noqa: E402
 from tftool.frames.sample import TransformStamped  # noqa: E402
 from tftool.geometry.rigid import Transform  # noqa: E402
@@ -24,8 +25,6 @@ from tftool.runtime.world import World  # noqa: E402
 from tftool.screens.browser import server  # noqa: E402
 from tftool.screens.browser.server import PageServer  # noqa: E402
 from tftool.stamps import seconds  # noqa: E402
-
-PATIENCE = 20
 
 
 def serve(test, *, port=0, rate=500.0):

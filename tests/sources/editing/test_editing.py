@@ -19,6 +19,7 @@ from mcap.stream_reader import StreamReader
 from mcap.writer import CompressionType
 from rosbags.highlevel import AnyReader
 
+from tests.patience import PATIENCE
 from tests.sources.writers import (
     CONTAINERS,
     SECOND,
@@ -175,7 +176,7 @@ for path in sys.argv[1:]:
 """
     paths = [str(tmp_path / f"{name}.bag") for name in ("none", "bz2", "lz4")]
     done = subprocess.run(
-        [python, "-c", program, *paths], capture_output=True, text=True, timeout=60
+        [python, "-c", program, *paths], capture_output=True, text=True, timeout=PATIENCE
     )
 
     moving = sum(one.topic == "/tf" for one in SENT)
