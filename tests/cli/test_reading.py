@@ -1,5 +1,7 @@
 """What a person sees while a recording is read, and how that ends."""
 
+import io
+import re
 import shutil
 import subprocess
 import sys
@@ -10,6 +12,7 @@ pytest.importorskip("rosbags", reason="writes the test files")
 pytest.importorskip("mcap", reason="writes the test files")
 pytest.importorskip("zstandard", reason="the extra 'recordings' is not installed")
 
+from tests.patience import PATIENCE
 from tests.sources.writers import content, write_mcap
 from tests.terminals import ROOT, Terminal
 
@@ -53,9 +56,30 @@ def test_reading_that_takes_long_shows_a_bar_and_ends_at_ctrl_c(tmp_path, file):
         terminal.tmux("kill-server")
 
 
+def test_the_bar_begins_with_how_far_reading_is(monkeypatch):
+    from tftool.cli.recorded import Bar
+
+    class Screen(io.StringIO):
+        def isatty(self):
+            return True
+
+    screen = Screen()
+    monkeypatch.setattr("sys.stderr", screen)
+    monkeypatch.setattr("tftool.cli.recorded.PATIENCE", 0)
+    bar = Bar("Reading run.mcap")
+    while not screen.getvalue():
+        bar(25_000_000, 100_000_000)
+    bar.stop()
+
+    shown = re.findall(r"[\d.]+/[\d.]+ MB", screen.getvalue())
+    assert set(shown) == {"25.0/100.0 MB"}
+
+
 def test_without_a_terminal_there_is_no_bar(file):
     words = [sys.executable, "-c", SLOW, str(file), "5"]
-    done = subprocess.run(words, cwd=ROOT, capture_output=True, text=True, timeout=120, check=False)
+    done = subprocess.run(
+        words, cwd=ROOT, capture_output=True, text=True, timeout=PATIENCE, check=False
+    )
 
     assert done.returncode == 0
     assert "Reading" not in done.stderr

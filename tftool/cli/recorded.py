@@ -164,13 +164,13 @@ class Bar:
             return
         self._drawn = now
         if self._progress is None:
-            self._begin(total)
+            self._begin(done, total)
         assert self._progress is not None
         assert self._task is not None
         self._progress.update(self._task, completed=done, total=total)
         self._progress.refresh()
 
-    def _begin(self, total: int) -> None:
+    def _begin(self, done: int, total: int) -> None:
         from rich.console import Console
         from rich.markup import escape
         from rich.progress import (
@@ -195,7 +195,8 @@ class Bar:
             redirect_stdout=False,
             redirect_stderr=False,
         )
-        self._task = self._progress.add_task("", total=total)
+        # Drawn as it starts, and shown until the next round: with how far it is by now.
+        self._task = self._progress.add_task("", completed=done, total=total)
         self._progress.start()
         # A signal ends the process at once: what it leaves behind must be as it was.
         self._progress.console.show_cursor(True)
