@@ -2,13 +2,17 @@
 
 import random
 import struct
+from array import array
 
 import numpy as np
 import pytest
 
 from tests.sources.scanning import REASON, ROS1_SAMPLE, both, cdr, is_native, ros1, same
+from tftool.frames.sample import TransformStamped
+from tftool.geometry.rigid import Transform
 from tftool.wire.layouts import CDR, ROS1
 from tftool.wire.native import SCAN
+from tftool.wire.transforms import encode_transforms
 
 needs_scan = pytest.mark.skipif(not is_native(), reason=REASON)
 LAYOUTS = [(CDR, cdr), (ROS1, ros1)]
@@ -73,32 +77,119 @@ def test_finds_the_same_among_more_pairs_than_there_are_layouts_for():
     assert len(native.edges) == 97 * 89
 
 
+def take(pairs, payload, ask, *, start=0, length=None, is_cdr=False):
+    """One message, whose number is 7."""
+    buffer = np.frombuffer(payload, dtype=np.uint8)
+    places = np.array([start]), np.array([len(payload) if length is None else length])
+    return pairs.take(buffer, *places, np.array([7], dtype=np.int32), is_cdr, ask)
+
+
+def room(rows):
+    """Columns for so many transforms, and the state of an edge without any."""
+    state = array("q", (0, -1, 1, 0, 0, 0))
+    return np.zeros((rows, 8), dtype=np.int64), np.zeros(rows, dtype=np.int32), state
+
+
 @needs_scan
 def test_refuses_places_outside_of_the_buffer():
-    buffer = np.zeros(100, dtype=np.uint8)
+    payload = bytes(100)
 
     for start, length in ((-1, 4), (0, 101), (101, 0), (90, 11), (2**62, 2**62), (0, -1)):
         with pytest.raises(ValueError, match="outside"):
-            SCAN.Pairs().scan(buffer, np.array([start]), np.array([length]), True)
+            take(SCAN.Pairs(), payload, None, start=start, length=length)
+    no_numbers = np.zeros(0, dtype=np.int32)
+    with pytest.raises(ValueError, match="outside"):
+        SCAN.Pairs().take(payload, np.array([0]), np.array([4]), no_numbers, True, None)
 
 
 @needs_scan
-def test_refuses_targets_that_are_too_short():
-    payload = np.frombuffer(ros1(ROS1_SAMPLE), dtype=np.uint8)
+def test_asks_where_the_transforms_of_a_pair_go_and_for_room():
+    payload = [(5, "a", "b"), (6, "a", "c"), (7, "a", "b"), (7, "a", "b")]
+    payload = ros1([*payload, (8, "/a", "b"), (9, "x", "y")])
     pairs = SCAN.Pairs()
-    found, _, _ = pairs.scan(payload, np.array([0]), np.array([len(payload)]), False)
-    numbers = np.zeros(1, dtype=np.int32)
-    target = np.zeros((0, 8), dtype=np.int64), np.zeros(0, dtype=np.int32)
+    columns, other, asked = room(2), room(1), []
 
-    with pytest.raises(ValueError, match="too short"):
-        SCAN.fill(payload, found, numbers, [target])
-    with pytest.raises(ValueError, match="another buffer"):
-        SCAN.fill(payload[:20], found, numbers, [target])
-    for number in (0, 1, -1, 2**70):
-        with pytest.raises((ValueError, OverflowError)):
-            SCAN.fill(payload, found, numbers, [number])
+    def ask(pair, message, rank):
+        asked.append((pair, message, rank))
+        parent, child = pairs.names(pair)
+        if parent == b"x":
+            pairs.lead(pair, -1, False)
+        elif child == b"c":
+            pairs.aim(1, *other)
+            pairs.lead(pair, 1, False)
+        else:
+            if rank:
+                columns[:2] = [np.concatenate([one, one]) for one in columns[:2]]
+            pairs.aim(0, *columns)
+            pairs.lead(pair, 0, parent == b"/a")
+
+    columns = list(columns)
+    left_out, odd = take(pairs, payload, ask)
+
+    assert (left_out, odd) == (1, b"")
+    # The third of an edge finds no room.
+    assert asked == [(0, 7, 0), (1, 7, 1), (0, 7, 3), (2, 7, 4), (3, 7, 5)]
+    assert columns[0][:4, 0].tolist() == [5, 7, 7, 8]
+    assert columns[1][:4].tolist() == [7] * 4
+    assert list(columns[2]) == [4, 7, 1, 2, 1, 0]
+    assert other[0][0, 0] == 6
+
+
+@needs_scan
+def test_refuses_columns_without_room_or_of_another_kind():
+    payload = ros1(ROS1_SAMPLE)
+    pairs = SCAN.Pairs()
+    moved = room(1)
+
+    def put_elsewhere(pair, *_):
+        pairs.aim(0, *moved)
+        pairs.lead(pair, 0, False)
+        moved[2][5] += 1
+
+    for nobody in (
+        lambda *_: None,
+        lambda pair, *_: (pairs.aim(0, *room(0)), pairs.lead(pair, 0, False)),
+        put_elsewhere,
+    ):
+        with pytest.raises(ValueError, match="no room"):
+            take(pairs, payload, nobody)
+    with pytest.raises(ZeroDivisionError):
+        take(pairs, payload, lambda *_: 1 // 0)
+    with pytest.raises(RuntimeError, match="another thread"):
+        take(pairs, payload, lambda *_: take(pairs, payload, None))
+    for number, state in ((2, room(1)[2]), (-1, room(1)[2]), (0, array("q", (0,) * 5))):
+        with pytest.raises(ValueError, match="no such edge"):
+            pairs.aim(number, *room(1)[:2], state)
+    for pair, edge in ((1, 0), (0, 1), (0, -2), (-1, 0)):
+        with pytest.raises(IndexError):
+            pairs.lead(pair, edge, False)
     with pytest.raises(IndexError):
         pairs.names(1)
+
+
+POSES = {
+    "sound": ((1.0, 2.0, 3.0), (0.0, 0.0, 0.6, 0.8)),
+    "infinite": ((1.0, float("inf"), 3.0), (0.0, 0.0, 0.6, 0.8)),
+    "no number": ((1.0, 2.0, 3.0), (0.0, 0.0, float("nan"), 0.8)),
+    "long": ((1.0, 2.0, 3.0), (0.0, 0.0, 0.6, 0.9)),
+    "other sign": ((1.0, 2.0, 3.0), (0.0, 0.0, -0.6, -0.8)),
+}
+
+
+@needs_scan
+@pytest.mark.parametrize("odd", POSES)
+@pytest.mark.parametrize("later", [True, False])
+def test_counts_how_many_a_buffer_keeps_as_they_are(odd, later):
+    sent = [(k, *POSES["sound"]) for k in range(1, 100)]
+    sent += [(100 if later else 99, *POSES[odd]), (101, *POSES["sound"])]
+    messages = [
+        encode_transforms([TransformStamped(stamp, "map", "odom", Transform(*pose))])
+        for stamp, *pose in sent
+    ]
+
+    _, native = both(CDR, messages)
+
+    assert native.edges[0].kept == (101 if later and odd == "sound" else 99)
 
 
 @needs_scan

@@ -15,17 +15,16 @@
 #define PY_SSIZE_T_CLEAN
 #define Py_LIMITED_API 0x030B0000
 #include <Python.h>
-#include <float.h>
-#include <math.h>
 #include <stdint.h>
 #include <string.h>
 #include <structmember.h>
+
+#include "_kept.h"
 
 #define WORD 8
 #define RECORD (8 * WORD)
 #define PARENT_MASK 0xffffffffLL
 #define EXACT (1ULL << 53) /* Whole numbers below this are exact as doubles. */
-#define ROUNDING 8e-16      /* So far from 1 is the square of a unit quaternion at most. */
 
 /* What `tftool.frames.native` expects; a build of another interface is not used. */
 #define INTERFACE 3
@@ -194,23 +193,10 @@ static inline void between(const Pose *first, Pose *second) {
     second->n[6] = aw * bw + ax * bx + ay * by + az * bz;
 }
 
-/* The number of a unit quaternion that tf2 makes positive: `quaternions.leading`. */
-static inline double leading(double x, double y, double z, double w) {
-    if (w * w > 0.25)
-        return w;
-    const double xx = x * x, yy = y * y, zz = z * z;
-    return xx < yy ? (yy < zz ? z : y) : (xx < zz ? z : x);
-}
-
 static inline void canonical(double *turn) {
     if (!(turn[3] > 0.5) && leading(turn[0], turn[1], turn[2], turn[3]) < 0.0)
         for (int i = 0; i < 4; i++)
             turn[i] = -turn[i];
-}
-
-/* The square of a quaternion's length. */
-static inline double square_of(const double *turn) {
-    return turn[0] * turn[0] + turn[1] * turn[1] + turn[2] * turn[2] + turn[3] * turn[3];
 }
 
 /* `quaternions.unit`; returns 0 where there is no direction, or none that is plain to see. */
@@ -1134,12 +1120,7 @@ static PyObject *are_kept(PyObject *Py_UNUSED(module), PyObject *args) {
     for (Py_ssize_t row = begin; row < end && kept; row++) {
         Pose pose;
         pose_of(records, row, &pose);
-        const double *n = pose.n, *turn = n + 3, square = square_of(turn);
-        /* Where one of the four is no number, or infinite, neither is their square's sum near 1. */
-        kept = fabs(n[0]) <= DBL_MAX && fabs(n[1]) <= DBL_MAX && fabs(n[2]) <= DBL_MAX
-            && 1.0 - ROUNDING < square && square < 1.0 + ROUNDING
-            && !(leading(turn[0], turn[1], turn[2], turn[3]) < 0.0)
-            && (row == 0 || stamp_of(records, row) > stamp_of(records, row - 1));
+        kept = is_kept(pose.n) && (row == 0 || stamp_of(records, row) > stamp_of(records, row - 1));
     }
     PyBuffer_Release(&view);
     return PyBool_FromLong(kept);

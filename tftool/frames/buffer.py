@@ -366,9 +366,22 @@ class Buffer(Door):
         return cut
 
     def adopt_records(
-        self, parent: str, child: str, records: "npt.NDArray[np.int64]", authority: str = ""
+        self,
+        parent: str,
+        child: str,
+        records: "npt.NDArray[np.int64]",
+        authority: str = "",
+        kept: int = 0,
     ) -> bool:
         """As `set_records`, if nothing speaks against them: each is newer than the one before.
+
+        Args:
+            parent: See there.
+            child: Likewise.
+            records: Likewise.
+            authority: Likewise.
+            kept: How many of them, from the first on, are known to be such, finite, and with
+                unit quaternions of tf2's sign.
 
         Returns:
             Whether they were taken, all of them. Nothing was done if not.
@@ -377,7 +390,7 @@ class Buffer(Door):
 
         known = len(self._tree.frames)
         if self._listening or not insert.adopt(
-            self._tree, self.max_frames, (parent, child, authority), records
+            self._tree, self.max_frames, (parent, child, authority), records, kept
         ):
             return False
         self._solver.drop_paths()

@@ -1,5 +1,6 @@
 """Recorded messages in, transforms out: columns per edge that grow as a file is read."""
 
+from array import array
 from collections import Counter
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -19,7 +20,9 @@ MOST_EDGES: Final = 100_000
 """Edges of one recording; of what goes beyond, only the number is told."""
 
 _NEVER: Final = 2**62, 0
+_FEWEST: Final = 16
 _MOST_AHEAD: Final = 16  # times as many rows as have come, at most, are made room for
+_FREELY: Final = 1 << 22  # but so many rows, of all edges, however few have come
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -80,8 +83,8 @@ class _Column:
 
     __slots__ = ("_rows", "count")
 
-    def __init__(self, kind: type, *width: int) -> None:
-        self._rows: npt.NDArray[Any] = np.empty((0, *width), dtype=kind)
+    def __init__(self, kind: type) -> None:
+        self._rows: npt.NDArray[Any] = np.empty(0, dtype=kind)
         self.count = 0
 
     def room(self, count: int, share: float = 1.0) -> npt.NDArray[Any]:
@@ -94,15 +97,7 @@ class _Column:
         first = self.count
         self.count = needed = first + count
         if needed > len(self._rows):
-            # What is there to come is known roughly; to copy what has come costs more than
-            # addresses that are never used.
-            most = needed * _MOST_AHEAD
-            likely = int(needed / share * 1.02) if share * most > needed else most
-            before = self._rows
-            count = max(likely, needed * 3 // 2, 16)
-            rows = np.empty((count, *before.shape[1:]), dtype=before.dtype)
-            rows[:first] = before[:first]
-            self._rows = rows
+            self._rows = _longer(self._rows, first, _wanted(needed, share, _FREELY))
         return self._rows[first:needed]
 
     def all(self) -> npt.NDArray[Any]:
@@ -110,32 +105,81 @@ class _Column:
         return self._rows[: self.count]
 
 
-class Growing:
-    """One edge while it is read."""
+def _wanted(needed: int, share: float, freely: int) -> int:
+    """How many rows to make room for.
 
-    __slots__ = (
-        "child",
-        "first",
-        "last",
-        "messages",
-        "ordered",
-        "parent",
-        "records",
-        "slashed",
-        "static",
-    )
+    Args:
+        needed: How many there must be room for.
+        share: How much of all has come with them, from 0 to 1.
+        freely: How many there may be room for, whatever is needed.
+    """
+    # What is there to come is known roughly; to copy what has come costs more than addresses
+    # that are never used.
+    most = max(needed * _MOST_AHEAD, freely)
+    likely = int(needed / share * 1.02) if share * most > needed else needed * _MOST_AHEAD
+    return max(likely, needed * 3 // 2, _FEWEST)
+
+
+def _longer(before: npt.NDArray[Any], count: int, rows: int) -> npt.NDArray[Any]:
+    """An array of so many rows that begins with some of another one."""
+    made = np.empty((rows, *before.shape[1:]), dtype=before.dtype)
+    made[:count] = before[:count]
+    return made
+
+
+# What `Growing.state` holds, by place; the native scan has the same.
+_COUNT, _LAST, _ORDERED, _KEPT, _SLASHED, _MOVED = range(6)
+
+
+class Growing:
+    """One edge while it is read.
+
+    Attributes:
+        parent: As in `Edge`.
+        child: Likewise.
+        static: Likewise.
+        records: As the buffer's histories keep them, who take them uncopied; with room.
+        messages: Of each the message it came in; with room.
+        state: Read and written by the native scan as well: how many rows there are; the last
+            message; whether those have come in order; how many rows from the first on a history
+            would keep as they are, as far as that was looked at; how many had a slash left out
+            of their names; and how often the columns were put elsewhere.
+        first: The first message, and a number that is the greater the farther behind in it the
+            transform stands.
+    """
+
+    __slots__ = ("child", "first", "messages", "parent", "records", "state", "static")
 
     def __init__(self, parent: str, child: str, static: bool) -> None:
         self.parent = parent
         self.child = child
         self.static = static
-        self.slashed = 0
-        # As the buffer's histories keep them: they take them uncopied.
-        self.records = _Column(np.int64, 8)
-        self.messages = _Column(np.int32)
-        self.ordered = True
+        self.records: Records = np.empty((0, 8), dtype=np.int64)
+        self.messages: Indexes = np.empty(0, dtype=np.int32)
+        self.state = array("q", (0, -1, 1, 0, 0, 0))
         self.first = _NEVER
-        self.last = -1
+
+    def make_room(self, count: int, share: float = 1.0, freely: int = 0) -> int:
+        """Have room for so many rows more.
+
+        Args:
+            count: How many.
+            share: How much of all has come with them, from 0 to 1.
+            freely: How many there may be room for, however few have come.
+
+        Returns:
+            For how many there is room now that there was none for.
+        """
+        there, before = self.state[_COUNT], len(self.messages)
+        needed = there + count
+        if needed <= before:
+            return 0
+        # One that came once may never come again.
+        rows = _wanted(needed, share, freely if there else 0)
+        self.records = _longer(self.records, there, rows)
+        self.messages = _longer(self.messages, there, rows)
+        self.state[_MOVED] += 1
+        return rows - before
 
     def room(
         self, first: tuple[int, int], last: int, count: int, share: float = 1.0
@@ -143,26 +187,34 @@ class Growing:
         """Where to write transforms, and the messages they come in.
 
         Args:
-            first: The first of those messages, which are in order, and a number that is the
-                greater the farther behind in it the transform stands.
+            first: The first of those messages, which are in order, and the place in it.
             last: The last of them.
             count: How many transforms.
             share: How much of all has come with them.
         """
-        if self.last > first[0]:
-            self.ordered = False
+        state = self.state
+        if state[_LAST] > first[0]:
+            state[_ORDERED] = 0
         self.first = min(self.first, first)
-        self.last = last
-        return self.records.room(count, share), self.messages.room(count, share)
+        state[_LAST] = last
+        self.make_room(count, share)
+        begin = state[_COUNT]
+        state[_COUNT] = end = begin + count
+        return self.records[begin:end], self.messages[begin:end]
+
+    def add_slashed(self, count: int) -> None:
+        """Count transforms of which a slash was left out."""
+        self.state[_SLASHED] += count
 
     def finished(self) -> Edge:
         """As a value, in the order of the messages."""
-        records, messages = self.records.all(), self.messages.all()
-        if not self.ordered:
+        count, _, ordered, kept, slashed, _ = self.state
+        records, messages = self.records[:count], self.messages[:count]
+        if not ordered:
             # Stable: one message may bring an edge twice.
             order = np.argsort(messages, kind="stable")
-            records, messages = records[order], messages[order]
-        return Edge(self.parent, self.child, self.static, self.slashed, records, messages)
+            records, messages, kept = records[order], messages[order], 0
+        return Edge(self.parent, self.child, self.static, slashed, records, messages, kept)
 
 
 class Table:
@@ -179,6 +231,7 @@ class Table:
         self._log_times = _Column(np.int64)
         self._senders = _Column(np.int32)
         self._left_out = 0
+        self._freely = _FREELY
         self.refused: Counter[str] = Counter()
         """How many messages were refused, by the reason."""
 
@@ -201,12 +254,20 @@ class Table:
         edge = self._edges.get(key)
         if edge is None:
             if len(self._edges) >= MOST_EDGES:
-                self._left_out += count
+                self.leave_out(count)
                 return None
             edge = self._edges[key] = Growing(*key)
         if plain != (parent, child):
-            edge.slashed += count
+            edge.add_slashed(count)
         return edge
+
+    def make_room(self, edge: Growing, message: int) -> None:
+        """Have room for one more transform of an edge, which comes in that message."""
+        self._freely -= edge.make_room(1, self.share(message + 1), max(self._freely, 0))
+
+    def leave_out(self, count: int) -> None:
+        """Count transforms for which there is no edge."""
+        self._left_out += count
 
     def append(
         self,

@@ -90,6 +90,8 @@ class Edge:
         records: One row a transform, int64, shape (n, 8): the stamp, and bit by bit the
             seven doubles x y z (metres) and x y z w (quaternion).
         messages: The message each came in: a place in `Transforms.log_times`.
+        kept: How many rows from the first on are known to be as a buffer keeps them: each newer
+            than the one before, finite, and with a unit quaternion of tf2's sign.
     """
 
     parent: str
@@ -98,6 +100,7 @@ class Edge:
     slashed: int
     records: npt.NDArray[np.int64]
     messages: Indexes
+    kept: int = 0
 
     def __len__(self) -> int:
         return len(self.messages)

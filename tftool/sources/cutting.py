@@ -212,39 +212,52 @@ class ScanCutter(Cutter):
     def __init__(self, table: Table, layout: Layout, static: bool) -> None:
         super().__init__(table, layout, static)
         self._pairs = SCAN.Pairs()
-        self._names: dict[int, tuple[str, str]] = {}
+        self._edges: list[Growing] = []
+        self._numbers: dict[Growing, int] = {}
+        self._of_pair: dict[int, int] = {}
 
     def _cut(self, batch: Batch, numbers: Indexes) -> None:
         if len(batch.buffer) >= _MOST_SCANNED:
             self._walk(batch, numbers)
             return
-        starts, lengths = map(np.ascontiguousarray, (batch.starts, batch.lengths))
-        numbers = np.ascontiguousarray(numbers)
+        columns = map(np.ascontiguousarray, (batch.starts, batch.lengths, numbers))
         is_cdr = self._layout is CDR
-        found, told, odd = self._pairs.scan(batch.buffer, starts, lengths, is_cdr)
-        # Of each pair how many there are, and the first of them.
-        pairs = np.frombuffer(told, dtype=np.uint32).reshape(-1, 2)
-        messages = np.frombuffer(found, dtype=np.uint32)[1::4]
-        targets: list[tuple[object, object] | int | None] = [None] * len(pairs)
-        # Names with a slash and without are of one edge: what they have is filled together.
-        owners: dict[Growing, tuple[int, int, int]] = {}
-        for pair in np.flatnonzero(pairs[:, 0]).tolist():
-            parent, child = self._names.get(pair) or self._named(pair)
-            count, rank = pairs[pair].tolist()
-            edge = self._table.edge(parent, child, self._static, count)
-            if edge is not None:
-                owner, there, first = owners.get(edge, (pair, 0, rank))
-                owners[edge] = owner, there + count, min(first, rank)
-                targets[pair] = owner
-        last = int(numbers[-1])
-        share = self._table.share(last + 1)
-        for edge, (owner, count, rank) in owners.items():
-            first = int(numbers[messages[rank]])
-            targets[owner] = edge.room((first, rank), last, count, share)
-        SCAN.fill(batch.buffer, found, numbers, targets)
+        left_out, odd = self._pairs.take(batch.buffer, *columns, is_cdr, self._aim)
+        self._table.leave_out(left_out)
         if odd:
             which = np.frombuffer(odd, dtype=np.uint32).astype(np.int64)
             self._walk(batch.chosen(which), numbers[which])
+
+    def _aim(self, pair: int, message: int, rank: int) -> None:
+        """Say where a pair's transforms go, and make room.
+
+        Args:
+            pair: Its number.
+            message: That of the message that brings the next one.
+            rank: The place in it.
+        """
+        number = self._of_pair.get(pair)
+        if number is not None:
+            self._give_room(number, message)
+            return
+        names = self._named(pair)
+        edge = self._table.edge(*names, self._static, 0)
+        if edge is None:
+            self._pairs.lead(pair, -1, False)
+            return
+        edge.first = min(edge.first, (message, rank))
+        # Names with a slash and without are of one edge.
+        number = self._numbers.setdefault(edge, len(self._edges))
+        if number == len(self._edges):
+            self._edges.append(edge)
+        self._of_pair[pair] = number
+        self._give_room(number, message)
+        self._pairs.lead(pair, number, names != (edge.parent, edge.child))
+
+    def _give_room(self, number: int, message: int) -> None:
+        edge = self._edges[number]
+        self._table.make_room(edge, message)
+        self._pairs.aim(number, edge.records, edge.messages, edge.state)
 
     def _named(self, pair: int) -> tuple[str, str]:
         """Both names of a pair as `walk` gives them."""
@@ -252,7 +265,6 @@ class ScanCutter(Cutter):
         if self._layout is CDR:
             raw = tuple(name.removesuffix(b"\x00") for name in raw)
         parent, child = (name.decode("utf-8", "backslashreplace") for name in raw)
-        self._names[pair] = parent, child
         return parent, child
 
 

@@ -394,7 +394,7 @@ def _set_moving(
     records, stamps = edge.records, edge.stamps
     # Where the first one has no stamp 0 and each is newer, none has: they need not be looked at.
     later = len(edge) and stamps[0] > 0
-    if later and buffer.adopt_records(edge.parent, edge.child, records, authority):
+    if later and buffer.adopt_records(edge.parent, edge.child, records, authority, edge.kept):
         return
     if not stamps.all():
         text = f"'{edge.child}' moves, but has stamp 0: left out, as tf2 takes 0 for the latest"

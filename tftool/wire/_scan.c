@@ -16,8 +16,10 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "../frames/_kept.h"
+
 /* What `tftool.wire.native` expects; a build of another interface is not used. */
-#define INTERFACE 2
+#define INTERFACE 3
 
 #define SMALLEST 72              /* Bytes of a transform with empty names: stamp, two lengths, doubles. */
 #define LONGEST_NAME 4096        /* As in `rows`. */
@@ -55,7 +57,24 @@ static inline int64_t i64_at(const char *words, Py_ssize_t index) {
 typedef struct {
     uint32_t hash, place, parent, child; /* Where its bytes begin in `bytes`, and how many each has. */
     uint32_t next;                       /* The pair that came behind it last. */
+    int32_t target;                      /* Where its transforms go, or one of those below. */
+    int32_t slashed;                     /* Whether a leading slash is left out of a name. */
 } Pair;
+
+#define UNKNOWN (-2)
+#define NOWHERE (-1)
+
+/* What is known of an edge's columns while they grow, as `columns.Growing` has it. */
+enum { COUNT, LAST, ORDERED, KEPT, SLASHED, MOVED, STATE };
+
+/* An edge's columns, with room. */
+typedef struct {
+    Py_buffer records, messages, state;
+    int64_t room, moved;
+} Target;
+
+/* Where a transform was found. */
+typedef struct { uint32_t pair, stamp, numbers; } Found; /* The bytes where they begin, in the message. */
 
 typedef struct {
     PyObject_HEAD
@@ -63,16 +82,12 @@ typedef struct {
     uint32_t *slots; /* Of a hash: the number of a pair, plus one; 0 where there is none. */
     uint8_t *bytes;
     uint32_t count, room, mask, used, size;
-    int busy; /* Whether a thread scans, which does not hold Python's lock meanwhile. */
+    Found *found; /* What the message that is looked at has. */
+    uint64_t longest;
+    Target *targets;
+    Py_ssize_t targeted;
+    int busy; /* 1 while a thread scans, which does not hold Python's lock; 2 while it asks. */
 } Pairs;
-
-/* Where a transform was found. */
-typedef struct {
-    uint32_t pair, message, stamp, numbers; /* The bytes where they begin, in the buffer. */
-} Found;
-
-/* How many transforms a pair has, and the first of them. */
-typedef struct { uint32_t count, first; } Told;
 
 static uint32_t hash_of(const uint8_t *bytes, uint32_t size, uint64_t hash) {
     while (size >= 8) {
@@ -160,7 +175,7 @@ static int64_t number_of(Pairs *self, const uint8_t *parent, uint32_t parent_siz
         || !make_room(self, parent_size + child_size))
         return -1;
     const uint32_t number = self->count++;
-    self->pairs[number] = (Pair){hash, self->used, parent_size, child_size, number};
+    self->pairs[number] = (Pair){hash, self->used, parent_size, child_size, number, UNKNOWN, 0};
     memcpy(self->bytes + self->used, parent, parent_size);
     memcpy(self->bytes + self->used + parent_size, child, child_size);
     self->used += parent_size + child_size;
@@ -173,21 +188,28 @@ static int64_t number_of(Pairs *self, const uint8_t *parent, uint32_t parent_siz
 
 /* Messages --------------------------------------------------------------- */
 
-/* Walk through a message: `rows.walk`. Returns how many transforms it has, or -1 if it is odd.
+#define ODD (-1)
+#define NO_MEMORY (-2)
 
-   buffer   the bytes, which it lies in from `start` on, `size` of them
-   last     the pair that came last; is changed
-   found    where to write what is found: room for as many as fit the message */
-static int64_t walk(Pairs *self, const uint8_t *buffer, uint64_t start, uint64_t size, int is_cdr,
-                    uint32_t message, uint32_t *last, Found *found) {
-    const uint8_t *bytes = buffer + start;
+/* Walk through a message: `rows.walk`. Returns how many transforms it has, which `found` tells of,
+   or what is wrong.
+
+   bytes   it, `size` of them
+   last    the pair that came last; is changed */
+static int64_t walk(Pairs *self, const uint8_t *bytes, uint64_t size, int is_cdr, uint32_t *last) {
     uint64_t position = is_cdr ? 4 : 0;
     if (size < position + 4 || (is_cdr && (bytes[0] != 0 || bytes[1] != 1)))
-        return -1;
+        return ODD;
     const uint64_t count = u32_at(bytes + position);
     position += 4;
     if (count * SMALLEST > size - position)
-        return -1;
+        return ODD;
+    if (count > self->longest) {
+        if (!grow((void **)&self->found, 2 * count * sizeof *self->found))
+            return NO_MEMORY;
+        self->longest = 2 * count;
+    }
+    Found *found = self->found;
     for (uint64_t row = 0; row < count; row++) {
         const uint64_t stamp = is_cdr ? position : position + 4;
         const uint8_t *names[2];
@@ -197,10 +219,10 @@ static int64_t walk(Pairs *self, const uint8_t *buffer, uint64_t start, uint64_t
             if (is_cdr)
                 position = (position + 3) & ~3ULL;
             if (position + 4 > size)
-                return -1;
+                return ODD;
             const uint32_t length = u32_at(bytes + position);
             if (length > LONGEST_NAME || position + 4 + length > size)
-                return -1;
+                return ODD;
             names[k] = bytes + position + 4;
             sizes[k] = length;
             position += 4 + length;
@@ -208,7 +230,7 @@ static int64_t walk(Pairs *self, const uint8_t *buffer, uint64_t start, uint64_t
         if (is_cdr)
             position = ((position + 3) & ~7ULL) + 4;
         if (position + 56 > size)
-            return -1;
+            return ODD;
         int64_t pair = -1;
         if (*last < self->count) {
             /* As a rule what came behind it the last time comes again. */
@@ -219,15 +241,15 @@ static int64_t walk(Pairs *self, const uint8_t *buffer, uint64_t start, uint64_t
         if (pair < 0) {
             pair = number_of(self, names[0], sizes[0], names[1], sizes[1]);
             if (pair < 0)
-                return -1;
+                return ODD;
             if (*last < self->count)
                 self->pairs[*last].next = (uint32_t)pair;
         }
         *last = (uint32_t)pair;
-        found[row] = (Found){(uint32_t)pair, message, (uint32_t)(start + stamp), (uint32_t)(start + position)};
+        found[row] = (Found){(uint32_t)pair, (uint32_t)stamp, (uint32_t)position};
         position += 56;
     }
-    return size - position > (is_cdr ? 7 : 0) ? -1 : (int64_t)count;
+    return size - position > (is_cdr ? 7 : 0) ? ODD : (int64_t)count;
 }
 
 /* Buffers of arguments, released at the end. */
@@ -247,32 +269,81 @@ static void release_all(Py_buffer *views, int count) {
         PyBuffer_Release(&views[--count]);
 }
 
-PyDoc_STRVAR(scan_doc, "Find the transforms of messages; see `_scan.pyi`.");
+/* Columns ---------------------------------------------------------------- */
 
-static PyObject *scan(PyObject *object, PyObject *const *arguments, Py_ssize_t count) {
+/* Write one transform into its edge's columns; returns whether there is room for it. */
+static inline int is_written(Pairs *self, const uint8_t *bytes, const Found *found, int32_t message) {
+    const Pair *pair = &self->pairs[found->pair];
+    Target *target = &self->targets[pair->target];
+    int64_t *state = target->state.buf;
+    const int64_t row = state[COUNT];
+    /* Others may have put other columns in their place. */
+    if (state[MOVED] != target->moved || row < 0 || row >= target->room)
+        return 0;
+    char *record = (char *)target->records.buf + RECORD * row;
+    const uint8_t *time = bytes + found->stamp;
+    const int64_t stamp = (int64_t)(int32_t)u32_at(time) * 1000000000 + u32_at(time + 4);
+    double pose[7];
+    memcpy(pose, bytes + found->numbers, sizeof pose);
+    memcpy(record, &stamp, sizeof stamp);
+    memcpy(record + 8, pose, sizeof pose);
+    memcpy((char *)target->messages.buf + 4 * row, &message, sizeof message);
+    if (state[KEPT] == row && is_kept(pose) && (row == 0 || stamp > i64_at(record - RECORD, 0)))
+        state[KEPT] = row + 1;
+    if (message < state[LAST])
+        state[ORDERED] = 0;
+    state[LAST] = message;
+    state[SLASHED] += pair->slashed;
+    state[COUNT] = row + 1;
+    return 1;
+}
+
+/* Have `ask` say where a pair's transforms go, with room; returns whether it did. */
+static int is_aimed(Pairs *self, PyObject *ask, uint32_t pair, int32_t message, Py_ssize_t rank) {
+    self->busy = 2;
+    PyObject *answer = PyObject_CallFunction(ask, "Iin", (unsigned)pair, (int)message, rank);
+    self->busy = 1;
+    Py_XDECREF(answer);
+    if (answer == NULL)
+        return 0;
+    const int32_t number = self->pairs[pair].target;
+    if (number == NOWHERE)
+        return 1;
+    if (number >= 0) {
+        const Target *target = &self->targets[number];
+        const int64_t *state = target->state.buf;
+        if (state[MOVED] == target->moved && state[COUNT] >= 0 && state[COUNT] < target->room)
+            return 1;
+    }
+    PyErr_SetString(PyExc_ValueError, "no room was made for a transform");
+    return 0;
+}
+
+PyDoc_STRVAR(take_doc, "Write the transforms of messages into columns; see `_scan.pyi`.");
+
+static PyObject *take(PyObject *object, PyObject *const *arguments, Py_ssize_t count) {
     Pairs *self = (Pairs *)object;
-    static const int flags[] = {PyBUF_SIMPLE, PyBUF_SIMPLE, PyBUF_SIMPLE};
-    Py_buffer views[3];
-    if (count != 4) {
-        PyErr_SetString(PyExc_TypeError, "scan takes a buffer, starts, lengths, and whether it is CDR");
+    static const int flags[] = {PyBUF_SIMPLE, PyBUF_SIMPLE, PyBUF_SIMPLE, PyBUF_SIMPLE};
+    Py_buffer views[4];
+    if (count != 6) {
+        PyErr_SetString(PyExc_TypeError, "take takes a buffer, three arrays, whether it is CDR, and whom to ask");
         return NULL;
     }
-    const int is_cdr = PyObject_IsTrue(arguments[3]);
-    if (is_cdr < 0 || !read_all(arguments, views, flags, 3))
+    const int is_cdr = PyObject_IsTrue(arguments[4]);
+    if (is_cdr < 0 || !read_all(arguments, views, flags, 4))
         return NULL;
+    const uint8_t *buffer = views[0].buf;
     const uint64_t size = (uint64_t)views[0].len;
-    const char *starts = views[1].buf, *lengths = views[2].buf;
     const Py_ssize_t messages = views[1].len / 8;
-    PyObject *result = NULL, *found = NULL, *odd = NULL, *told = NULL;
+    PyObject *result = NULL;
     uint32_t *odds = NULL;
-    uint64_t room = 0;
-    int fits = views[2].len / 8 == messages && size <= UINT32_MAX && messages <= INT32_MAX;
+    int fits = views[2].len / 8 == messages && views[3].len / 4 == messages && messages <= INT32_MAX;
     for (Py_ssize_t k = 0; k < messages && fits; k++) {
-        const int64_t start = i64_at(starts, k), length = i64_at(lengths, k);
-        fits = start >= 0 && length >= 0 && (uint64_t)start <= size && (uint64_t)length <= size - (uint64_t)start;
-        room += (uint64_t)length / SMALLEST;
+        const int64_t start = i64_at(views[1].buf, k), length = i64_at(views[2].buf, k);
+        fits = start >= 0 && length >= 0 && length <= UINT32_MAX && (uint64_t)start <= size
+            && (uint64_t)length <= size - (uint64_t)start;
     }
-    if (!fits || room > (uint64_t)PY_SSIZE_T_MAX / sizeof(Found)) {
+    if (!fits) {
         PyErr_SetString(PyExc_ValueError, "a message lies outside of the buffer");
         goto done;
     }
@@ -280,56 +351,119 @@ static PyObject *scan(PyObject *object, PyObject *const *arguments, Py_ssize_t c
         PyErr_SetString(PyExc_RuntimeError, "another thread scans with these pairs");
         goto done;
     }
-    found = PyByteArray_FromStringAndSize(NULL, (Py_ssize_t)(room * sizeof(Found)));
-    if (found == NULL)
-        goto done;
-    Found *rows = (Found *)PyByteArray_AsString(found), *row = rows;
     uint32_t last = UINT32_MAX;
     Py_ssize_t odd_count = 0, odd_room = 0;
-    int failed = 0;
+    long long left_out = 0;
+    int failed = 0, is_told = 0;
     self->busy = 1;
-    Py_BEGIN_ALLOW_THREADS
-    for (Py_ssize_t k = 0; k < messages; k++) {
-        const int64_t transforms = walk(self, views[0].buf, (uint64_t)i64_at(starts, k),
-                                        (uint64_t)i64_at(lengths, k), is_cdr, (uint32_t)k, &last, row);
-        if (transforms >= 0) {
-            row += transforms;
-            continue;
+    PyThreadState *state = PyEval_SaveThread();
+    for (Py_ssize_t k = 0; k < messages && !failed && !is_told; k++) {
+        const uint8_t *bytes = buffer + i64_at(views[1].buf, k);
+        const int64_t transforms = walk(self, bytes, (uint64_t)i64_at(views[2].buf, k), is_cdr, &last);
+        int32_t message;
+        memcpy(&message, (const char *)views[3].buf + 4 * k, sizeof message);
+        for (int64_t row = 0; row < transforms; row++) {
+            const Found *found = &self->found[row];
+            const Pair *pair = &self->pairs[found->pair];
+            if (pair->target >= 0 && is_written(self, bytes, found, message))
+                continue;
+            if (pair->target != NOWHERE) {
+                PyEval_RestoreThread(state);
+                is_told = !is_aimed(self, arguments[5], found->pair, message, (Py_ssize_t)row);
+                state = PyEval_SaveThread();
+                if (is_told)
+                    break;
+            }
+            if (pair->target == NOWHERE)
+                left_out++;
+            else
+                is_written(self, bytes, found, message);
         }
+        if (transforms >= 0)
+            continue;
         if (odd_count == odd_room) {
             odd_room = odd_room ? 2 * odd_room : 64;
-            if (!grow((void **)&odds, (uint64_t)odd_room * sizeof *odds)) {
-                failed = 1;
-                break;
-            }
+            failed = !grow((void **)&odds, (uint64_t)odd_room * sizeof *odds);
         }
-        odds[odd_count++] = (uint32_t)k;
+        failed |= transforms == NO_MEMORY;
+        if (!failed)
+            odds[odd_count++] = (uint32_t)k;
     }
-    Py_END_ALLOW_THREADS
+    PyEval_RestoreThread(state);
     self->busy = 0;
-    if (failed) {
+    if (failed)
         PyErr_NoMemory();
-        goto done;
-    }
-    odd = PyByteArray_FromStringAndSize((const char *)odds, odd_count * (Py_ssize_t)sizeof *odds);
-    told = PyByteArray_FromStringAndSize(NULL, (Py_ssize_t)self->count * (Py_ssize_t)sizeof(Told));
-    if (told == NULL || odd == NULL)
-        goto done;
-    Told *of_pair = (Told *)PyByteArray_AsString(told);
-    memset(of_pair, 0, self->count * sizeof *of_pair);
-    for (const Found *one = rows; one < row; one++) {
-        if (of_pair[one->pair].count++ == 0)
-            of_pair[one->pair].first = (uint32_t)(one - rows);
-    }
-    if (PyByteArray_Resize(found, (row - rows) * (Py_ssize_t)sizeof(Found)) == 0)
-        result = PyTuple_Pack(3, found, told, odd);
+    else if (!is_told)
+        result = Py_BuildValue("(Ly#)", left_out, odds ? (const char *)odds : "", odd_count * (Py_ssize_t)sizeof *odds);
 done:
     free(odds);
-    Py_XDECREF(found);
-    Py_XDECREF(odd);
-    Py_XDECREF(told);
-    release_all(views, 3);
+    release_all(views, 4);
     return result;
+}
+
+static void release_target(Target *target) {
+    PyBuffer_Release(&target->records);
+    PyBuffer_Release(&target->messages);
+    PyBuffer_Release(&target->state);
+}
+
+PyDoc_STRVAR(aim_doc, "Give an edge's columns; see `_scan.pyi`.");
+
+static PyObject *aim(PyObject *object, PyObject *const *arguments, Py_ssize_t count) {
+    Pairs *self = (Pairs *)object;
+    static const int flags[] = {PyBUF_WRITABLE, PyBUF_WRITABLE, PyBUF_WRITABLE};
+    Py_buffer views[3];
+    if (count != 4) {
+        PyErr_SetString(PyExc_TypeError, "aim takes an edge's number and three arrays");
+        return NULL;
+    }
+    const Py_ssize_t number = PyLong_AsSsize_t(arguments[0]);
+    if ((number == -1 && PyErr_Occurred()) || !read_all(arguments + 1, views, flags, 3))
+        return NULL;
+    if (self->busy == 1 || number < 0 || number > self->targeted || number >= MOST_PAIRS
+        || views[2].len < STATE * 8 || (uintptr_t)views[2].buf % 8) {
+        PyErr_SetString(PyExc_ValueError, "there is no such edge, or it lacks its state");
+        goto failed;
+    }
+    if (number == self->targeted) {
+        /* Twice as many whenever their number is a power of 2. */
+        if ((number & (number - 1)) == 0
+            && !grow((void **)&self->targets, (uint64_t)(number ? 2 * number : 1) * sizeof *self->targets)) {
+            PyErr_NoMemory();
+            goto failed;
+        }
+        self->targeted++;
+    } else {
+        release_target(&self->targets[number]);
+    }
+    const Py_ssize_t rows = views[0].len / RECORD, others = views[1].len / 4;
+    self->targets[number] = (Target){views[0], views[1], views[2], rows < others ? rows : others,
+                                     ((int64_t *)views[2].buf)[MOVED]};
+    return Py_NewRef(Py_None);
+failed:
+    release_all(views, 3);
+    return NULL;
+}
+
+PyDoc_STRVAR(lead_doc, "Say to which edge a pair's transforms go; see `_scan.pyi`.");
+
+static PyObject *lead(PyObject *object, PyObject *const *arguments, Py_ssize_t count) {
+    Pairs *self = (Pairs *)object;
+    if (count != 3) {
+        PyErr_SetString(PyExc_TypeError, "lead takes a pair, an edge's number, and whether it is slashed");
+        return NULL;
+    }
+    const Py_ssize_t pair = PyLong_AsSsize_t(arguments[0]), number = PyLong_AsSsize_t(arguments[1]);
+    const int slashed = PyObject_IsTrue(arguments[2]);
+    if (PyErr_Occurred())
+        return NULL;
+    if (self->busy == 1 || pair < 0 || pair >= (Py_ssize_t)self->count || number < NOWHERE || number >= self->targeted) {
+        PyErr_SetString(PyExc_IndexError, "there is no such pair, or no such edge");
+        return NULL;
+    }
+    self->pairs[pair].target = (int32_t)number;
+    self->pairs[pair].slashed = slashed;
+    return Py_NewRef(Py_None);
 }
 
 PyDoc_STRVAR(names_doc, "Both names of a pair; see `_scan.pyi`.");
@@ -339,7 +473,7 @@ static PyObject *names(PyObject *object, PyObject *argument) {
     const long long number = PyLong_AsLongLong(argument);
     if (number == -1 && PyErr_Occurred())
         return NULL;
-    if (self->busy || number < 0 || number >= self->count) {
+    if (self->busy == 1 || number < 0 || number >= self->count) {
         PyErr_SetString(PyExc_IndexError, "there is no such pair");
         return NULL;
     }
@@ -354,13 +488,19 @@ static void pairs_dealloc(PyObject *object) {
     free(self->pairs);
     free(self->slots);
     free(self->bytes);
+    free(self->found);
+    while (self->targeted > 0)
+        release_target(&self->targets[--self->targeted]);
+    free(self->targets);
     freefunc release = PyType_GetSlot(type, Py_tp_free);
     release(object);
     Py_DECREF(type);
 }
 
 static PyMethodDef pairs_methods[] = {
-    {"scan", (PyCFunction)(void (*)(void))scan, METH_FASTCALL, scan_doc},
+    {"take", (PyCFunction)(void (*)(void))take, METH_FASTCALL, take_doc},
+    {"aim", (PyCFunction)(void (*)(void))aim, METH_FASTCALL, aim_doc},
+    {"lead", (PyCFunction)(void (*)(void))lead, METH_FASTCALL, lead_doc},
     {"names", names, METH_O, names_doc},
     {NULL, NULL, 0, NULL},
 };
@@ -376,109 +516,7 @@ static PyType_Spec pairs_spec = {
     "tftool.wire._scan.Pairs", sizeof(Pairs), 0, Py_TPFLAGS_DEFAULT, pairs_slots,
 };
 
-/* Columns ---------------------------------------------------------------- */
-
-typedef struct {
-    Py_buffer records, messages;
-    Py_ssize_t count, room;
-    Py_ssize_t owner; /* Into which target it really goes; -1 for none. */
-} Target;
-
-PyDoc_STRVAR(fill_doc, "Write what was found into columns; see `_scan.pyi`.");
-
-static PyObject *fill(PyObject *module, PyObject *const *arguments, Py_ssize_t count) {
-    (void)module;
-    static const int flags[] = {PyBUF_SIMPLE, PyBUF_SIMPLE, PyBUF_SIMPLE};
-    Py_buffer views[3];
-    if (count != 4 || !PyList_Check(arguments[3])) {
-        PyErr_SetString(PyExc_TypeError, "fill takes a buffer, what was found, numbers, and a list");
-        return NULL;
-    }
-    PyObject *list = arguments[3], *result = NULL;
-    const Py_ssize_t pairs = PyList_Size(list);
-    if (!read_all(arguments, views, flags, 3))
-        return NULL;
-    Target *targets = PyMem_Calloc((size_t)pairs + 1, sizeof *targets);
-    Py_ssize_t held = 0;
-    if (targets == NULL) {
-        PyErr_NoMemory();
-        goto done;
-    }
-    for (; held < pairs; held++) {
-        Target *target = &targets[held];
-        PyObject *both = PyList_GetItem(list, held);
-        target->room = target->owner = -1;
-        if (both == Py_None)
-            continue;
-        if (PyLong_Check(both)) {
-            target->owner = PyLong_AsSsize_t(both);
-            if (target->owner == -1 && PyErr_Occurred())
-                goto done;
-            if (target->owner < 0 || target->owner >= held || targets[target->owner].room < 0) {
-                PyErr_SetString(PyExc_ValueError, "there is no such earlier target");
-                goto done;
-            }
-            continue;
-        }
-        if (!PyTuple_Check(both) || PyTuple_Size(both) != 2) {
-            PyErr_SetString(PyExc_TypeError, "a target is a tuple of two arrays");
-            goto done;
-        }
-        if (PyObject_GetBuffer(PyTuple_GetItem(both, 0), &target->records, PyBUF_WRITABLE) < 0)
-            goto done;
-        if (PyObject_GetBuffer(PyTuple_GetItem(both, 1), &target->messages, PyBUF_WRITABLE) < 0) {
-            PyBuffer_Release(&target->records);
-            goto done;
-        }
-        target->owner = held;
-        target->room = target->records.len / RECORD;
-        if (target->messages.len / 4 < target->room)
-            target->room = target->messages.len / 4;
-    }
-    const uint8_t *buffer = views[0].buf;
-    const uint64_t size = (uint64_t)views[0].len;
-    const Py_ssize_t rows = views[1].len / (Py_ssize_t)sizeof(Found), messages = views[2].len / 4;
-    const char *wrong = NULL;
-    Py_BEGIN_ALLOW_THREADS
-    for (Py_ssize_t k = 0; k < rows; k++) {
-        Found found;
-        memcpy(&found, (const char *)views[1].buf + k * (Py_ssize_t)sizeof found, sizeof found);
-        if (found.pair >= (uint64_t)pairs || found.message >= (uint64_t)messages
-            || (uint64_t)found.stamp + 8 > size || (uint64_t)found.numbers + 56 > size) {
-            wrong = "it was found in another buffer";
-            break;
-        }
-        if (targets[found.pair].owner < 0)
-            continue;
-        Target *target = &targets[targets[found.pair].owner];
-        if (target->count == target->room) {
-            wrong = "a target is too short";
-            break;
-        }
-        char *record = (char *)target->records.buf + RECORD * target->count;
-        const int64_t stamp = (int64_t)(int32_t)u32_at(buffer + found.stamp) * 1000000000
-                            + u32_at(buffer + found.stamp + 4);
-        memcpy(record, &stamp, 8);
-        memcpy(record + 8, buffer + found.numbers, 56);
-        memcpy((char *)target->messages.buf + 4 * target->count++, (const char *)views[2].buf + 4 * (size_t)found.message, 4);
-    }
-    Py_END_ALLOW_THREADS
-    if (wrong != NULL) {
-        PyErr_SetString(PyExc_ValueError, wrong);
-        goto done;
-    }
-    result = Py_NewRef(Py_None);
-done:
-    while (held > 0) {
-        if (targets[--held].room >= 0) {
-            PyBuffer_Release(&targets[held].records);
-            PyBuffer_Release(&targets[held].messages);
-        }
-    }
-    PyMem_Free(targets);
-    release_all(views, 3);
-    return result;
-}
+/* Indexes ---------------------------------------------------------------- */
 
 PyDoc_STRVAR(indexed_doc, "Where the messages of an MCAP message index lie; see `_scan.pyi`.");
 
@@ -669,7 +707,6 @@ static PyObject *rows(PyObject *module, PyObject *const *arguments, Py_ssize_t c
 /* The module ------------------------------------------------------------- */
 
 static PyMethodDef methods[] = {
-    {"fill", (PyCFunction)(void (*)(void))fill, METH_FASTCALL, fill_doc},
     {"rows", (PyCFunction)(void (*)(void))rows, METH_FASTCALL, rows_doc},
     {"pointed", (PyCFunction)(void (*)(void))pointed, METH_FASTCALL, pointed_doc},
     {"indexed", (PyCFunction)(void (*)(void))indexed, METH_FASTCALL, indexed_doc},

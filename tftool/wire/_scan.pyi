@@ -1,53 +1,69 @@
 """What the native scan offers; each function says what it is the twin of."""
 
+from collections.abc import Callable
+
 INTERFACE: int
 
 class Pairs:
     """Pairs of frame names as they were sent, by number, in the order they first came up."""
 
-    def scan(
-        self, buffer: object, starts: object, lengths: object, is_cdr: bool, /
-    ) -> tuple[bytearray, bytearray, bytearray]:
-        """`rows.walk` of many messages, which begin at `starts` and have `lengths`, both int64.
+    def take(
+        self,
+        buffer: object,
+        starts: object,
+        lengths: object,
+        numbers: object,
+        is_cdr: bool,
+        ask: Callable[[int, int, int], None],
+        /,
+    ) -> tuple[int, bytes]:
+        """`rows.walk` and `Template.cut` of many messages, transform by transform into columns.
+
+        Other threads of Python run meanwhile; the arrays must not change.
+
+        Args:
+            buffer: The bytes.
+            starts: Where each message begins in it, int64.
+            lengths: How many bytes it has, int64.
+            numbers: What to call it, int32.
+            is_cdr: How they are written.
+            ask: Is called with a pair, a message, and a place in that, at the first transform of
+                a pair and where there is no room for another one: leads the pair to an edge, and
+                aims that at columns with room.
 
         Returns:
-            For each transform, as four uint32, its pair, its message, and where its stamp and its
-            numbers begin in the buffer; of each pair, as two uint32, how many it has, and which
-            is the first; which messages are odd, uint32: those are for `walk`, and nothing of
-            them is in the first two.
-
-        Other threads of Python run meanwhile; the buffer must not change.
+            How many transforms of pairs that lead nowhere were left out; the places of the
+            messages that are odd, uint32: those are for `walk`, and nothing of them is taken.
 
         Raises:
-            ValueError: If a message lies outside of the buffer, or that has more than 4 GiB.
+            ValueError: If a message lies outside of the buffer, or nobody made room.
             RuntimeError: If another thread does the same right now.
         """
 
     def names(self, number: int, /) -> tuple[bytes, bytes]:
         """Parent and child of a pair, in the message's bytes."""
 
-def fill(
-    buffer: object,
-    found: object,
-    numbers: object,
-    targets: list[tuple[object, object] | int | None],
-    /,
-) -> None:
-    """`Template.cut` of what `Pairs.scan` found.
+    def lead(self, pair: int, edge: int, is_slashed: bool, /) -> None:
+        """Say to which edge a pair's transforms go; to -1, they are left out.
 
-    Other threads of Python run meanwhile; nothing of it must change.
+        Args:
+            pair: Its number.
+            edge: One that has been aimed already.
+            is_slashed: Whether its names have a slash that those of the edge do not have.
+        """
 
-    Args:
-        buffer: The same as there.
-        found: Its first result.
-        numbers: What to call each message, int32.
-        targets: For each pair its records and their messages, int64 of shape (n, 8) and int32 of
-            shape (n,), to be written; the number of an earlier pair to write there; None to
-            leave it out.
+    def aim(self, edge: int, records: object, messages: object, state: object, /) -> None:
+        """Give the columns into which an edge's transforms are to be written.
 
-    Raises:
-        ValueError: If a target is too short.
-    """
+        Args:
+            edge: Its number; those that come up are numbered from 0 on.
+            records: int64 of shape (room, 8).
+            messages: int32 of shape (room,).
+            state: What `columns.Growing` has as such.
+
+        Raises:
+            ValueError: If it is none of them.
+        """
 
 def indexed(
     chunk: object,

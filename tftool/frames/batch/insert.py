@@ -186,7 +186,11 @@ def insert(
 
 
 def adopt(
-    tree: FrameTree, max_frames: int, link: tuple[str, str, str], records: npt.NDArray[np.int64]
+    tree: FrameTree,
+    max_frames: int,
+    link: tuple[str, str, str],
+    records: npt.NDArray[np.int64],
+    kept: int = 0,
 ) -> bool:
     """Have a child that is not known yet keep recorded samples as its history, uncopied.
 
@@ -195,6 +199,7 @@ def adopt(
         max_frames: How many names there may be.
         link: Parent, child and authority.
         records: As a history keeps them, shape (n, 8): stamps and seven doubles each.
+        kept: How many from the first on are known to be as a history keeps them.
 
     Returns:
         Whether they were taken, all of them. If not, nothing was done: something about them
@@ -210,7 +215,7 @@ def adopt(
     if there is not None and tree.frames[there].link is not None:
         return False
     lent = words = _lent(records)
-    for begin in range(0, len(records), _BLOCK):
+    for begin in range(kept, len(records), _BLOCK):
         end = min(begin + _BLOCK, len(records))
         if IS_NATIVE and _kernel.are_kept(lent, begin, end):
             continue
