@@ -274,6 +274,31 @@ def test_the_table_has_its_lines():
     assert set(LINES) >= STAYING
 
 
+def test_a_package_imports_from_its_neighbour_in_the_workspace(tmp_path, capsys, monkeypatch):
+    for name, module, code in (
+        (
+            "talks",
+            "node",
+            "from shared.words import WORD\n" + NODE + "node.get_logger().info(WORD)\n",
+        ),
+        ("shared", "words", "WORD = 'from next door'\n"),
+    ):
+        folder = tmp_path / "src" / name
+        (folder / name).mkdir(parents=True)
+        (folder / "package.xml").write_text(f"<package><name>{name}</name></package>")
+        (folder / name / "__init__.py").touch()
+        (folder / name / f"{module}.py").write_text(code)
+        (folder / "setup.py").write_text(
+            f"setup(name='{name}', entry_points={{'console_scripts': ['go = {name}.{module}']}})"
+        )
+    monkeypatch.chdir(tmp_path)
+
+    main(["run", *SIMULATED, "talks", "go"])
+    assert "[mine]: from next door" in capsys.readouterr().err
+    assert main(["run", *SIMULATED, "src/talks/talks/node.py"]) == 0
+    assert "[mine]: from next door" in capsys.readouterr().err
+
+
 def test_a_node_can_be_put_into_a_scenario(tmp_path, capsys):
     file = tmp_path / "where.py"
     file.write_text(

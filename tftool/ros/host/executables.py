@@ -17,7 +17,7 @@ from tftool.nodes.squares import DrawSquare, Mimic
 from tftool.nodes.static_turtle import static_turtle
 from tftool.nodes.turtlesim import BACKGROUND, Turtlesim
 from tftool.notation import static_arguments
-from tftool.ros.host import user_code
+from tftool.ros.host import importing, user_code
 from tftool.ros.host.names import RosOptions, expand, join
 from tftool.ros.host.program import Program
 from tftool.ros.host.workspace import Workspace, missing_package
@@ -337,10 +337,10 @@ def start(
         UsageError: If there is no such package or executable; the nearest is told.
         InputError: If its file cannot be read or is no Python.
     """
+    # As where a workspace is sourced: each of its packages can import the others.
+    importing.look_behind(workspace.module_folders())
     if package is None:
-        return start_file(
-            world, Path(executable), label=label, argv=argv, options=options, on_exit=on_exit
-        )
+        return _program(world, label, user_code.file_body(Path(executable)), argv, options, on_exit)
     check(workspace, package, executable)
     found = workspace.packages.get(package)
     if found is not None and executable in found.scripts:
@@ -350,23 +350,6 @@ def start(
     if found is not None and (file := found.script_file(executable)) is not None:
         return _program(world, label, user_code.file_body(file), argv, options, on_exit)
     return _start_ours(world, _OURS[package, executable], arguments, options)
-
-
-def start_file(
-    world: World,
-    path: Path,
-    *,
-    label: str,
-    argv: Sequence[str],
-    options: RosOptions,
-    on_exit: Callable[[Program], object] | None = None,
-) -> Program:
-    """Start a Python file in a world; the arguments are those of `start`.
-
-    Raises:
-        InputError: If the file cannot be read or is no Python.
-    """
-    return _program(world, label, user_code.file_body(path), argv, options, on_exit)
 
 
 def _program(

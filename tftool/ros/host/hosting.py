@@ -103,28 +103,24 @@ def start_program(
         UsageError: If there is no such executable, or what follows is malformed.
         InputError: If the file cannot be read or is no Python.
     """
+    package: str | None = None
     if is_file(target):
         path = _file(workspace, target)
-        options, _ = names.parse(rest)
-        options.name = options.name or name or None
-        label = world.free_name(name or path.stem)
-        argv = [target, *rest]
-        executables.start_file(
-            world, path, label=label, argv=argv, options=options, on_exit=on_exit
-        )
-        return label
-    _need_executable(workspace, target, rest)
-    executable, *words = rest
+        executable, called, words, argv = str(path), path.stem, rest, [target, *rest]
+    else:
+        _need_executable(workspace, target, rest)
+        package, executable, words, argv = target, rest[0], rest[1:], list(rest)
+        called = executable
     options, arguments = names.parse(words)
     options.name = options.name or name or None
-    label = world.free_name(name or executable)
+    label = world.free_name(name or called)
     executables.start(
         world,
         workspace,
-        target,
+        package,
         executable,
         label=label,
-        argv=[executable, *words],
+        argv=argv,
         arguments=arguments,
         options=options,
         on_exit=on_exit,

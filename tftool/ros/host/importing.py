@@ -8,7 +8,7 @@ import importlib.machinery
 import os
 import sys
 from collections import UserList
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from contextlib import contextmanager
 from importlib.abc import Loader, MetaPathFinder
 from pathlib import Path
@@ -311,6 +311,12 @@ def look_in(root: Path) -> None:
     """Look for users' modules in a folder too, before everything else."""
     if _finder is not None and root not in _finder.roots:
         _finder.roots.insert(0, root)
+
+
+def look_behind(roots: Iterable[str]) -> None:
+    """Look for users' modules in folders too, behind those that programs bring themselves."""
+    if _finder is not None:
+        _finder.roots += [root for root in map(Path, roots) if root not in _finder.roots]
 
 
 def import_anew(module: str, root: Path) -> ModuleType:
