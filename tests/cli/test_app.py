@@ -12,7 +12,6 @@ import pytest
 import tftool as package
 from tests.patience import PATIENCE
 from tftool.cli import app
-from tftool.cli.help import GROUPS
 from tftool.errors import (
     InputError,
     LookupException,
@@ -57,13 +56,6 @@ def test_help_is_a_command_too(tftool):
     assert "Did you mean 'echo'?" in tftool("help", "eko").err
     assert "Did you mean 'echo'?" in tftool("eco").err
     assert "mean" not in tftool("xyzzy").err
-
-
-def test_every_command_is_listed_under_what_one_wants():
-    listed = [name for names in GROUPS.values() for name in names]
-
-    assert len(listed) == len(set(listed))
-    assert set(COMMANDS) <= set(listed)
 
 
 def test_the_options_of_sessions_are_shown_when_asked(tftool):

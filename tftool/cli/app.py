@@ -17,36 +17,53 @@ if TYPE_CHECKING:
     from tftool.cli.connection import Providers
     from tftool.cli.help import Commands
 
-# In the order of the help, with what the help says of each: reading that from the commands
-# themselves would import them all. Each is a function of its own name in a module of that name.
-COMMANDS = {
-    "demo": "Show turtle2 following turtle1.",
-    "teleop": "Drive a turtle with the arrow keys.",
-    "echo": "Print where SOURCE is in TARGET (ros2 run tf2_ros tf2_echo).",
-    "static": "Publish where CHILD is in PARENT (static_transform_publisher).",
-    "tree": "Show which frame hangs from which (rqt_tf_tree, view_frames).",
-    "follow": "Let FOLLOWER follow LEADER (the tutorial's turtle_following).",
-    "monitor": "Show how often and how late transforms arrive (tf2_monitor).",
-    "view": "Show the frames in 3-D, in a browser (rviz2 with its TF display).",
-    "doctor": "Say what is wrong with the frames, and what mends it.",
-    "explain": "Say why a lookup refuses: which link, by how much.",
-    "robot": "Bring a robot description alive (robot_state_publisher).",
-    "session": "Show who shares the session that runs here.",
-    "info": "Show what a recording or robot description holds.",
-    "export": "Write a pair over time, or links, to files of other tools.",
-    "plot": "Plot where SOURCE is in TARGET over time.",
-    "diff": "Say what differs between two sets of frames, link by link.",
-    "convert": "Write one rotation, or pose, in every notation.",
-    "play": "Play a recording as a live session (ros2 bag play).",
-    "edit": "Change the frames of a recording; repair, join, cut or convert it.",
-    "record": "Record a session (ros2 bag record).",
-    "check": "Play scenarios on simulated time and judge what they expect.",
-    "run": "Run a node written for ROS 2, unmodified, without ROS (ros2 run).",
-    "launch": "Launch what a ROS 2 launch file says, without ROS (ros2 launch).",
-    "new": "Make a package of nodes to begin with (ros2 pkg create).",
-    "ros2": "Ask a session in the words of ROS 2's command line, without ROS.",
-    "help": "Show the list of commands, or the help of one (man).",
+# As the help shows them, with what it says of each: reading that from the commands themselves
+# would import them all. Each is a function of its own name in a module of that name.
+GROUPS = {
+    "Learn": {
+        "demo": "Show turtle2 following turtle1.",
+        "teleop": "Drive a turtle with the arrow keys.",
+        "follow": "Let FOLLOWER follow LEADER (the tutorial's turtle_following).",
+        "static": "Publish where CHILD is in PARENT (static_transform_publisher).",
+    },
+    "Ask": {
+        "echo": "Print where SOURCE is in TARGET (ros2 run tf2_ros tf2_echo).",
+        "tree": "Show which frame hangs from which (rqt_tf_tree, view_frames).",
+        "monitor": "Show how often and how late transforms arrive (tf2_monitor).",
+        "explain": "Say why a lookup refuses: which link, by how much.",
+        "doctor": "Say what is wrong with the frames, and what mends it.",
+        "convert": "Write one rotation, or pose, in every notation.",
+        "ros2": "Ask a session in the words of ROS 2's command line, without ROS.",
+    },
+    "Look": {
+        "view": "Show the frames in 3-D, in a browser (rviz2 with its TF display).",
+        "plot": "Plot where SOURCE is in TARGET over time.",
+        "robot": "Bring a robot description alive (robot_state_publisher).",
+    },
+    "Work with files": {
+        "info": "Show what a recording or robot description holds.",
+        "play": "Play a recording as a live session (ros2 bag play).",
+        "record": "Record a session (ros2 bag record).",
+        "export": "Write a pair over time, or links, to files of other tools.",
+        "diff": "Say what differs between two sets of frames, link by link.",
+        "edit": "Change the frames of a recording; repair, join, cut or convert it.",
+    },
+    "Run your own nodes": {
+        "new": "Make a package of nodes to begin with (ros2 pkg create).",
+        "run": "Run a node written for ROS 2, unmodified, without ROS (ros2 run).",
+        "launch": "Launch what a ROS 2 launch file says, without ROS (ros2 launch).",
+        "session": "Show who shares the session that runs here.",
+    },
+    "Check": {
+        "check": "Play scenarios on simulated time and judge what they expect.",
+    },
+    "Help": {
+        "help": "Show the list of commands, or the help of one (man).",
+    },
 }
+"""What the help says of each command, by what one wants."""
+
+COMMANDS = {name: summary for group in GROUPS.values() for name, summary in group.items()}
 
 # What differs from click's reading of a command line.
 SETTINGS = {

@@ -10,18 +10,7 @@ import typer
 from typer.core import TyperCommand, TyperGroup
 from typer.main import get_command
 
-from tftool.cli.app import COMMANDS, SETTINGS, load
-
-GROUPS = {
-    "Learn": ("demo", "teleop", "follow", "static"),
-    "Ask": ("echo", "tree", "monitor", "explain", "doctor", "convert", "ros2"),
-    "Look": ("view", "plot", "robot"),
-    "Work with files": ("info", "play", "record", "export", "diff", "edit"),
-    "Run your own nodes": ("new", "run", "launch", "session"),
-    "Check": ("check",),
-    "Help": ("help",),
-}
-"""Commands by what one wants; each command is in one of these."""
+from tftool.cli.app import COMMANDS, GROUPS, SETTINGS, load
 
 _SESSION = "help_session"
 _ARGUMENT = re.compile(r"[A-Za-z_]\w*:=")
@@ -55,9 +44,9 @@ class Commands(TyperGroup):
     def format_commands(self, ctx: Any, formatter: Any) -> None:
         """Write the groups of commands."""
         width = max(len(name) for name in COMMANDS)
-        for title, names in GROUPS.items():
+        for title, group in GROUPS.items():
             with formatter.section(title):
-                formatter.write_dl([(name.ljust(width), COMMANDS[name]) for name in names])
+                formatter.write_dl([(name.ljust(width), words) for name, words in group.items()])
 
 
 def _laid_out(command: Callable[..., Any]) -> str:
