@@ -73,10 +73,12 @@ def test_data_that_stopped_turns_amber_then_red_and_the_scene_grey(chromium, sta
     assert pressed(page, "live") == "false"
     assert "grayscale" in filtered(page)
 
-    now = stage.do(lambda world: (world.clock.now() - world.clock.epoch) / 1e9)
-    stage.put(3.0, at=now)
-    page.until(lambda: page.text("#status") == "live")
-    page.until(lambda: filtered(page) == "none")
+    def seen_while_it_comes():
+        now = stage.do(lambda world: (world.clock.now() - world.clock.epoch) / 1e9)
+        stage.put(3.0, at=now)
+        return page.text("#status") == "live" and filtered(page) == "none"
+
+    page.until(seen_while_it_comes)
 
 
 # Keys
@@ -202,8 +204,8 @@ def test_another_fixed_frame_is_fitted_again(chromium, stage):
     page.until(lambda: page.x_of("world") == -200.0)
 
     left, right = (page.find(f"#{side}").rect for side in ("left", "right"))
-    for frame in page.drawn().values():
-        assert left["x"] + left["width"] < frame["pixel"][0] < right["x"]
+    begin, end = left["x"] + left["width"], right["x"]
+    page.until(lambda: all(begin < frame["pixel"][0] < end for frame in page.drawn().values()))
 
 
 # The list of frames

@@ -165,17 +165,18 @@ def test_the_sliders_bounds_are_there_before_anything_is_drawn(chromium, stage):
 
 
 def test_playing_runs_through_the_past_into_the_present(chromium, stage):
-    for second in (1.0, 2.0):
+    # Eighty seconds of playing: time enough for a look on its way.
+    for second in (1.0, 9.0):
         stage.put(second, at=second)
     page = Page(chromium, stage, "speed=0.1")
-    page.until(lambda: page.x_of("turtle") == 2.0)
+    page.until(lambda: page.x_of("turtle") == 9.0)
 
     page.scrub(1.0)
     page.until(lambda: page.x_of("turtle") == 1.0)
     page.find("#play").click()
-    page.until(lambda: 1.0 < page.x_of("turtle") < 2.0)
+    page.until(lambda: 1.0 < page.x_of("turtle") < 9.0)
     Select(page.find("#speed")).select_by_value("4")
-    page.until(lambda: page.said("tftool.moment()") is None and page.x_of("turtle") == 2.0)
+    page.until(lambda: page.said("tftool.moment()") is None and page.x_of("turtle") == 9.0)
 
 
 def numbers(page):
@@ -491,13 +492,13 @@ def test_a_link_put_into_an_open_page_shows_its_view_and_makes_no_loop(chromium,
     stage.put(1.0)
     page = Page(chromium, stage)
     page.until(lambda: "turtle" in page.drawn())
-    page.said("location.hash = 'view=orbit&chosen=turtle&speed=0.25&hidden=world&timeout=7'")
+    page.said("location.hash = 'view=orbit&chosen=turtle&speed=0.25&hidden=world&timeout=700'")
 
     page.until(lambda: page.said("globalThis.tftool && tftool.drawn().length") == 1)
     page.until(lambda: page.text("#chosen") == "turtle")
     assert page.find("#orbit").get_attribute("aria-pressed") == "true"
     assert page.find("#speed").get_attribute("value") == "0.25"
-    assert page.find("#timeout").get_attribute("value") == "7"
+    assert page.find("#timeout").get_attribute("value") == "700"
 
 
 def test_a_fixed_frame_that_does_not_exist_is_said_and_shown_once_it_comes(chromium, stage):
