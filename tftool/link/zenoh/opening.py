@@ -19,10 +19,16 @@ REACHING: Final = 3.0
 """Seconds to wait for a process at the other end of `connect`."""
 
 NEARBY: Final = 1.0
-"""Seconds to wait for the processes of this machine."""
+"""Seconds to wait for the processes of this machine that are stopped."""
+
+BUSY: Final = 10.0
+"""Seconds to wait for those that run, however slow a busy machine makes them."""
 
 INTRODUCED: Final = 1.0
 """Seconds to wait for tokens of those who are connected."""
+
+ANSWERED: Final = 5.0
+"""Seconds in which each of them says which tokens it has; most take milliseconds."""
 
 SHOWN: Final = 0.3
 """Seconds to wait for the tokens of all, once those of some are there."""
@@ -101,11 +107,16 @@ class Opening:
 
     def _reach_out(self, others: dict[str, int]) -> None:
         """Wait until the others are there, of this machine and where `connect` goes."""
+
         # zenoh itself gives up waiting early, and a busy machine is slow to say hello: taking
         # that for silence would host a second world. A stopped process never says it.
-        if not _await(lambda: others.keys() <= self.wire.reached, NEARBY):
+        def silent() -> list[int]:
             reached = self.wire.reached
-            self.unanswering = tuple(pid for at, pid in others.items() if at not in reached)
+            return [pid for at, pid in others.items() if at not in reached]
+
+        if not _await(lambda: not silent(), NEARBY):
+            _await(lambda: all(rendezvous.is_stopped(pid) for pid in silent()), BUSY - NEARBY)
+            self.unanswering = tuple(silent())
         reach = self._options.reach
         if reach.config is not None:
             _await(lambda: bool(self.wire.neighbours), NEARBY)
@@ -119,7 +130,7 @@ class Opening:
 
         def all_are_known() -> bool:
             for prefix in (keys.LIVELINESS, keys.OURS):
-                for token in self.wire.tokens(f"{prefix}/{self._options.domain}/**"):
+                for token in self.wire.tokens(f"{prefix}/{self._options.domain}/**", ANSWERED):
                     found = keys.parse_token(token)
                     if found is not None:
                         self.graph.add(token, found)

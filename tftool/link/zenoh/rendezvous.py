@@ -43,7 +43,7 @@ FRAMES: Final = ".frames"
 
 _MOST_FRAMES = 5_000
 _LONGEST_SOCKET_PATH = 100  # 107 on Linux, 103 on macOS
-_LOCK_TRIES = 300
+_LOCK_TRIES = 1500  # more than a busy machine takes to open a session
 _LOCK_PAUSE = 0.01
 _PROBE_TIMEOUT = 0.2
 _LONGEST_TEXT = 256
@@ -274,6 +274,16 @@ def _password_in(folder: Path) -> str:
     with open(os.open(file, os.O_WRONLY | os.O_CREAT | os.O_EXCL, 0o600), "w") as fresh:
         fresh.write(f"{USER}:{password}\n")
     return password
+
+
+def is_stopped(pid: int) -> bool:
+    """Whether a process of this machine does not run: stopped, ended, or not to be seen here."""
+    try:
+        facts = Path(f"/proc/{pid}/stat").read_text(encoding="utf-8", errors="replace")
+    except OSError:
+        return True
+    # The state stands behind the command's name, which may hold anything.
+    return facts.rpartition(")")[2].split()[:1] not in (["R"], ["S"], ["D"])
 
 
 def _answers(family: int, address: Any) -> bool:
