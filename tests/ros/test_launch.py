@@ -474,7 +474,7 @@ def test_what_cannot_be_launched_is_said_in_one_sentence(tmp_path, action, told)
             r"TypeError: .*'msg'\n.*a\.py:3",
         ),
         ("a.launch.xml", "<launch>\n<nod/></launch>", r"xml:2: there is no 'nod'.*mean 'node'"),
-        ("a.launch.xml", "<launch>\n<node/></launch>", r"xml:2: 'node' needs 'pkg'"),
+        ("a.launch.xml", "<launch>\n<node/></launch>", r"xml:2: 'node' needs 'exec'"),
         (
             "a.launch.xml",
             '<launch><arg name="a" defualt="1"/></launch>',

@@ -194,7 +194,7 @@ def test_values_of_a_given_type_are_of_that_type(brief):
         brief,
         "Node(package='mine', executable='brief.py', parameters=[{"
         "'a': ParameterValue(3), 'b': ParameterValue('5', value_type=str), "
-        "'c': ParameterValue('5', value_type=float)}])",
+        "'c': ParameterValue(TextSubstitution(text='5'), value_type=float)}])",
         start=brief,
     )
 

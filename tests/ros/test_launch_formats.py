@@ -212,10 +212,12 @@ def test_a_file_is_included_from_beside_the_one_that_includes_it(tmp_path):
          ":3: 'param' has no attribute 'vale'; did you mean 'value'?"),
         ("<node pkg='p' exec='e'><remap frm='a' to='b'/></node>", ":2: 'remap' needs 'from'"),
         ("<node pkg='p' exec='e'><param name='a' value='1' type='itn'/></node>",
-         "a type is str, int, float, bool, not 'itn'; did you mean 'int'?"),
+         "list_of_bool, not 'itn'; did you mean 'int'?"),
         ("<node pkg='p' exec='e' on_exit='stop'/>", "on_exit may be 'shutdown', not 'stop'"),
-        ("<node_container pkg='p' exec='e'/>", "'node_container' is not covered: composable nodes"),
-        ("<load_composable_node target='x'/>", "'load_composable_node' is not covered"),
+        ("<node_container pkg='p' exec='e' namespace=''/>", ":2: 'node_container' needs 'name'"),
+        ("<load_composable_node targt='x'/>", ":2: 'load_composable_node' needs 'target'"),
+        ("<node pkg='p' exec='e'>\n<param name='a' value='1,x' value-sep=',' type='lst_of_int'/>"
+         "</node>", "not 'lst_of_int'; did you mean 'list_of_int'?"),
         ("<arg name='a'><choise value='1'/></arg>", "'choise' inside; did you mean 'choice'?"),
         ("<log message='$(find-pkg-shar x)'/>", "mean '$(find-pkg-share …)'?"),
         ("<group scoped='ture'/>", ":2: 'scoped' of 'group' is true or false, not 'ture'"),
@@ -236,7 +238,7 @@ def test_a_mistake_in_xml_is_told_with_its_line_and_the_nearest_word(tmp_path, t
 @pytest.mark.parametrize(
     ("line", "told"),
     [
-        ("from launch_ros.actions import ComposableNodeContainer", "of launch_ros.actions is not"),
+        ("from launch.actions import OpaqueCoroutine", "of launch.actions is not covered"),
         ("from launch.actions import GroupActon", "is not covered; did you mean 'GroupAction'?"),
         (
             "import launch_ros.remap_rules",

@@ -174,6 +174,10 @@ lifecycle_msgs/srv/GetState = ---; State current_state
 lifecycle_msgs/srv/GetAvailableStates = ---; State[] available_states
 lifecycle_msgs/srv/GetAvailableTransitions = ---; TransitionDescription[] available_transitions
 
+composition_interfaces/srv/LoadNode = string package_name; string plugin_name; string node_name; string node_namespace; uint8 log_level; string[] remap_rules; rcl_interfaces/Parameter[] parameters; rcl_interfaces/Parameter[] extra_arguments; ---; bool success; string error_message; string full_node_name; uint64 unique_id
+composition_interfaces/srv/UnloadNode = uint64 unique_id; ---; bool success; string error_message
+composition_interfaces/srv/ListNodes = ---; string[] full_node_names; uint64[] unique_ids
+
 example_interfaces/msg/String = string data
 example_interfaces/msg/Int64 = int64 data
 example_interfaces/msg/Float64 = float64 data

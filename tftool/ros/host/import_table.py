@@ -248,8 +248,14 @@ launch.utilities.class_tools_impl: launch.utilities: is_a is_a_subclass isclassi
 launch.utilities.ensure_argument_type_impl: launch.utilities: ensure_argument_type
 launch_xml.launch_description_sources: launch.description: XMLLaunchDescriptionSource
 launch_yaml.launch_description_sources: launch.description: YAMLLaunchDescriptionSource
-launch_ros.actions: launch.nodes: Node PushRosNamespace PushROSNamespace=PushRosNamespace
-launch_ros.actions: launch.nodes: SetRemap
+launch_ros.actions: launch.nodes: Node
+launch_ros.actions: launch.scope: PushRosNamespace PushROSNamespace=PushRosNamespace SetRemap
+launch_ros.actions: launch.scope: SetParameter SetUseSimTime SetParametersFromFile
+launch_ros.actions: launch.settings: SetROSLogDir=SetLogFolder
+launch_ros.actions: launch.components: ComposableNodeContainer LoadComposableNodes
+launch_ros.actions.load_composable_nodes: launch.components: get_composable_node_load_request
+launch_ros.descriptions: launch.components: ComposableNode
+launch_ros.descriptions.composable_node: launch.components: ComposableNode
 launch_ros.actions: launch.composition: RosTimer=TimerAction ROSTimer=TimerAction
 launch_ros.actions: launch.lifecycle: LifecycleNode LifecycleTransition
 launch_ros.events: launch.lifecycle: matches_node_name
@@ -257,11 +263,20 @@ launch_ros.events.lifecycle: launch.lifecycle: ChangeState StateTransition
 launch_ros.events.matchers: launch.lifecycle: matches_node_name
 launch_ros.event_handlers: launch.lifecycle: OnStateTransition
 launch_ros.substitutions: launch.substitutions: ExecutableInPackage
-launch_ros.actions: launch.parameters: SetParameter SetUseSimTime SetParametersFromFile
 launch_ros.substitutions: launch.substitutions: FindPackageShare FindPackagePrefix FindPackage
 launch_ros.substitutions.find_package: launch.substitutions: FindPackageShare FindPackagePrefix
+launch_ros.substitutions: launch.scope: Parameter=ParameterSubstitution
+launch_ros.substitutions.parameter: launch.scope: Parameter=ParameterSubstitution
 launch_ros.parameter_descriptions: launch.parameters: ParameterValue ParameterFile
+launch_ros.parameter_descriptions: launch.parameters: Parameter=ParameterDescription
 launch_ros.descriptions: launch.parameters: ParameterValue ParameterFile
+launch_ros.descriptions: launch.parameters: Parameter=ParameterDescription
+launch_ros.utilities: launch.scope: is_namespace_absolute is_root_namespace
+launch_ros.utilities: launch.scope: make_namespace_absolute prefix_namespace
+launch_ros.utilities: launch.scope: normalize_remap_rule normalize_remap_rules
+launch_ros.utilities: launch.scope: add_node_name get_node_name_count
+launch_ros.utilities: launch.parameters: normalize_parameters normalize_parameter_dict
+launch_ros.utilities: launch.parameters: evaluate_parameters evaluate_parameter_dict
 ament_index_python: launch.packages: get_package_share_directory get_package_prefix
 ament_index_python: launch.packages: get_package_share_path PackageNotFoundError
 ament_index_python: launch.packages: get_packages_with_prefixes

@@ -226,6 +226,7 @@ _OPTIONS = {
     "-e": "--enclave",
     "--enclave": "--enclave",
     "--log-config-file": "--log-config-file",
+    "--log-file-name": "--log-file-name",
 }
 _FLAGS = ("stdout-logs", "rosout-logs", "external-lib-logs")
 
@@ -289,6 +290,18 @@ def add_remap(options: RosOptions, text: str) -> None:
 
 def yaml_value(text: str) -> Any:
     """A parameter's value as ROS 2 reads it: YAML, so `2` is an int and `2.0` a float."""
+    try:
+        return strict_yaml_value(text)
+    except ValueError:
+        return text
+
+
+def strict_yaml_value(text: str) -> Any:
+    """The same, where what is no YAML is refused.
+
+    Raises:
+        ValueError: If it is no YAML.
+    """
     import yaml
 
     from tftool import yaml_guard
@@ -296,7 +309,10 @@ def yaml_value(text: str) -> Any:
     try:
         return yaml_guard.load(text, _loader()) if text else ""
     except (yaml.YAMLError, ValueError):
-        return text
+        raise ValueError(
+            f"Unable to parse '{text}' as YAML; where a text is meant, say so by "
+            "ParameterValue(…, value_type=str)"
+        ) from None
 
 
 @cache

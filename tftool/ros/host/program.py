@@ -115,6 +115,11 @@ class Program(Node):
         super().__init__(world, name)
 
     @property
+    def is_begun(self) -> bool:
+        """Whether its turn has come."""
+        return self._loop is not None
+
+    @property
     def interrupted(self) -> bool:
         """Whether it was asked to end."""
         return self.fiber.interrupted

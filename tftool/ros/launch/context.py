@@ -1,6 +1,7 @@
 """What is known while a launch runs."""
 
 import os
+from collections import Counter
 from collections.abc import Callable, Iterable, Iterator, Mapping
 from contextlib import contextmanager
 from pathlib import Path
@@ -18,13 +19,12 @@ class LaunchContext:
     """Arguments, environment, the scope one is in, and the launch itself.
 
     Attributes:
-        launch_configurations: Arguments and their values.
+        launch_configurations: Arguments and their values; and what holds for the nodes of the
+            scope, as `scope` keeps it.
         environment: Environment variables, a copy.
         environments: Those that were kept by PushEnvironment.
         files: The launch file one is in, last, after those that include it.
-        namespace: Where nodes are put.
-        remaps: Rules for all nodes of the scope.
-        parameters: (node, name, value) for the nodes of the scope; "" is each of them.
+        node_names: How many nodes of each full name were started.
         load: Reads a launch file, for those that include one; None outside of a launch.
         launch: What runs it.
         argv: What the launch was given on its command line.
@@ -45,9 +45,7 @@ class LaunchContext:
         self.environment: dict[str, str] = dict(os.environ)
         self.environments: list[dict[str, str]] = []
         self.files: tuple[Path, ...] = ()
-        self.namespace = ""
-        self.remaps: list[tuple[str, str]] = []
-        self.parameters: list[tuple[str, str, Any]] = []
+        self.node_names: Counter[str] = Counter()
         self.argv = list(argv or ())
         self.noninteractive = noninteractive
         self._workspace = workspace
@@ -141,9 +139,6 @@ class LaunchContext:
             dict(self.launch_configurations),
             dict(self.environment),
             self.files,
-            self.namespace,
-            list(self.remaps),
-            list(self.parameters),
             self.event,
         )
 
@@ -170,8 +165,5 @@ class LaunchContext:
             self.launch_configurations,
             self.environment,
             self.files,
-            self.namespace,
-            self.remaps,
-            self.parameters,
             self.event,
         ) = kept

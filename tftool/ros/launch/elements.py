@@ -92,11 +92,24 @@ class Element:
 # Reading
 
 
-def read_xml(path: Path) -> list[Element]:
-    """The elements in an XML file.
+def read(path: Path) -> list[Element]:
+    """The elements in an XML or a YAML file, which its ending tells apart.
 
     Raises:
-        InputError: If it cannot be read; the line is told.
+        InputError: If it cannot be read or is laid out otherwise; the line is told.
+    """
+    try:
+        data = path.read_bytes()
+    except OSError as error:
+        raise InputError(f"cannot read '{path}': {error.strerror}") from None
+    return read_xml(data, path) if path.suffix == ".xml" else read_yaml(data, path)
+
+
+def read_xml(data: bytes, path: Path) -> list[Element]:
+    """The elements in what an XML file holds.
+
+    Raises:
+        InputError: If it is no launch file; the line is told.
     """
     parser = expat.ParserCreate()
     stack: list[Element] = [Element("", str(path))]
@@ -115,9 +128,7 @@ def read_xml(path: Path) -> list[Element]:
     parser.EndElementHandler = lambda tag: stack.pop()
     parser.EntityDeclHandler = refuse
     try:
-        parser.Parse(path.read_bytes(), True)
-    except OSError as error:
-        raise InputError(f"cannot read '{path}': {error.strerror}") from None
+        parser.Parse(data, True)
     except expat.ExpatError as error:
         where = f"{path}:{error.lineno}:{error.offset + 1}"
         raise InputError(f"{where}: {expat.ErrorString(error.code)}") from None
@@ -130,17 +141,16 @@ def read_xml(path: Path) -> list[Element]:
     return root.children
 
 
-def read_yaml(path: Path) -> list[Element]:
-    """The elements in a YAML file.
+def read_yaml(data: bytes, path: Path) -> list[Element]:
+    """The elements in what a YAML file holds.
 
     Raises:
-        InputError: If it cannot be read or is laid out otherwise; the line is told.
+        InputError: If it is no YAML or laid out otherwise; the line is told.
     """
     try:
-        root = yaml_guard.compose(path.read_text(encoding="utf-8"))
-    except (OSError, UnicodeDecodeError) as error:
-        reason = getattr(error, "strerror", None) or "it is no UTF-8 text"
-        raise InputError(f"cannot read '{path}': {reason}") from None
+        root = yaml_guard.compose(data.decode("utf-8"))
+    except UnicodeDecodeError:
+        raise InputError(f"cannot read '{path}': it is no UTF-8 text") from None
     except yaml.YAMLError as error:
         mark: Any = getattr(error, "problem_mark", None)
         where = f"{path}:{mark.line + 1}:{mark.column + 1}" if mark else str(path)

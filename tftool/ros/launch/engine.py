@@ -68,6 +68,7 @@ class Launch(Node):
         say: Say = lambda level, who, text: None,
         context: LaunchContext | None = None,
         name: str = "launch",
+        contained: bool = False,
     ) -> None:
         """Read a launch file, or take a description.
 
@@ -79,6 +80,7 @@ class Launch(Node):
             say: Takes the launch's lines.
             context: What is known while it runs; a new one when None.
             name: Its own name in the world.
+            contained: Whether a fault of the description ends the launch alone: not the world.
 
         Raises:
             InputError: If it cannot be read.
@@ -104,6 +106,7 @@ class Launch(Node):
         self._respawns: dict[str, tuple[float, Callable[[], None]]] = {}
         self._count = 0
         self._closing = False
+        self._contained = contained
         self._events = EventQueue(self._tell)
         self._over: asyncio.Future[None] | None = None
         self._actions: dict[str, Any] = {}  # by label
@@ -118,7 +121,10 @@ class Launch(Node):
         """
         self._over = asyncio.get_running_loop().create_future()
         try:
-            self.do([self.description])
+            if self._contained:
+                self._guarded(lambda: self.do([self.description]))
+            else:
+                self.do([self.description])
             self._look_round()
             await self._over
         finally:
@@ -235,6 +241,18 @@ class Launch(Node):
         """Say what is odd."""
         self._say("WARNING", "launch", text)
 
+    def ask(
+        self, service: str, requests: Iterable[Any], done: Callable[[Any, Any], object]
+    ) -> None:
+        """Ask a service for one thing after the other; `done` is given each, and its answer."""
+
+        async def work() -> None:
+            for request in requests:
+                answer = await self.world.call(service, request)
+                self._guarded(partial(done, request, answer))
+
+        self._start_task(work(), self._watches)
+
     def later(self, action: Any, period: float, actions: Sequence[Any]) -> None:
         """Carry actions out after so many seconds, in the scope of now; `action` asks for it."""
         kept = self.context.kept()
@@ -285,7 +303,7 @@ class Launch(Node):
                 self.warn(f"left out: {error}")
                 return
             if isinstance(node, Program):
-                self._running[label] = partial(self.world.remove, node)
+                self._running[label] = partial(self._remove, action, label, node)
             else:
                 self.labels[node.name] = label
                 # It lives as long as the world, which ends with the launch.
@@ -349,7 +367,7 @@ class Launch(Node):
                 argv=["ros2", *words],
                 on_exit=partial(self._program_ended, action, label),
             )
-            self._running[label] = partial(self.world.remove, started)
+            self._running[label] = partial(self._remove, action, label, started)
             self.emit(ProcessStarted(action=action, name=label))
 
         self._start(label, start, respawn)
@@ -381,6 +399,13 @@ class Launch(Node):
         self._ended(action, label, status, "")
 
     # What ends
+
+    def _remove(self, action: Any, label: str, node: Program) -> None:
+        if node.is_begun:
+            self.world.remove(node)
+        else:
+            # Started in this very instant, it will not come to tell of its end.
+            self._program_ended(action, label, node)
 
     def _program_ended(self, action: Any, label: str, ended: Program) -> None:
         # Its name is free again: it may be started anew.

@@ -1,11 +1,14 @@
 """launch.frontend: elements and `$(…)` of people's own, for launch files in XML and YAML."""
 
+import os
 import typing
 from collections.abc import Callable
+from pathlib import Path
 from typing import Any, TypeVar
 
 from tftool.errors import UsageError
-from tftool.ros.launch import parsing
+from tftool.ros.launch import elements, parsing
+from tftool.ros.launch.description import LaunchDescription
 from tftool.ros.launch.elements import Element
 from tftool.ros.launch.substitutions import TextSubstitution, is_true
 
@@ -94,6 +97,28 @@ def _read(value: Any, data_type: Any) -> Any:
 
 class Parser:
     """Reads what is in an element."""
+
+    @classmethod
+    def load(cls, file: Any) -> tuple[Entity, "Parser"]:
+        """A launch file in XML or YAML, open or by its path: its root, and what reads it.
+
+        Raises:
+            InputError: If it cannot be read or is laid out otherwise; the line is told.
+        """
+        if isinstance(file, str | os.PathLike):
+            path, children = Path(file), elements.read(Path(file))
+        else:
+            path, data = Path(getattr(file, "name", "launch file")), file.read()
+            data = data.encode() if isinstance(data, str) else data
+            is_xml = data.lstrip().startswith(b"<")
+            children = (elements.read_xml if is_xml else elements.read_yaml)(data, path)
+        return Entity(Element("launch", str(path), children=children)), cls()
+
+    def parse_description(self, entity: Entity) -> LaunchDescription:
+        """What a launch file says, by its root."""
+        from tftool.ros.launch.frontend import actions_of
+
+        return LaunchDescription(actions_of(entity.element.all_inside()))
 
     def parse_substitution(self, value: Any) -> list[Any]:
         """A text with its `$(…)` parts as substitutions."""

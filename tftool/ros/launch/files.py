@@ -7,7 +7,7 @@ from tftool.errors import InputError
 from tftool.ros.host import user_code
 from tftool.ros.host.error_text import error_sentence
 from tftool.ros.launch.description import LaunchDescription
-from tftool.ros.launch.elements import read_xml, read_yaml
+from tftool.ros.launch.elements import read
 from tftool.ros.launch.frontend import actions_of
 
 
@@ -17,10 +17,8 @@ def load_file(path: Path) -> LaunchDescription:
     Raises:
         InputError: If it cannot be read, is none, or raises; the user's own line is shown.
     """
-    if path.suffix == ".xml":
-        return LaunchDescription(actions_of(read_xml(path)))
-    if path.suffix in (".yaml", ".yml"):
-        return LaunchDescription(actions_of(read_yaml(path)))
+    if path.suffix in (".xml", ".yaml", ".yml"):
+        return LaunchDescription(actions_of(read(path)))
     return _from_python(path)
 
 

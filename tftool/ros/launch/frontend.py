@@ -9,12 +9,15 @@ from typing import Any
 from tftool.errors import UsageError
 from tftool.ros.host.error_text import error_sentence
 from tftool.ros.launch import (
+    components,
     composition,
     exposing,
+    lifecycle,
     nodes,
     parameters,
     processes,
     reactions,
+    scope,
     settings,
 )
 from tftool.ros.launch.conditions import IfCondition, UnlessCondition
@@ -22,15 +25,6 @@ from tftool.ros.launch.description import LaunchDescriptionSource
 from tftool.ros.launch.elements import Element
 from tftool.ros.launch.parsing import parsed
 from tftool.ros.launch.substitutions import TextSubstitution, is_true
-
-_COMPONENTS = "composable nodes are libraries in C++; 'node' starts programs in Python"
-
-_ELSEWHERE = {
-    "node_container": _COMPONENTS,
-    "load_composable_node": _COMPONENTS,
-    "lifecycle_node": "a node with a life cycle of its own; 'node' starts one without",
-}
-"""Elements of ROS 2's that have no meaning here, and why."""
 
 
 def actions_of(elements: Iterable[Element]) -> list[Any]:
@@ -44,24 +38,26 @@ def actions_of(elements: Iterable[Element]) -> list[Any]:
 
 def _action(element: Element) -> Any:
     tag = element.tag.replace("-", "_")
-    if tag in _ELSEWHERE:
-        raise element.refusal(f"'{element.tag}' is not covered: {_ELSEWHERE[tag]}", "", ())
     make = _MEANINGS.get(tag)
     if (exposed := exposing.ACTIONS.get(tag)) is not None:
         make = partial(_exposed, exposed)
     if make is None:
         what = f"there is no '{element.tag}' in a launch file"
         raise element.refusal(what, element.tag, _MEANINGS)
-    condition: Any = None
-    if (text := element.get("if")) is not None:
-        condition = IfCondition(parsed(text, element.where))
-    elif (text := element.get("unless")) is not None:
-        condition = UnlessCondition(parsed(text, element.where))
+    condition = _condition(element)
     made = make(element)
     element.finish()
     made.condition = condition
     made.where = element.where
     return made
+
+
+def _condition(element: Element) -> Any:
+    if (text := element.get("if")) is not None:
+        return IfCondition(parsed(text, element.where))
+    if (text := element.get("unless")) is not None:
+        return UnlessCondition(parsed(text, element.where))
+    return None
 
 
 def _exposed(read: exposing.ParseMethod, element: Element) -> Any:
@@ -133,9 +129,9 @@ def _startable(element: Element) -> dict[str, Any]:
     }
 
 
-def _node(element: Element) -> Any:
-    return nodes.Node(
-        package=_text(element, "pkg"),
+def _node(element: Element, kind: Callable[..., Any] = nodes.Node, **kwargs: Any) -> Any:
+    return kind(
+        package=_optional(element, "pkg"),
         executable=_text(element, "exec"),
         name=_optional(element, "name"),
         namespace=_optional(element, "namespace"),
@@ -145,6 +141,44 @@ def _node(element: Element) -> Any:
         parameters=_each(element, _param, "param"),
         remappings=_each(element, _pair("from", "to"), "remap"),
         **_startable(element),
+        **kwargs,
+    )
+
+
+def _lifecycle_node(element: Element) -> Any:
+    element.need("name")
+    element.need("namespace")
+    return _node(element, lifecycle.LifecycleNode)
+
+
+def _component(element: Element) -> components.ComposableNode:
+    condition = _condition(element)
+    return components.ComposableNode(
+        package=_text(element, "pkg"),
+        plugin=_text(element, "plugin"),
+        name=_optional(element, "name"),
+        namespace=_optional(element, "namespace"),
+        parameters=_each(element, _param, "param"),
+        remappings=_each(element, _pair("from", "to"), "remap"),
+        extra_arguments=_each(element, _param, "extra_arg"),
+        condition=condition,
+    )
+
+
+def _node_container(element: Element) -> Any:
+    element.need("name")
+    element.need("namespace")
+    return _node(
+        element,
+        components.ComposableNodeContainer,
+        composable_node_descriptions=_each(element, _component, "composable_node"),
+    )
+
+
+def _load_composable_node(element: Element) -> Any:
+    return components.LoadComposableNodes(
+        target_container=_text(element, "target"),
+        composable_node_descriptions=_each(element, _component, "composable_node"),
     )
 
 
@@ -171,8 +205,17 @@ def _words(text: Any, element: Element) -> list[Any]:
     return [word for word in words if word]
 
 
-_TYPES: Mapping[str, type] = MappingProxyType(
-    {"str": str, "int": int, "float": float, "bool": bool}
+_TYPES: Mapping[str, Any] = MappingProxyType(
+    {
+        "str": str,
+        "int": int,
+        "float": float,
+        "bool": bool,
+        "list_of_str": list[str],
+        "list_of_int": list[int],
+        "list_of_float": list[float],
+        "list_of_bool": list[bool],
+    }
 )
 
 
@@ -190,10 +233,21 @@ def _param(element: Element, prefix: str = "") -> Any:
     value, kind = element.need("value"), element.get("type")
     if kind is not None and kind not in _TYPES:
         raise element.refusal(f"a type is {', '.join(_TYPES)}, not '{kind}'", str(kind), _TYPES)
-    if not isinstance(value, str):
-        return {name: value}
-    value_type = None if kind is None else _TYPES[kind]
-    return {name: parameters.ParameterValue(parsed(value, element.where), value_type=value_type)}
+    separator = element.get("value-sep")
+    if separator and isinstance(value, str):
+        value = [_value(text, element) for text in value.split(str(separator))]
+    elif isinstance(value, list):
+        value = [_value(one, element) if "$(" in str(one) else one for one in value]
+    elif isinstance(value, str) or kind is not None:
+        value = _value(value, element)
+    try:
+        return {name: parameters.ParameterValue(value, value_type=kind and _TYPES[kind])}
+    except TypeError as error:
+        raise element.refusal(str(error), "", ()) from None
+
+
+def _value(text: Any, element: Element) -> list[Any]:
+    return parsed(text, element.where) or [TextSubstitution(text="")]
 
 
 def _include(element: Element) -> Any:
@@ -250,20 +304,22 @@ _MEANINGS: dict[str, Callable[[Element], Any]] = {
     "arg": _arg,
     "let": lambda e: settings.SetLaunchConfiguration(_text(e, "name"), _text(e, "value")),
     "node": _node,
+    "lifecycle_node": _lifecycle_node,
+    "node_container": _node_container,
+    "load_composable_node": _load_composable_node,
     "include": _include,
     "group": _group,
-    "push_ros_namespace": lambda e: nodes.PushRosNamespace(_text(e, "namespace")),
+    "push_ros_namespace": lambda e: scope.PushRosNamespace(_text(e, "namespace")),
     "set_env": lambda e: settings.SetEnvironmentVariable(_text(e, "name"), _text(e, "value")),
+    "set_ros_log_dir": lambda e: settings.SetLogFolder(_text(e, "new_log_dir")),
     "unset_env": lambda e: settings.UnsetEnvironmentVariable(_text(e, "name")),
     "append_env": _append_env,
-    "set_parameter": lambda e: parameters.SetParameter(
-        _text(e, "name"), parameters.ParameterValue(_text(e, "value"))
-    ),
-    "set_parameters_from_file": lambda e: parameters.SetParametersFromFile(
+    "set_parameter": lambda e: scope.SetParameter(_text(e, "name"), _text(e, "value")),
+    "set_parameters_from_file": lambda e: scope.SetParametersFromFile(
         _text(e, "filename"), _optional(e, "node_name")
     ),
-    "set_use_sim_time": lambda e: parameters.SetUseSimTime(_text(e, "value")),
-    "set_remap": lambda e: nodes.SetRemap(_text(e, "from"), _text(e, "to")),
+    "set_use_sim_time": lambda e: scope.SetUseSimTime(_text(e, "value")),
+    "set_remap": lambda e: scope.SetRemap(_text(e, "from"), _text(e, "to")),
     "executable": _executable,
     "reset": _reset,
     "push_env": lambda e: settings.PushEnvironment(),

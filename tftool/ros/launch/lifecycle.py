@@ -6,13 +6,13 @@ from typing import Any
 
 from tftool.errors import UsageError
 from tftool.interfaces.classes import INTERFACES
-from tftool.ros.host import names
 from tftool.ros.launch.action import Action
 from tftool.ros.launch.context import LaunchContext
 from tftool.ros.launch.events import Event, EventHandler
 from tftool.ros.launch.nodes import Node
 from tftool.ros.launch.processes import ExecuteProcess
 from tftool.ros.launch.reactions import EmitEvent, RegisterEventHandler
+from tftool.ros.launch.scope import make_namespace_absolute, namespace_in
 from tftool.ros.launch.substitutions import perform
 
 _TRANSITIONS = {
@@ -94,20 +94,16 @@ class LifecycleNode(Node):
     ) -> None:
         super().__init__(name=name, namespace=namespace, **kwargs)
         self.autostart = autostart
-        self.node_name = ""
 
     def execute(self, context: LaunchContext) -> Any:
         """Start it, and listen to its transitions."""
-        own = perform(context, self.namespace)
-        place = own if own.startswith("/") else names.join(context.namespace, own)
-        full = names.join(place, perform(context, self.name)).strip("/")
-        self.node_name = f"/{full}"
+        self._perform_substitutions(context)
         context.launch.handlers.append(
             EventHandler(matcher=self._is_meant, entities=lambda event, _: [self._change(event)])
         )
         kind = INTERFACES.message("lifecycle_msgs/TransitionEvent")
         context.launch.hear(
-            f"{full}/transition_event",
+            f"{self.node_name.strip('/')}/transition_event",
             kind,
             lambda message: context.launch.emit(StateTransition(action=self, msg=message)),
         )
@@ -134,7 +130,8 @@ def change_state(node: str, transition: int) -> ExecuteProcess:
 
 def matches_node_name(node_name: str) -> Callable[[Any], bool]:
     """What says whether an action is the node of a name."""
-    return lambda action: getattr(action, "node_name", None) == node_name
+    full = make_namespace_absolute(node_name)
+    return lambda action: getattr(action, "node_name", None) == full
 
 
 class LifecycleTransition(Action):
@@ -166,7 +163,7 @@ class LifecycleTransition(Action):
             numbers.append(_TRANSITIONS[text])
         following: list[Any] = []
         for node in self.lifecycle_node_names:
-            full = f"/{names.join(context.namespace, perform(context, node)).strip('/')}"
+            full = namespace_in(context, node) or ""
             matcher = matches_node_name(full)
             for before, number in itertools.pairwise(numbers):
                 change = ChangeState(lifecycle_node_matcher=matcher, transition_id=number)

@@ -1,22 +1,38 @@
-"""launch_ros's actions: nodes, their namespaces and remappings."""
+"""launch_ros's Node."""
 
 import shlex
 import shutil
 from collections.abc import Iterable
 from pathlib import Path
-from typing import Any
+from typing import Any, Final
 
 from tftool.errors import UsageError
 from tftool.ros.host import names
-from tftool.ros.launch.action import Action
 from tftool.ros.launch.context import LaunchContext
-from tftool.ros.launch.parameters import read_all
+from tftool.ros.launch.parameters import normalize_parameters, read_all
 from tftool.ros.launch.processes import Executable, Startable
+from tftool.ros.launch.scope import (
+    add_node_name,
+    get_node_name_count,
+    namespace_in,
+    normalize_remap_rules,
+    parameters_in,
+    remaps_in,
+)
 from tftool.ros.launch.substitutions import Substitution, perform
 
 
 class Node(Startable):
-    """A node: a package's executable, or a file."""
+    """A node: a package's executable, or a file.
+
+    Attributes:
+        node_name: Its full name, once it is known when the launch runs.
+        expanded_node_namespace: Its namespace then; "" where nobody has given one.
+        expanded_remapping_rules: Its remappings and those of its scope then, None before.
+    """
+
+    UNSPECIFIED_NODE_NAME: Final = "<node_name_unspecified>"
+    UNSPECIFIED_NODE_NAMESPACE: Final = ""
 
     def __init__(
         self,
@@ -26,8 +42,8 @@ class Node(Startable):
         name: Any = None,
         namespace: Any = None,
         exec_name: Any = None,
-        parameters: Iterable[Any] | None = None,
-        remappings: Iterable[Any] | None = None,
+        parameters: Any = None,
+        remappings: Any = None,
         arguments: Iterable[Any] | None = None,
         ros_arguments: Iterable[Any] | None = None,
         additional_env: Any = None,
@@ -36,30 +52,64 @@ class Node(Startable):
         shell: Any = False,
         **kwargs: Any,
     ) -> None:
+        """Say what is to be started.
+
+        Raises:
+            TypeError: If the parameters are no list of mappings and files, or the remappings
+                no list of pairs.
+        """
         super().__init__(**kwargs)
         self.package, self.executable = package, executable
         self.name, self.namespace, self.exec_name = name, namespace, exec_name
-        self.parameters = [parameters] if isinstance(parameters, dict) else list(parameters or ())
-        self.remappings = list(remappings or ())
+        self.parameters = [] if parameters is None else normalize_parameters(parameters)
+        self.remappings = list(normalize_remap_rules(remappings or ()))
         self.arguments = _listed(arguments)
         self.ros_arguments = _listed(ros_arguments)
         self.additional_env, self.env, self.cwd, self.shell = additional_env, env, cwd, shell
+        self.node_name = ""
+        self.expanded_node_namespace = self.UNSPECIFIED_NODE_NAMESPACE
+        self.expanded_remapping_rules: list[tuple[str, str]] | None = None
+
+    @property
+    def node_package(self) -> Any:
+        """Its package."""
+        return self.package
+
+    @property
+    def node_executable(self) -> Any:
+        """Its executable."""
+        return self.executable
+
+    def is_node_name_fully_specified(self) -> bool:
+        """Whether both its name and its namespace are known to the launch."""
+        return bool(self.expanded_node_namespace) and (
+            self.UNSPECIFIED_NODE_NAME not in self.node_name
+        )
+
+    def _perform_substitutions(self, context: LaunchContext) -> None:
+        """Know its name, its namespace and its remappings, as classes made of it expect."""
+        name = self.UNSPECIFIED_NODE_NAME
+        if self.name is not None:
+            name = perform(context, self.name)
+            names.check_node_name(name)
+        namespace = namespace_in(context, self.namespace)
+        self.expanded_node_namespace = namespace or self.UNSPECIFIED_NODE_NAMESPACE
+        self.node_name = f"/{names.join(self.expanded_node_namespace, name)}"
+        self.expanded_remapping_rules = remaps_in(context, self.remappings)
 
     def execute(self, context: LaunchContext) -> Any:
         """Start it."""
+        self._perform_substitutions(context)
         options, _ = names.parse(
             ["--ros-args", *(perform(context, one) for one in self.ros_arguments)]
         )
         if self.name is not None:
             options.name = perform(context, self.name)
-            names.check_node_name(options.name)
-        own = "" if self.namespace is None else perform(context, self.namespace)
-        options.namespace = own if own.startswith("/") else names.join(context.namespace, own)
-        names.check_namespace(options.namespace)
-        for old, new in [*self._remappings(context), *context.remaps]:
+        options.namespace = self.expanded_node_namespace.strip("/")
+        for old, new in self.expanded_remapping_rules or ():
             names.add_remap(options, f"{old}:={new}")
         own_parameters = read_all(context, self.parameters)
-        options.parameters = [*context.parameters, *own_parameters, *options.parameters]
+        options.parameters = [*parameters_in(context), *own_parameters, *options.parameters]
         arguments = [perform(context, one) for one in self.arguments]
         if "--ros-args" in arguments:
             more, arguments = names.parse(arguments)
@@ -75,9 +125,18 @@ class Node(Startable):
         label = perform(context, self.exec_name) or Path(executable).name
         started = Executable(package, executable, arguments, options, label)
         context.launch.start_node(self, started, self.respawn_after(context))
+        self._count_name(context)
 
-    def _remappings(self, context: LaunchContext) -> list[tuple[str, str]]:
-        return [(perform(context, old), perform(context, new)) for old, new in self.remappings]
+    def _count_name(self, context: LaunchContext) -> None:
+        if not self.is_node_name_fully_specified():
+            return
+        add_node_name(context, self.node_name)
+        count = get_node_name_count(context, self.node_name)
+        if count > 1:
+            context.launch.warn(
+                f"{self.node_name} is started {count} times by this launch; give each a name "
+                "or a namespace of its own"
+            )
 
 
 def _file(executable: str) -> str:
@@ -106,30 +165,3 @@ def _listed(given: Any) -> list[Any]:
     if isinstance(given, str):
         return list(shlex.split(given))
     return [given] if isinstance(given, Substitution) else list(given)
-
-
-class PushRosNamespace(Action):
-    """Puts nodes of the scope into a namespace."""
-
-    def __init__(self, namespace: Any, **kwargs: Any) -> None:
-        super().__init__(**kwargs)
-        self.namespace = namespace
-
-    def execute(self, context: LaunchContext) -> Any:
-        """Go into it."""
-        own = perform(context, self.namespace)
-        names.check_namespace(own)
-        absolute = own.startswith("/")
-        context.namespace = own.strip("/") if absolute else names.join(context.namespace, own)
-
-
-class SetRemap(Action):
-    """Renames a topic for all nodes of the scope."""
-
-    def __init__(self, src: Any, dst: Any, **kwargs: Any) -> None:
-        super().__init__(**kwargs)
-        self.src, self.dst = src, dst
-
-    def execute(self, context: LaunchContext) -> Any:
-        """Rename it."""
-        context.remaps.append((perform(context, self.src), perform(context, self.dst)))

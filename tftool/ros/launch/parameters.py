@@ -1,53 +1,99 @@
-"""launch_ros's parameters: values with types, files, and settings for all nodes of a scope."""
+"""launch_ros's descriptions of parameters: values with types, names with values, files."""
 
-from collections.abc import Iterable, Mapping
+import os
+import tempfile
+from collections.abc import Iterable, Mapping, Sequence
 from pathlib import Path
-from typing import Any
+from typing import Any, get_args
 
 from tftool.errors import UsageError
 from tftool.ros.host import names
-from tftool.ros.launch.action import Action
 from tftool.ros.launch.context import LaunchContext
 from tftool.ros.launch.parsing import parsed
 from tftool.ros.launch.substitutions import Substitution, is_true, perform
+from tftool.ros.launch.utilities import normalize_to_list_of_substitutions
 
 _SINGLE = (str, int, float, bool)
+
+
+class BadParameterError(UsageError, TypeError):
+    """What can be no parameter's value, as is known when the launch runs."""
 
 
 class ParameterValue:
     """A parameter's value of a given type."""
 
     def __init__(self, value: Any, *, value_type: Any = None) -> None:
-        self.value, self.value_type = value, value_type
+        """Take a value, or texts that are known when the launch runs.
+
+        Raises:
+            TypeError: If it is a value already, and of another type.
+        """
+        self.value_type = value_type
+        # A list of texts is one text where one value is wanted.
+        if _is_text(value) or (value_type in _SINGLE and _is_parts(value)):
+            self.value = normalize_to_list_of_substitutions(value)
+        elif value_type is None or _is_of(value, value_type) or _holds_texts(value):
+            self.value = value
+        else:
+            shown = getattr(value_type, "__name__", value_type)
+            raise TypeError(f"a parameter's value is to be {shown}, not {value!r}")
 
     def evaluate(self, context: LaunchContext) -> Any:
         """The value.
 
         Raises:
-            UsageError: If it is not of that type.
+            ValueError: If it is not of that type.
         """
-        # A list of texts is one text where one value is wanted.
-        parts = self.value_type in _SINGLE and _is_parts(self.value)
-        if not (parts or _is_text(self.value)):
-            return plain(context, self.value)
-        text = perform(context, self.value)
-        if self.value_type is str:
-            return text
-        value = names.yaml_value(text)
-        if self.value_type is float and isinstance(value, int):
-            value = float(value)
-        if isinstance(self.value_type, type) and not isinstance(value, self.value_type):
-            raise UsageError(
-                f"a parameter's value is to be {self.value_type.__name__}, not '{text}'"
-            )
-        return value
+        if _is_text(self.value):
+            self.value = _typed(perform(context, self.value), self.value_type)
+        elif _holds_texts(self.value):
+            (kind,) = get_args(self.value_type) or (None,)
+            found = (ParameterValue(one, value_type=kind) for one in self.value)
+            self.value = [one.evaluate(context) for one in found]
+        return self.value
+
+
+class ParameterDescription:
+    """A parameter: its name, and its value."""
+
+    def __init__(self, name: Any, value: Any, *, value_type: Any = None) -> None:
+        self.name: Any = normalize_to_list_of_substitutions(name)
+        self._value = ParameterValue(value, value_type=value_type)
+
+    @property
+    def value(self) -> Any:
+        """Its value."""
+        return self._value.value
+
+    @property
+    def value_type(self) -> Any:
+        """The type its value is to have."""
+        return self._value.value_type
+
+    def evaluate(self, context: LaunchContext) -> tuple[str, Any]:
+        """Its name and its value.
+
+        Raises:
+            ValueError: If the value is not of its type.
+        """
+        self.name = perform(context, self.name)
+        return self.name, self._value.evaluate(context)
 
 
 class ParameterFile:
-    """A parameter file; with `allow_substs` its text may hold `$(…)`."""
+    """A parameter file; with `allow_substs` its text may hold `$(…)`.
+
+    Attributes:
+        param_file: Its path: texts until it is evaluated.
+        allow_substs: Whether its text may hold `$(…)`.
+    """
 
     def __init__(self, param_file: Any, *, allow_substs: Any = False) -> None:
-        self.param_file, self.allow_substs = param_file, allow_substs
+        self._given = param_file if isinstance(param_file, os.PathLike) else _parts_of(param_file)
+        self.param_file: Any = self._given
+        self.allow_substs = allow_substs
+        self._made: Path | None = None
 
     def read(self, context: LaunchContext) -> list[tuple[str, str, Any]]:
         """What it sets: (node, name, value).
@@ -55,27 +101,213 @@ class ParameterFile:
         Raises:
             InputError: If it cannot be read, or is laid out otherwise.
         """
-        path = Path(perform(context, self.param_file))
+        path = Path(perform(context, self._given))
         if not is_true(perform(context, self.allow_substs)):
             return names.read_parameters(path)
         return names.read_parameters(path, lambda text: perform(context, parsed(text, str(path))))
 
+    def evaluate(self, context: LaunchContext) -> Path:
+        """The path of a file without `$(…)`: where the text may hold some, of a copy.
 
-def read_all(context: LaunchContext, given: Iterable[Any]) -> list[tuple[str, str, Any]]:
-    """What a list of mappings and files sets: (node, name, value)."""
-    found: list[tuple[str, str, Any]] = []
-    for one in given:
+        Raises:
+            InputError: If a `$(…)` is not known.
+        """
+        path = Path(perform(context, self._given))
+        if is_true(perform(context, self.allow_substs)):
+            text = perform(context, parsed(path.read_text(encoding="utf-8"), str(path)))
+            handle, made = tempfile.mkstemp(prefix="parameters-", suffix=".yaml")
+            with open(handle, "w", encoding="utf-8") as file:
+                file.write(text)
+            self._made = path = Path(made)
+        self.param_file = path
+        return path
+
+    def cleanup(self) -> None:
+        """Delete the copy."""
+        if self._made is not None:
+            self._made.unlink(missing_ok=True)
+            self._made, self.param_file = None, self._given
+
+
+def normalize_parameters(parameters: Any) -> list[Any]:
+    """A node's parameters, looked over: mappings from dotted names to values, and files.
+
+    Raises:
+        TypeError: If they are no list, or one of them can be no parameter.
+    """
+    if not isinstance(parameters, Sequence) or isinstance(parameters, str | bytes):
+        raise TypeError(f"a node's parameters are a list of mappings and files, not {parameters!r}")
+    found: list[Any] = []
+    for one in parameters:
         if isinstance(one, Mapping):
-            named = {perform(context, key): value for key, value in one.items()}
-            found += [("", name, plain(context, value)) for name, value in names.flatten(named)]
+            found.append(normalize_parameter_dict(one))
+        elif isinstance(one, ParameterFile | ParameterDescription):
+            found.append(one)
         else:
-            file = one if isinstance(one, ParameterFile) else ParameterFile(one)
-            found += file.read(context)
+            found.append(ParameterFile(one))
     return found
 
 
+def normalize_parameter_dict(parameters: Any) -> dict[tuple[Substitution, ...], Any]:
+    """A mapping of parameters without levels: the texts of a dotted name, and its value.
+
+    Raises:
+        TypeError: If a name is no text, or a value can be no parameter's.
+    """
+    if not isinstance(parameters, Mapping):
+        raise TypeError(f"parameters are a mapping from names to values, not {parameters!r}")
+    found: dict[tuple[Substitution, ...], Any] = {}
+    for key, value in parameters.items():
+        name = _parts_of(key)
+        if isinstance(value, Mapping):
+            dot = _parts_of(".")
+            for below, one in normalize_parameter_dict(value).items():
+                found[(*name, *dot, *below)] = one
+        else:
+            found[tuple(name)] = _normalized(value)
+    return found
+
+
+def _normalized(value: Any) -> Any:
+    if isinstance(value, (ParameterValue, bytes, *_SINGLE)):
+        return value
+    if _is_text(value):
+        return tuple(_parts_of(value))
+    if not isinstance(value, Sequence):
+        raise TypeError(f"a parameter has no value like {value!r}: a number, a text or a list")
+    found: list[Any] = [
+        one if isinstance(one, _SINGLE) else tuple(_parts_of(one)) for one in value
+    ]
+    kinds = {type(one) for one in found}
+    if kinds == {int, float}:
+        return [float(one) for one in found]
+    if len(kinds - {tuple}) > 1:
+        raise TypeError(_not_uniform(value))
+    return found
+
+
+def evaluate_parameters(context: LaunchContext, parameters: Iterable[Any]) -> tuple[Any, ...]:
+    """What normalized parameters are now: mappings from names to values, and paths.
+
+    Raises:
+        TypeError: If a text gives what can be no parameter's value.
+    """
+    found: list[Any] = []
+    for one in parameters:
+        if isinstance(one, ParameterFile):
+            found.append(one.evaluate(context))
+        elif isinstance(one, Mapping):
+            found.append(evaluate_parameter_dict(context, one))
+        else:
+            one.evaluate(context)
+            found.append(one)
+    return tuple(found)
+
+
+def evaluate_parameter_dict(
+    context: LaunchContext, parameters: Mapping[Any, Any]
+) -> dict[str, Any]:
+    """What a normalized mapping of parameters is now.
+
+    Raises:
+        TypeError: If a text gives what can be no parameter's value.
+    """
+    found: dict[str, Any] = {}
+    for key, value in parameters.items():
+        name = perform(context, key)
+        try:
+            found[name] = _evaluated(context, value)
+        except ValueError as error:
+            raise BadParameterError(f"parameter '{name}': {error}") from None
+    return found
+
+
+def _evaluated(context: LaunchContext, value: Any) -> Any:
+    if isinstance(value, ParameterValue):
+        return value.evaluate(context)
+    if isinstance(value, tuple):
+        # What a substitution gives is read as YAML, as ROS 2 reads it.
+        value = _typed(perform(context, value), None)
+    elif isinstance(value, list):
+        each = (_evaluated(context, one) for one in value)
+        value = [tuple(one) if isinstance(one, list) else one for one in each]
+        if not _is_uniform(value):
+            raise ValueError(_not_uniform(value))
+    return tuple(value) if isinstance(value, list) else value
+
+
+def read_all(context: LaunchContext, given: Iterable[Any]) -> list[tuple[str, str, Any]]:
+    """What normalized parameters set: (node, name, value)."""
+    found: list[tuple[str, str, Any]] = []
+    for one in given:
+        if isinstance(one, ParameterFile):
+            found += one.read(context)
+            continue
+        pairs: Iterable[tuple[str, Any]] = (
+            evaluate_parameter_dict(context, one).items()
+            if isinstance(one, Mapping)
+            else [one.evaluate(context)]
+        )
+        for name, value in pairs:
+            found.append(("", name, list(value) if isinstance(value, tuple) else value))
+    return found
+
+
+def _typed(text: str, kind: Any) -> Any:
+    """What a text says, of some type; of any type a parameter may have when None."""
+    if kind is str:
+        return text
+    value = names.strict_yaml_value(text)
+    if kind is None:
+        if isinstance(value, list) and not _is_uniform(value):
+            raise ValueError(_not_uniform(value))
+        if not isinstance(value, (list, *_SINGLE)):
+            raise ValueError(
+                "Allowed value types are bool, int, float, str and lists of one of them, not "
+                f"{type(value).__name__}: '{text}'"
+            )
+        return value
+    (item,) = get_args(kind) or (kind,)
+    if item is float:
+        value = [_as_float(one) for one in value] if isinstance(value, list) else _as_float(value)
+    if not _is_of(value, kind):
+        shown = getattr(kind, "__name__", kind) if item is kind else kind
+        raise ValueError(f"a parameter's value is to be {shown}, not '{text}'")
+    return value
+
+
+def _as_float(value: Any) -> Any:
+    return float(value) if type(value) is int else value
+
+
+def _is_of(value: Any, kind: Any) -> bool:
+    if not (items := get_args(kind)):
+        return kind is None or type(value) is kind or not isinstance(kind, type)
+    return isinstance(value, list | tuple) and all(type(one) in items for one in value)
+
+
+def _is_uniform(values: Sequence[Any]) -> bool:
+    return bool(values) and type(values[0]) in _SINGLE and len({type(one) for one in values}) == 1
+
+
+def _not_uniform(values: Sequence[Any]) -> str:
+    return (
+        "Expected a non-empty sequence of bool, int, float or str alone, not "
+        f"{list(values)!r}; a text in it that names a type of its own is wrapped in ParameterValue"
+    )
+
+
+def _parts_of(value: Any) -> list[Substitution]:
+    if isinstance(value, str | Substitution) or _is_parts(value):
+        return normalize_to_list_of_substitutions(value)
+    if isinstance(value, Path):
+        return normalize_to_list_of_substitutions(str(value))
+    raise TypeError(f"a text, a substitution or a list of both was wanted, not {value!r}")
+
+
 def _is_text(value: Any) -> bool:
-    if isinstance(value, str | Substitution):
+    """Whether it is a text that is known when the launch runs."""
+    if isinstance(value, Substitution):
         return True
     return _is_parts(value) and any(isinstance(one, Substitution) for one in value)
 
@@ -88,49 +320,6 @@ def _is_parts(value: Any) -> bool:
     )
 
 
-def plain(context: LaunchContext, value: Any) -> Any:
-    """A parameter's value, with what stands for texts in it made."""
-    if isinstance(value, ParameterValue):
-        return value.evaluate(context)
-    if isinstance(value, str):
-        return value
-    if _is_text(value):
-        # What a substitution gives is read as YAML, as ROS 2 reads it.
-        return names.yaml_value(perform(context, value))
-    if isinstance(value, list | tuple):
-        return [plain(context, one) for one in value]
-    return value
-
-
-class SetParameter(Action):
-    """Sets a parameter for all nodes of the scope."""
-
-    def __init__(self, name: Any, value: Any, **kwargs: Any) -> None:
-        super().__init__(**kwargs)
-        self.name, self.value = name, value
-
-    def execute(self, context: LaunchContext) -> Any:
-        """Set it."""
-        context.parameters.append(("", perform(context, self.name), plain(context, self.value)))
-
-
-class SetUseSimTime(SetParameter):
-    """Sets use_sim_time for all nodes of the scope."""
-
-    def __init__(self, value: Any, **kwargs: Any) -> None:
-        super().__init__("use_sim_time", value, **kwargs)
-
-
-class SetParametersFromFile(Action):
-    """Sets what a parameter file says, for all nodes of the scope or one of them."""
-
-    def __init__(self, filename: Any, node_name: Any = None, **kwargs: Any) -> None:
-        super().__init__(**kwargs)
-        self.file, self.node_name = ParameterFile(filename), node_name
-
-    def execute(self, context: LaunchContext) -> Any:
-        """Read and set it."""
-        only = perform(context, self.node_name)
-        context.parameters += [
-            (only or node, name, value) for node, name, value in self.file.read(context)
-        ]
+def _holds_texts(value: Any) -> bool:
+    """Whether it is a list of which some are texts that are known when the launch runs."""
+    return isinstance(value, list | tuple) and any(_is_text(one) for one in value)

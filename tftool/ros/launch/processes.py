@@ -152,7 +152,9 @@ class ExecuteProcess(Startable):
         """Do what `ros2 WORDS` does, without a process: start a node, or ask the session."""
         if words[:1] == ["run"] and len(words) > 2:
             options, arguments = names.parse(words[3:])
-            options.namespace = options.namespace or context.namespace or None
+            options.namespace = options.namespace or context.launch_configurations.get(
+                "ros_namespace"
+            )
             started = Executable(words[1], words[2], arguments, options, words[2])
             context.launch.start_node(self, started, self.respawn_after(context))
             return None

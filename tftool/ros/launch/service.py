@@ -1,13 +1,16 @@
 """launch's LaunchService: a launch that a program makes and runs by itself."""
 
+import asyncio
 import logging
 import sys
 from typing import Any
 
 from tftool.ros.host import program
+from tftool.ros.host.event_loops import SLICE
 from tftool.ros.launch.context import LaunchContext
 from tftool.ros.launch.description import LaunchDescription
 from tftool.ros.launch.engine import Launch
+from tftool.stamps import as_seconds
 
 
 class LaunchService:
@@ -30,6 +33,11 @@ class LaunchService:
         Returns:
             0, or 1 if something failed.
         """
+        launch = self._begin()
+        program.current().ask(launch.ended.wait)
+        return int(bool(launch.failed))
+
+    def _begin(self) -> Launch:
         owner = program.current()
 
         def say(level: str, who: str, text: str) -> None:
@@ -38,11 +46,21 @@ class LaunchService:
         def start() -> list[Launch]:
             name = owner.world.free_name("launch")
             description = LaunchDescription(self._entities)
-            return [Launch(owner.world, description, context=self.context, say=say, name=name)]
+            made = Launch(
+                owner.world, description, context=self.context, say=say, name=name, contained=True
+            )
+            return [made]
 
         (self._launch,) = owner.ask(start)
-        owner.ask(self._launch.ended.wait)
-        return int(bool(self._launch.failed))
+        return self._launch
+
+    async def run_async(self, *, shutdown_when_idle: bool = True) -> int:
+        """The same beside other coroutines."""
+        launch = self._begin()
+        while not launch.ended.is_set():
+            # The loop is the user's, and its time the world's.
+            await asyncio.sleep(as_seconds(SLICE))  # noqa: TID251
+        return int(bool(launch.failed))
 
     def shutdown(self) -> None:
         """End what runs."""

@@ -108,6 +108,20 @@ class SetEnvironmentVariable(Action):
         context.environment[perform(context, self.name)] = perform(context, self.value)
 
 
+class SetLogFolder(Action):
+    """Says where nodes are to write their logs: nodes here write none, other programs do."""
+
+    def __init__(self, new_log_dir: Any, **kwargs: Any) -> None:
+        super().__init__(**kwargs)
+        self.new_log_dir = new_log_dir
+
+    def execute(self, context: LaunchContext) -> Any:
+        """Set it, below the one so far unless it is absolute."""
+        before = context.environment.get("ROS_LOG_DIR", "")
+        folder = os.path.join(before, perform(context, self.new_log_dir))
+        context.environment["ROS_LOG_DIR"] = folder
+
+
 class AppendEnvironmentVariable(Action):
     """Lengthens an environment variable, at its end or its beginning."""
 

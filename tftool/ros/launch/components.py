@@ -1,0 +1,156 @@
+"""launch_ros's components: nodes in C++ that are loaded into a container's process.
+
+None runs here. A container that answers in the session, of ROS 2's or of one's own, is asked to
+load them; what can be neither started nor asked is left out, with a line that says so.
+"""
+
+from collections.abc import Iterable
+from functools import partial
+from typing import Any
+
+from tftool.errors import UsageError
+from tftool.interfaces.classes import INTERFACES
+from tftool.ros.host.names import RosOptions
+from tftool.ros.launch.action import Action
+from tftool.ros.launch.context import LaunchContext
+from tftool.ros.launch.nodes import Node
+from tftool.ros.launch.parameters import normalize_parameters, read_all
+from tftool.ros.launch.scope import (
+    add_node_name,
+    namespace_in,
+    normalize_remap_rules,
+    parameters_in,
+    remaps_in,
+)
+from tftool.ros.launch.substitutions import perform
+from tftool.ros.rclpy.parameters import Parameter
+
+
+class ComposableNode:
+    """A node that is loaded into a container."""
+
+    def __init__(
+        self,
+        *,
+        package: Any,
+        plugin: Any,
+        name: Any = None,
+        namespace: Any = None,
+        parameters: Any = None,
+        remappings: Any = None,
+        extra_arguments: Any = None,
+        condition: Any = None,
+    ) -> None:
+        self.package, self.node_plugin = package, plugin
+        self.node_name, self.node_namespace = name, namespace
+        self.parameters = normalize_parameters(parameters or [])
+        self.remappings = list(normalize_remap_rules(remappings or ()))
+        self.extra_arguments = normalize_parameters(extra_arguments or [])
+        self._condition = condition
+
+    def condition(self) -> Any:
+        """Whether it is loaded at all; None for always."""
+        return self._condition
+
+
+def get_composable_node_load_request(
+    composable_node_description: ComposableNode, context: LaunchContext
+) -> Any:
+    """What asks a container to load a node; None where its condition does not hold."""
+    node = composable_node_description
+    condition = node.condition()
+    if condition is not None and not condition.evaluate(context):
+        return None
+    name = perform(context, node.node_name)
+    namespace = namespace_in(context, node.node_namespace) or ""
+
+    def messages(given: Any) -> list[Any]:
+        meant = RosOptions(parameters=given).parameters_for(name, namespace)
+        return [Parameter(key, value=one).to_parameter_msg() for key, one in meant.items()]
+
+    def all_messages(given: Iterable[Any]) -> list[Any]:
+        return [message for one in given for message in messages(read_all(context, [one]))]
+
+    scope = (messages([one]) for one in parameters_in(context))
+    return INTERFACES.find("composition_interfaces", "srv", "LoadNode").Request(
+        package_name=perform(context, node.package),
+        plugin_name=perform(context, node.node_plugin),
+        node_name=name,
+        node_namespace=namespace,
+        remap_rules=[f"{old}:={new}" for old, new in remaps_in(context, node.remappings)],
+        parameters=[*(one for found in scope for one in found), *all_messages(node.parameters)],
+        extra_arguments=all_messages(node.extra_arguments),
+    )
+
+
+class LoadComposableNodes(Action):
+    """Has nodes loaded by a container that runs."""
+
+    def __init__(
+        self, *, composable_node_descriptions: Iterable[Any], target_container: Any, **kwargs: Any
+    ) -> None:
+        super().__init__(**kwargs)
+        self.composable_node_descriptions = list(composable_node_descriptions)
+        self.target_container = target_container
+
+    def execute(self, context: LaunchContext) -> Any:
+        """Ask the container for each of them, one after the other."""
+        made = (
+            get_composable_node_load_request(one, context)
+            for one in self.composable_node_descriptions
+        )
+        requests = [request for request in made if request is not None]
+        if not requests:
+            return
+        target = self.target_container
+        container = target.node_name if isinstance(target, Node) else perform(context, target)
+        service = f"{container.strip('/')}/_container/load_node"
+        if not context.launch.world.has_service(service):
+            plugins = ", ".join(request.plugin_name for request in requests)
+            context.launch.warn(
+                f"left out: {plugins}: components are libraries in C++, which do not run here, "
+                f"and no container '{container}' answers in this session"
+            )
+            return
+        context.launch.ask(service, requests, partial(self._loaded, context))
+
+    def _loaded(self, context: LaunchContext, request: Any, answer: Any) -> None:
+        if not answer.success:
+            context.launch.warn(f"{request.plugin_name} was not loaded: {answer.error_message}")
+            return
+        add_node_name(context, answer.full_node_name)
+        context.launch.info(f"loaded {request.plugin_name} as '{answer.full_node_name}'")
+
+
+class ComposableNodeContainer(Node):
+    """A program that loads components."""
+
+    def __init__(
+        self,
+        *,
+        name: Any,
+        namespace: Any,
+        composable_node_descriptions: Iterable[Any] | None = None,
+        **kwargs: Any,
+    ) -> None:
+        super().__init__(name=name, namespace=namespace, **kwargs)
+        self.composable_node_descriptions = list(composable_node_descriptions or ())
+
+    def execute(self, context: LaunchContext) -> Any:
+        """Start it where it is a program in Python, and have its components loaded."""
+        self._perform_substitutions(context)
+        try:
+            context.workspace.package(perform(context, self.package))
+        except UsageError:
+            context.launch.warn(
+                f"left out: the container {self.node_name}: '{perform(context, self.package)}' is "
+                "no package of this workspace, and containers are programs in C++"
+            )
+        else:
+            super().execute(context)
+        if not self.composable_node_descriptions:
+            return None
+        return LoadComposableNodes(
+            composable_node_descriptions=self.composable_node_descriptions,
+            target_container=self.node_name,
+        )

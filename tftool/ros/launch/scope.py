@@ -1,0 +1,216 @@
+"""What holds for all of launch_ros's nodes of a scope: a namespace, remappings, parameters.
+
+As in ROS 2 they are kept among the launch configurations, where a scope begins and ends them.
+"""
+
+from collections.abc import Iterable
+from typing import Any
+
+from tftool.ros.host import names
+from tftool.ros.launch import parsing
+from tftool.ros.launch.action import Action
+from tftool.ros.launch.context import LaunchContext
+from tftool.ros.launch.parameters import ParameterFile, evaluate_parameters, normalize_parameters
+from tftool.ros.launch.substitutions import Substitution, SubstitutionFailure, perform
+from tftool.ros.launch.utilities import normalize_to_list_of_substitutions
+
+_NAMESPACE, _REMAPS, _PARAMETERS = "ros_namespace", "ros_remaps", "global_params"
+
+
+def is_namespace_absolute(ns: str) -> bool:
+    """Whether a namespace begins at the root."""
+    return ns.startswith("/")
+
+
+def is_root_namespace(ns: str) -> bool:
+    """Whether it is the root."""
+    return ns == "/"
+
+
+def make_namespace_absolute(ns: str | None) -> str | None:
+    """The namespace from the root on; None stays None."""
+    return ns if ns is None or is_namespace_absolute(ns) else f"/{ns}"
+
+
+def prefix_namespace(base_ns: str | None, ns: str | None) -> str | None:
+    """A namespace inside another; None is one that nobody has given."""
+    if base_ns is None or ns is None:
+        joined = base_ns if ns is None else ns
+    elif is_namespace_absolute(ns) or not base_ns:
+        joined = ns
+    else:
+        joined = f"{base_ns.rstrip('/')}/{ns}" if ns else base_ns
+    return joined if joined is None or is_root_namespace(joined) else joined.rstrip("/")
+
+
+def namespace_in(context: LaunchContext, own: Any) -> str | None:
+    """The namespace of a node of the scope, from the root on; None where nobody has given one.
+
+    Args:
+        context: The scope.
+        own: What the node itself says, or None.
+
+    Raises:
+        UsageError: If it is no namespace.
+    """
+    given = None if own is None else perform(context, own)
+    base = context.launch_configurations.get(_NAMESPACE)
+    namespace = make_namespace_absolute(prefix_namespace(base, given))
+    if namespace is not None:
+        names.check_namespace(namespace)
+    return namespace
+
+
+def normalize_remap_rule(remap_rule: Any) -> tuple[Any, Any]:
+    """A remapping as two lists of substitutions.
+
+    Raises:
+        TypeError: If it is no pair.
+    """
+    if not isinstance(remap_rule, tuple) or len(remap_rule) != 2:
+        raise TypeError(f"a remapping is a pair like ('old', 'new'), not {remap_rule!r}")
+    old, new = remap_rule
+    return normalize_to_list_of_substitutions(old), normalize_to_list_of_substitutions(new)
+
+
+def normalize_remap_rules(remap_rules: Iterable[Any]) -> Iterable[tuple[Any, Any]]:
+    """Each remapping as two lists of substitutions.
+
+    Raises:
+        TypeError: If one is no pair.
+    """
+    return (normalize_remap_rule(rule) for rule in remap_rules)
+
+
+def remaps_in(context: LaunchContext, own: Iterable[tuple[Any, Any]]) -> list[tuple[str, str]]:
+    """The remappings of a node of the scope: the first that fits counts."""
+    kept: Any = context.launch_configurations.get(_REMAPS, [])
+    return [*kept, *((perform(context, old), perform(context, new)) for old, new in own)]
+
+
+def parameters_in(context: LaunchContext) -> list[tuple[str, str, Any]]:
+    """What the scope sets: (node, name, value); "" is each node."""
+    found: list[tuple[str, str, Any]] = []
+    for kept in context.launch_configurations.get(_PARAMETERS, []):
+        if isinstance(kept, str):
+            found += ParameterFile(kept).read(context)
+        else:
+            found.append(kept if len(kept) == 3 else ("", *kept))
+    return found
+
+
+def add_node_name(context: LaunchContext, node_name: str) -> None:
+    """Count a node's full name."""
+    context.node_names[node_name] += 1
+
+
+def get_node_name_count(context: LaunchContext, node_name: str) -> int:
+    """How many nodes of a full name were started."""
+    return context.node_names[node_name]
+
+
+def _keep(context: LaunchContext, name: str, *more: Any) -> None:
+    # Another list: the scope outside keeps its own.
+    configurations: dict[str, Any] = context.launch_configurations
+    configurations[name] = [*configurations.get(name, ()), *more]
+
+
+class PushRosNamespace(Action):
+    """Puts nodes of the scope into a namespace."""
+
+    def __init__(self, namespace: Any, **kwargs: Any) -> None:
+        super().__init__(**kwargs)
+        self.namespace = namespace
+
+    def execute(self, context: LaunchContext) -> Any:
+        """Go into it."""
+        namespace = namespace_in(context, self.namespace)
+        if namespace is not None:
+            context.launch_configurations[_NAMESPACE] = namespace
+
+
+class SetRemap(Action):
+    """Renames a topic for all nodes of the scope."""
+
+    def __init__(self, src: Any, dst: Any, **kwargs: Any) -> None:
+        super().__init__(**kwargs)
+        self.src, self.dst = src, dst
+
+    def execute(self, context: LaunchContext) -> Any:
+        """Rename it."""
+        _keep(context, _REMAPS, (perform(context, self.src), perform(context, self.dst)))
+
+
+class SetParameter(Action):
+    """Sets a parameter for all nodes of the scope.
+
+    Attributes:
+        name: Its name: texts.
+        value: Its value, or texts.
+    """
+
+    def __init__(self, name: Any, value: Any, **kwargs: Any) -> None:
+        super().__init__(**kwargs)
+        (self._normalized,) = normalize_parameters([{_hashable(name): value}])
+        ((key, self.value),) = self._normalized.items()
+        self.name = list(key)
+
+    def execute(self, context: LaunchContext) -> Any:
+        """Set it."""
+        (found,) = evaluate_parameters(context, [self._normalized])
+        _keep(context, _PARAMETERS, *found.items())
+
+
+def _hashable(name: Any) -> Any:
+    return tuple(name) if isinstance(name, list) else name
+
+
+class SetUseSimTime(SetParameter):
+    """Sets use_sim_time for all nodes of the scope."""
+
+    def __init__(self, value: Any, **kwargs: Any) -> None:
+        super().__init__("use_sim_time", value, **kwargs)
+
+
+class SetParametersFromFile(Action):
+    """Sets what a parameter file says, for all nodes of the scope or one of them."""
+
+    def __init__(self, filename: Any, node_name: Any = None, **kwargs: Any) -> None:
+        super().__init__(**kwargs)
+        self.filename, self.node_name = filename, node_name
+
+    def execute(self, context: LaunchContext) -> Any:
+        """Set it, for one node or for those the file names."""
+        path = perform(context, self.filename)
+        if self.node_name is None:
+            _keep(context, _PARAMETERS, path)
+            return
+        only = perform(context, self.node_name)
+        found = ParameterFile(path).read(context)
+        _keep(context, _PARAMETERS, *((only or node, *rest) for node, *rest in found))
+
+
+class ParameterSubstitution(Substitution):
+    """The value that the scope sets a parameter to."""
+
+    def __init__(self, name: Any, *, default: Any = None) -> None:
+        self.name, self.default = name, default
+
+    def perform(self, context: LaunchContext) -> str:
+        """The value now.
+
+        Raises:
+            SubstitutionFailure: If the scope sets none, and there is no default.
+        """
+        name = perform(context, self.name)
+        for node, set_name, value in reversed(parameters_in(context)):
+            if set_name == name and not node:
+                return str(value)
+        if self.default is None:
+            raise SubstitutionFailure(f"no SetParameter of this scope sets a parameter '{name}'")
+        return perform(context, self.default)
+
+
+parsing.SUBSTITUTIONS["param"] = lambda name, default=None: ParameterSubstitution(
+    name, default=default
+)
