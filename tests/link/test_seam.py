@@ -6,7 +6,7 @@ import pytest
 
 from tests.link import memory
 from tests.link.conftest import new_world, until
-from tests.link.test_session import play
+from tests.link.two import play
 from tftool.frames.sample import TransformStamped
 from tftool.geometry.rigid import Transform
 from tftool.interfaces.classes import INTERFACES

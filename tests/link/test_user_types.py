@@ -6,7 +6,7 @@ from collections import deque
 import pytest
 
 from tests.link.conftest import new_world, until
-from tests.link.test_session import Two, play, texts
+from tests.link.two import Two, play, texts
 from tftool.errors import LinkError, TftoolError
 from tftool.interfaces.classes import INTERFACES
 from tftool.link.graph import Role

@@ -1,3 +1,5 @@
+"""The screen of the turtles: what is on it, and its keys."""
+
 import asyncio
 
 import pytest
@@ -5,62 +7,18 @@ from rich.cells import cell_len
 from textual._xterm_parser import XTermParser
 
 from tests.nodes.vectors import VECTORS
-from tftool.errors import NodeFailed, TftoolError, UsageError
+from tests.screens.visiting import screen, settled, shown, told, visit
+from tftool.errors import UsageError
 from tftool.frames.sample import TransformStamped
 from tftool.geometry.rigid import Transform
 from tftool.nodes.idle_drawing import IdleDrawing
-from tftool.runtime.clock import WallClock, run
-from tftool.runtime.node import Node
-from tftool.runtime.supervisor import live
-from tftool.runtime.world import World
 from tftool.screens.panel import Panel
-from tftool.screens.scene import Scene
 from tftool.screens.setting import Setting, setting_from
-from tftool.screens.showing import show
 from tftool.screens.terminal import TurtleApp
 from tftool.stamps import seconds
 from tftool.views import theme
 
 BANNER = ("Reading from keyboard", "'q' to quit.")
-
-
-def screen(app):
-    """What is on the screen, line by line."""
-    return [strip.text for strip in app.screen._compositor.render_strips(app.size)]
-
-
-def visit(scene, size, steps, press=None, **setting):
-    """Show a scene on a screen of some size, and let `steps` press keys on it."""
-    app = TurtleApp(scene, press, Setting(title="tftool demo turtles", **setting))
-
-    async def main():
-        async with app.run_test(size=size) as pilot:
-            await settled(pilot)
-            await steps(app, pilot)
-
-    asyncio.run(main())
-    if app.failure is not None:
-        raise app.failure
-    return app
-
-
-async def settled(pilot):
-    await pilot.pause()
-    pilot.app.redraw()
-    await pilot.pause()
-
-
-def shown(scene, size=(100, 30), keys=(), press=None, **setting):
-    """The screen after some keys."""
-    lines = []
-
-    async def steps(app, pilot):
-        await pilot.press(*keys)
-        await settled(pilot)
-        lines.extend(screen(app))
-
-    visit(scene, size, steps, press, **setting)
-    return lines
 
 
 @pytest.mark.parametrize(
@@ -137,85 +95,6 @@ def test_in_teleop_f_gives_a_turn_up_in_either_case(danced):
     assert pressed == ["f", "f"]
 
 
-def test_the_picture_is_drawn_in_the_frame_that_is_chosen(danced):
-    pressed = []
-
-    chosen = "\n".join(shown(danced, keys=("F",), press=pressed.append))
-    other = "\n".join(shown(danced, keys=("j", "F"), press=pressed.append))
-    back = "\n".join(shown(danced, keys=("F", "F"), press=pressed.append))
-
-    assert "Frames in turtle1 (fixed)" in chosen
-    assert "Frames in turtle2 (fixed)" in other
-    assert "Frames in world ─" in back
-    assert pressed == []
-
-
-def scale_of(lines):
-    """The metres below the picture, and those at its left."""
-    below = next(line for line in lines if line.startswith("│ m"))
-    return [float(one) for one in below.split("│")[1].split()[1:]]
-
-
-def test_one_zooms_in_and_out_and_back_to_all_there_is(danced):
-    plain = shown(danced)
-    near = scale_of(shown(danced, keys=("plus", "plus", "plus")))
-    far = scale_of(shown(danced, keys=("minus", "minus", "minus")))
-    whole = scale_of(plain)
-
-    assert near[-1] - near[0] < whole[-1] - whole[0] < far[-1] - far[0]
-    assert scale_of(shown(danced, keys=("plus", "shift+left", "minus", "0"))) == whole
-
-
-def test_the_picture_is_moved(danced):
-    pressed = []
-    keys = ("plus", "plus", "plus")
-    here = scale_of(shown(danced, keys=keys))
-    left = scale_of(shown(danced, keys=(*keys, "shift+left"), press=pressed.append))
-
-    assert left[0] < here[0]
-    assert pressed == []
-
-
-def mouse(app, *sent):
-    """Hand over what a terminal sends for its mouse: SGR codes, from the bytes on."""
-    for code in sent:
-        for event in XTermParser().feed(f"\x1b[<{code}"):
-            app.post_message(event)
-
-
-def test_the_wheel_zooms_where_the_pointer_is_and_dragging_moves(danced):
-    async def steps(app, pilot):
-        whole = scale_of(screen(app))
-        mouse(app, "64;20;10M", "64;20;10M", "64;20;10M")
-        await settled(pilot)
-        near = scale_of(screen(app))
-        assert near[-1] - near[0] < whole[-1] - whole[0]
-        mouse(app, "0;20;10M", "32;35;10M", "0;35;10m")
-        await settled(pilot)
-        assert scale_of(screen(app))[0] < near[0]
-        mouse(app, *["65;20;10M"] * 6)
-        await settled(pilot)
-        assert scale_of(screen(app))[-1] > near[-1]
-
-    visit(danced, (100, 30), steps)
-
-
-def test_a_click_picks_the_frame_under_it(danced):
-    async def steps(app, pilot):
-        lines = screen(app)
-        row = next(row for row, line in enumerate(lines) if "├─ turtle1" in line)
-        column = lines[row].index("├─ turtle1") + 5
-        # The row above it is world's; a terminal counts from 1.
-        mouse(app, f"0;{column};{row}M", f"0;{column};{row}m")
-        await settled(pilot)
-        assert "world in turtle2" in "\n".join(screen(app))
-        mouse(app, f"0;{column};{row + 1}M", f"0;{column};{row + 1}m")
-        await settled(pilot)
-        assert "turtle1 in turtle2" in "\n".join(screen(app))
-
-    visit(danced, (100, 30), steps)
-
-
 def test_where_nothing_can_be_driven_keys_do_nothing(danced):
     assert "drive" not in "\n".join(shown(danced, keys=("up", "g")))
 
@@ -288,57 +167,6 @@ def test_the_log_scrolls_with_the_arrows(danced):
     assert "Successfully" in "\n".join(newest)
     assert "Successfully" not in "\n".join(older)
     assert back == newest
-
-
-def test_time_travel_shows_everything_at_that_moment(danced):
-    at = danced.world.clock.now() - seconds(2.2)
-    found = danced.world.buffer.lookup_transform("turtle2", "turtle1", at)
-    x, y, z = found.transform.translation
-
-    text = "\n".join(shown(danced, keys=("{", "{", "[", "[")))
-
-    assert "11.8 s  ◀◀ 2.2 s ago" in text
-    assert f"xyz   {x:7.3f} {y:7.3f} {z:7.3f}" in text
-    assert "at    1011.800" in text
-    assert "l live" in text
-
-
-def told(lines):
-    """The top line, and what stands beside the picture."""
-    return [lines[0], *(line.rpartition("││")[2] for line in lines[1:-2])]
-
-
-def test_one_comes_back_from_the_past(danced):
-    live_screen = told(shown(danced))
-
-    assert told(shown(danced, keys=("[", "[", "]", "]"))) == live_screen
-    assert told(shown(danced, keys=("{", "l"))) == live_screen
-    assert told(shown(danced, keys=("]", "}"))) == live_screen
-    assert told(shown(danced, keys=("[",))) != live_screen
-
-
-def test_an_earlier_moment_is_marked_in_the_plots(danced):
-    def cursor(*keys):
-        lines = shown(danced, (100, 40), keys=keys)
-        return {line.index("┃") for line in lines if "┃" in line}
-
-    assert cursor() == set()
-    (early,), (late,) = cursor("{", "{", "{", "{"), cursor("{")
-    assert early < late
-
-
-def test_scrubbed_to_a_moment_the_tree_shows_the_rates_of_that_moment(turtles):
-    """Of a link that begins at 2 s, 100 ms later: six samples in 80 ms, as tf2 counts."""
-    scene = turtles(9.0, (), followed=True)
-    spawned = scene.world.buffer.samples("turtle2").stamps[0]
-
-    at = int(spawned) + seconds(0.1)
-    info = scene.moment(at, "turtle2", "turtle1").snapshot.frame("turtle2")
-
-    early = [one for one in scene.world.buffer.samples("turtle2").stamps.tolist() if one <= at]
-    assert (info.samples, info.oldest, info.newest) == (len(early), early[0], early[-1])
-    assert info.rate == pytest.approx(len(early) / ((early[-1] - early[0]) / 1e9))
-    assert info.rate > 70
 
 
 def test_the_log_is_a_strip_that_opens_and_closes(danced):
@@ -421,22 +249,6 @@ def test_a_turtle_that_draws_by_itself_is_said_and_a_key_stops_it(turtles):
     assert "turtle1 draws by itself; a key stops it" in "\n".join(shown_before)
     assert "by itself;" not in "\n".join(shown_after)
     assert not idle.is_drawing
-
-
-def test_one_cannot_go_further_back_than_the_buffer(danced):
-    text = "\n".join(shown(danced, keys=("{",) * 20))
-
-    assert "10.0 s ago" in text
-
-
-def test_in_the_past_another_pair_can_be_picked(danced):
-    at = danced.world.clock.now() - seconds(1)
-    x, y, z = danced.world.buffer.lookup_transform("turtle1", "turtle2", at).transform.translation
-
-    text = "\n".join(shown(danced, keys=("{", "x")))
-
-    assert "turtle2 in turtle1" in text
-    assert f"xyz   {x:7.3f} {y:7.3f} {z:7.3f}" in text
 
 
 def test_the_key_help_comes_and_goes(danced):
@@ -604,106 +416,6 @@ def test_only_lines_that_changed_are_painted(turtles, monkeypatch):
     visit(scene, (100, 30), steps)
 
     assert painted == list(range(3, 25))
-
-
-def test_q_ends_it(danced):
-    async def steps(app, pilot):
-        await pilot.press("q")
-        await pilot.pause()
-
-    app = visit(danced, (80, 24), steps)
-
-    assert app.return_code == 0
-    assert not app.interrupted
-
-
-class Waiting(Node):
-    """Lives for ever."""
-
-    async def run(self):
-        await self.clock.sleep(seconds(1e6))
-
-
-class Failing(Node):
-    """Fails at once."""
-
-    async def run(self):
-        await self.clock.sleep(1)
-        raise ValueError("out of paint")
-
-
-def live_app(kind, **how):
-    world = World(WallClock())
-    kind(world, "painter")
-    return TurtleApp(Scene(world), **how), world
-
-
-def test_a_node_that_fails_ends_the_screen_and_is_named():
-    app, world = live_app(Failing)
-
-    with pytest.raises(NodeFailed, match="node 'painter' failed: ValueError: out of paint"):
-        run(world.clock, show(app, live(world), headless=True))
-
-    assert not app.is_running
-
-
-def test_a_screen_that_fails_says_so_in_a_sentence(monkeypatch):
-    app, world = live_app(Waiting)
-    monkeypatch.setattr(app.scene, "moment", lambda *_: 1 / 0)
-
-    with pytest.raises(TftoolError, match="the screen failed: ZeroDivisionError: division by zero"):
-        run(world.clock, show(app, live(world), headless=True))
-
-
-@pytest.mark.parametrize(("action", "interrupted"), [("leave", False), ("interrupt", True)])
-def test_leaving_ends_the_world_too(action, interrupted):
-    app, world = live_app(Waiting)
-    ended = []
-
-    async def life():
-        try:
-            await live(world)
-        finally:
-            ended.append(True)
-
-    async def main():
-        showing = asyncio.ensure_future(show(app, life(), headless=True))
-        while not app.is_running:
-            await world.clock.sleep(seconds(0.01))
-        getattr(app, f"action_{action}")()
-        await showing
-
-    if interrupted:
-        with pytest.raises(KeyboardInterrupt):
-            run(world.clock, main())
-    else:
-        run(world.clock, main())
-
-    assert ended == [True]
-
-
-def test_a_world_that_ends_ends_the_screen():
-    app, world = live_app(Waiting)
-
-    run(world.clock, show(app, live(world, until=world.clock.now() + seconds(0.05)), headless=True))
-
-    assert not app.is_running
-
-
-def test_a_cancelled_screen_ends_both():
-    app, world = live_app(Waiting)
-
-    async def main():
-        showing = asyncio.ensure_future(show(app, live(world), headless=True))
-        while not app.is_running:
-            await world.clock.sleep(seconds(0.01))
-        showing.cancel()
-        with pytest.raises(asyncio.CancelledError):
-            await showing
-
-    run(world.clock, main())
-
-    assert not app.is_running
 
 
 def test_frames_that_come_later_get_a_line_of_the_tree(frames):

@@ -15,7 +15,6 @@ from selenium.webdriver.common.by import By
 from selenium.webdriver.support.ui import Select
 
 from tests.screens.browser.driving import CHROMEDRIVER, CHROMIUM, Page, Resized
-from tests.screens.browser.mesh_files import write_package
 from tests.screens.browser.rover import drive, rover
 from tests.screens.browser.stage import Stage
 from tftool.stamps import display, seconds
@@ -26,8 +25,8 @@ pytestmark = pytest.mark.skipif(
 )
 
 VECTORS = Path(__file__).parents[2] / "reference" / "turtlesim_vectors.yaml"
-PICTURE = Path(__file__).parents[2] / "pictures" / "view.png"
 
+PICTURE = Path(__file__).parents[2] / "pictures" / "view.png"
 
 # What a page learns of the graphics card, where this machine has none: 0x9246 asks its name.
 CARD = """
@@ -407,113 +406,6 @@ def test_the_update_interval_slows_the_picture_but_not_the_person(chromium, stag
     page.until(lambda: page.x_of("turtle") == newest)
 
 
-def test_another_sites_page_gets_no_frames(chromium, stage):
-    stage.put(1.0)
-    chromium.get("data:text/html,<title>another site</title>")
-
-    told = chromium.execute_async_script(
-        """
-        const [url, done] = arguments;
-        const socket = new WebSocket(url);
-        socket.onopen = () => done("opened");
-        socket.onerror = () => done("refused");
-        """,
-        f"ws://127.0.0.1:{stage.port}/frames",
-    )
-
-    assert told == "refused"
-
-
-def test_a_second_window_joins_with_a_view_of_its_own(chromium, stage):
-    stage.put(1.0)
-    first = Page(chromium, stage)
-    first.until(lambda: first.x_of("turtle") == 1.0)
-    first_window = chromium.current_window_handle
-
-    chromium.switch_to.new_window("window")
-    second = Page(chromium, stage, "view=orbit")
-    second.until(lambda: second.x_of("turtle") == 1.0)
-    assert second.find("#orbit").get_attribute("aria-pressed") == "true"
-    stage.put(2.0, at=2.0)
-    second.until(lambda: second.x_of("turtle") == 2.0)
-    chromium.close()
-    chromium.switch_to.window(first_window)
-
-    first.until(lambda: first.x_of("turtle") == 2.0)
-    assert first.find("#orbit").get_attribute("aria-pressed") == "false"
-
-
-def test_the_end_of_the_session_is_shown_and_the_page_finds_the_next_one(chromium):
-    with Stage() as ended:
-        ended.put(1.0)
-        page = Page(chromium, ended)
-        page.until(lambda: page.text("#status") == "live")
-        page.until(lambda: page.x_of("turtle") == 1.0)
-    page.until(lambda: page.text("#status").startswith("session ended"))
-    assert page.x_of("turtle") == 1.0  # the last picture stays
-
-    with Stage(port=ended.port) as found:
-        found.put(5.0, child="newcomer")
-        page.until(lambda: page.text("#status") == "live")
-        page.until(lambda: page.texts("#tree .name") == ["world", "newcomer"])
-        page.until(lambda: page.x_of("newcomer") == 5.0)
-
-
-def test_before_any_frame_the_page_says_what_it_waits_for(chromium, stage):
-    page = Page(chromium, stage)
-
-    page.until(lambda: page.text("#empty").startswith("No tf data.  Actual error: "))
-    stage.put(1.0)
-    page.until(lambda: "turtle" in page.drawn() and not page.find("#empty").is_displayed())
-
-
-def test_the_address_carries_the_view(chromium, stage):
-    for second in (1.0, 2.0):
-        stage.put(second, at=second)
-    page = Page(chromium, stage)
-    page.until(lambda: page.x_of("turtle") == 2.0)
-    page.row("turtle").find_element(By.CLASS_NAME, "name").click()
-    page.find("#orbit").click()
-    page.find("#grid").click()
-    page.pick("source", "turtle")
-    page.pick("target", "world")
-    page.scrub(1.5)
-    page.until(lambda: "at=1.5" in chromium.current_url and "target=world" in chromium.current_url)
-
-    again = Page(chromium, stage, chromium.current_url.partition("#")[2])
-    again.until(lambda: again.x_of("turtle") == 1.5)
-    again.until(lambda: again.text("#chosen") == "turtle")
-    again.until(lambda: again.text("#sentence") == "turtle in world")
-    assert again.find("#orbit").get_attribute("aria-pressed") == "true"
-    assert again.find("#grid").get_attribute("aria-pressed") == "false"
-
-
-def test_a_link_put_into_an_open_page_shows_its_view_and_makes_no_loop(chromium, stage):
-    stage.put(1.0)
-    page = Page(chromium, stage)
-    page.until(lambda: "turtle" in page.drawn())
-    page.said("location.hash = 'view=orbit&chosen=turtle&speed=0.25&hidden=world&timeout=700'")
-
-    page.until(lambda: page.said("globalThis.tftool && tftool.drawn().length") == 1)
-    page.until(lambda: page.text("#chosen") == "turtle")
-    assert page.find("#orbit").get_attribute("aria-pressed") == "true"
-    assert page.find("#speed").get_attribute("value") == "0.25"
-    assert page.find("#timeout").get_attribute("value") == "700"
-
-
-def test_a_fixed_frame_that_does_not_exist_is_said_and_shown_once_it_comes(chromium, stage):
-    stage.put(1.0)
-    page = Page(chromium, stage, "fixed=map&chosen=turtle")
-
-    page.until(lambda: page.text("#empty").startswith("Frame [map] does not exist"))
-    page.until(lambda: page.text("#trouble").startswith("No transform from [turtle] to [map]"))
-    page.until(lambda: page.texts("#link-facts dd")[0] == "Warning")
-    assert page.drawn() == {}
-    stage.mount(("map", "world"), x=5.0)
-    page.until(lambda: page.x_of("turtle") == 6.0)
-    page.until(lambda: page.texts("#link-facts dd")[0] == "Transform OK")
-
-
 def test_a_frame_leaves_a_trail_when_asked_to(chromium, stage):
     for second in (1.0, 2.0, 3.0):
         stage.put(second, at=second)
@@ -636,72 +528,3 @@ def test_the_readmes_picture_is_made_from_the_page_as_it_is(chromium, card):
 
     assert PICTURE.read_bytes().startswith(b"\x89PNG")
     assert PICTURE.stat().st_size < 400_000
-
-
-@pytest.fixture
-def robot(tmp_path):
-    """A robot of two links whose meshes are of every kind, some of them missing."""
-    from tests.screens.browser.test_robots import ROBOT
-    from tftool.screens.browser.meshes import MeshFolders
-    from tftool.screens.browser.robots import ShownRobot
-    from tftool.sources.robot import Robot
-    from tftool.sources.urdf import parse_description
-
-    package = write_package(tmp_path)
-    broken = '<visual><geometry><mesh filename="../meshes/broken.stl"/></geometry></visual></link>'
-    text = broken.join(ROBOT.rsplit("</link>", 1))
-    return ShownRobot(Robot(parse_description(text)), MeshFolders(package / "urdf" / "arm.urdf"))
-
-
-def links_of(page):
-    """How many visuals, collisions and joint axes are drawn, by link."""
-    return page.said("tftool.robot()")["links"]
-
-
-def test_a_robot_is_drawn_with_all_its_meshes(chromium, stage, robot):
-    stage.show(robot)
-    stage.put(1.0, 0.0, parent="base", child="hand")
-    page = Page(chromium, stage, "view=orbit")
-    page.until(lambda: "hand" in links_of(page) and page.said("tftool.robot().waiting") == 0)
-
-    assert links_of(page) == {"base": [4, 0, 0], "hand": [7, 0, 0]}
-    missing = page.until(lambda: (lines := page.texts("#missing li")) and len(lines) == 3 and lines)
-    assert "package 'nobody'" in missing[0]
-    assert "only package:// and paths beside the description" in missing[1]
-    assert missing[2].startswith("'meshes/broken.stl' cannot be drawn")
-    assert page.complaints() == []
-
-
-def test_switches_show_what_links_collide_with_and_where_joints_turn(chromium, stage, robot):
-    stage.show(robot)
-    stage.put(1.0, 0.0, parent="base", child="hand")
-    page = Page(chromium, stage, "collisions=1&jointaxes=1")
-    page.until(lambda: links_of(page).get("base") == [4, 1, 0])
-    assert links_of(page)["hand"] == [7, 0, 1]
-
-    page.find("#visuals").click()
-    page.find("#collisions").click()
-    page.until(lambda: links_of(page).get("base") == [0, 0, 0])
-
-    page.row("hand").find_element(By.CSS_SELECTOR, ".solid").click()
-    page.until(lambda: "hand" not in links_of(page))
-    assert "bare=hand" in page.until(
-        lambda: (address := page.said("location.hash")) and "bare" in address and address
-    )
-
-
-def test_a_slider_moves_its_joint(chromium, stage, robot):
-    from tftool.nodes.joints import JointStatePublisher
-
-    robot.mover = stage.do(lambda world: JointStatePublisher(world, robot=robot.robot))
-    stage.show(robot)
-    page = Page(chromium, stage)
-    page.until(lambda: page.texts(".slider span") == ["turn"])
-
-    chromium.execute_script(
-        "const slider = document.querySelector('.slider input'); slider.value = 0.75;"
-        "slider.dispatchEvent(new Event('input'))"
-    )
-    page.until(lambda: stage.do(lambda world: robot.mover.positions["turn"]) == 0.75)
-
-    assert page.texts(".slider output") == ["0.750 rad"]

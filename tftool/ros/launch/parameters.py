@@ -175,9 +175,7 @@ def _normalized(value: Any) -> Any:
         return tuple(_parts_of(value))
     if not isinstance(value, Sequence):
         raise TypeError(f"a parameter has no value like {value!r}: a number, a text or a list")
-    found: list[Any] = [
-        one if isinstance(one, _SINGLE) else tuple(_parts_of(one)) for one in value
-    ]
+    found: list[Any] = [one if isinstance(one, _SINGLE) else tuple(_parts_of(one)) for one in value]
     kinds = {type(one) for one in found}
     if kinds == {int, float}:
         return [float(one) for one in found]

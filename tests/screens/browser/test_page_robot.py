@@ -1,0 +1,85 @@
+"""A robot in the page, in a real browser: its meshes and its sliders."""
+
+import pytest
+
+pytest.importorskip("websockets", reason="the extra `view` is not installed")
+pytest.importorskip("selenium.webdriver", reason="selenium is not installed")
+
+from selenium.webdriver.common.by import By
+
+from tests.screens.browser.driving import CHROMEDRIVER, CHROMIUM, Page
+from tests.screens.browser.mesh_files import write_package
+
+pytestmark = pytest.mark.skipif(
+    not (CHROMIUM and CHROMEDRIVER),
+    reason="no chromium and chromedriver: apt-get install chromium chromium-driver",
+)
+
+
+@pytest.fixture
+def robot(tmp_path):
+    """A robot of two links whose meshes are of every kind, some of them missing."""
+    from tests.screens.browser.test_robots import ROBOT
+    from tftool.screens.browser.meshes import MeshFolders
+    from tftool.screens.browser.robots import ShownRobot
+    from tftool.sources.robot import Robot
+    from tftool.sources.urdf import parse_description
+
+    package = write_package(tmp_path)
+    broken = '<visual><geometry><mesh filename="../meshes/broken.stl"/></geometry></visual></link>'
+    text = broken.join(ROBOT.rsplit("</link>", 1))
+    return ShownRobot(Robot(parse_description(text)), MeshFolders(package / "urdf" / "arm.urdf"))
+
+
+def links_of(page):
+    """How many visuals, collisions and joint axes are drawn, by link."""
+    return page.said("tftool.robot()")["links"]
+
+
+def test_a_robot_is_drawn_with_all_its_meshes(chromium, stage, robot):
+    stage.show(robot)
+    stage.put(1.0, 0.0, parent="base", child="hand")
+    page = Page(chromium, stage, "view=orbit")
+    page.until(lambda: "hand" in links_of(page) and page.said("tftool.robot().waiting") == 0)
+
+    assert links_of(page) == {"base": [4, 0, 0], "hand": [7, 0, 0]}
+    missing = page.until(lambda: (lines := page.texts("#missing li")) and len(lines) == 3 and lines)
+    assert "package 'nobody'" in missing[0]
+    assert "only package:// and paths beside the description" in missing[1]
+    assert missing[2].startswith("'meshes/broken.stl' cannot be drawn")
+    assert page.complaints() == []
+
+
+def test_switches_show_what_links_collide_with_and_where_joints_turn(chromium, stage, robot):
+    stage.show(robot)
+    stage.put(1.0, 0.0, parent="base", child="hand")
+    page = Page(chromium, stage, "collisions=1&jointaxes=1")
+    page.until(lambda: links_of(page).get("base") == [4, 1, 0])
+    assert links_of(page)["hand"] == [7, 0, 1]
+
+    page.find("#visuals").click()
+    page.find("#collisions").click()
+    page.until(lambda: links_of(page).get("base") == [0, 0, 0])
+
+    page.row("hand").find_element(By.CSS_SELECTOR, ".solid").click()
+    page.until(lambda: "hand" not in links_of(page))
+    assert "bare=hand" in page.until(
+        lambda: (address := page.said("location.hash")) and "bare" in address and address
+    )
+
+
+def test_a_slider_moves_its_joint(chromium, stage, robot):
+    from tftool.nodes.joints import JointStatePublisher
+
+    robot.mover = stage.do(lambda world: JointStatePublisher(world, robot=robot.robot))
+    stage.show(robot)
+    page = Page(chromium, stage)
+    page.until(lambda: page.texts(".slider span") == ["turn"])
+
+    chromium.execute_script(
+        "const slider = document.querySelector('.slider input'); slider.value = 0.75;"
+        "slider.dispatchEvent(new Event('input'))"
+    )
+    page.until(lambda: stage.do(lambda world: robot.mover.positions["turn"]) == 0.75)
+
+    assert page.texts(".slider output") == ["0.750 rad"]

@@ -1,0 +1,116 @@
+"""How the screen of the turtles ends, and its world with it."""
+
+import asyncio
+
+import pytest
+
+from tests.screens.visiting import visit
+from tftool.errors import NodeFailed, TftoolError
+from tftool.runtime.clock import WallClock, run
+from tftool.runtime.node import Node
+from tftool.runtime.supervisor import live
+from tftool.runtime.world import World
+from tftool.screens.scene import Scene
+from tftool.screens.showing import show
+from tftool.screens.terminal import TurtleApp
+from tftool.stamps import seconds
+
+
+def test_q_ends_it(danced):
+    async def steps(app, pilot):
+        await pilot.press("q")
+        await pilot.pause()
+
+    app = visit(danced, (80, 24), steps)
+
+    assert app.return_code == 0
+    assert not app.interrupted
+
+
+class Waiting(Node):
+    """Lives for ever."""
+
+    async def run(self):
+        await self.clock.sleep(seconds(1e6))
+
+
+class Failing(Node):
+    """Fails at once."""
+
+    async def run(self):
+        await self.clock.sleep(1)
+        raise ValueError("out of paint")
+
+
+def live_app(kind, **how):
+    world = World(WallClock())
+    kind(world, "painter")
+    return TurtleApp(Scene(world), **how), world
+
+
+def test_a_node_that_fails_ends_the_screen_and_is_named():
+    app, world = live_app(Failing)
+
+    with pytest.raises(NodeFailed, match="node 'painter' failed: ValueError: out of paint"):
+        run(world.clock, show(app, live(world), headless=True))
+
+    assert not app.is_running
+
+
+def test_a_screen_that_fails_says_so_in_a_sentence(monkeypatch):
+    app, world = live_app(Waiting)
+    monkeypatch.setattr(app.scene, "moment", lambda *_: 1 / 0)
+
+    with pytest.raises(TftoolError, match="the screen failed: ZeroDivisionError: division by zero"):
+        run(world.clock, show(app, live(world), headless=True))
+
+
+@pytest.mark.parametrize(("action", "interrupted"), [("leave", False), ("interrupt", True)])
+def test_leaving_ends_the_world_too(action, interrupted):
+    app, world = live_app(Waiting)
+    ended = []
+
+    async def life():
+        try:
+            await live(world)
+        finally:
+            ended.append(True)
+
+    async def main():
+        showing = asyncio.ensure_future(show(app, life(), headless=True))
+        while not app.is_running:
+            await world.clock.sleep(seconds(0.01))
+        getattr(app, f"action_{action}")()
+        await showing
+
+    if interrupted:
+        with pytest.raises(KeyboardInterrupt):
+            run(world.clock, main())
+    else:
+        run(world.clock, main())
+
+    assert ended == [True]
+
+
+def test_a_world_that_ends_ends_the_screen():
+    app, world = live_app(Waiting)
+
+    run(world.clock, show(app, live(world, until=world.clock.now() + seconds(0.05)), headless=True))
+
+    assert not app.is_running
+
+
+def test_a_cancelled_screen_ends_both():
+    app, world = live_app(Waiting)
+
+    async def main():
+        showing = asyncio.ensure_future(show(app, live(world), headless=True))
+        while not app.is_running:
+            await world.clock.sleep(seconds(0.01))
+        showing.cancel()
+        with pytest.raises(asyncio.CancelledError):
+            await showing
+
+    run(world.clock, main())
+
+    assert not app.is_running

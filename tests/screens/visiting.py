@@ -1,0 +1,50 @@
+"""The screen of the turtles, shown in a test of some size and driven by keys."""
+
+import asyncio
+
+from tftool.screens.setting import Setting
+from tftool.screens.terminal import TurtleApp
+
+
+def screen(app):
+    """What is on the screen, line by line."""
+    return [strip.text for strip in app.screen._compositor.render_strips(app.size)]
+
+
+def visit(scene, size, steps, press=None, **setting):
+    """Show a scene on a screen of some size, and let `steps` press keys on it."""
+    app = TurtleApp(scene, press, Setting(title="tftool demo turtles", **setting))
+
+    async def main():
+        async with app.run_test(size=size) as pilot:
+            await settled(pilot)
+            await steps(app, pilot)
+
+    asyncio.run(main())
+    if app.failure is not None:
+        raise app.failure
+    return app
+
+
+async def settled(pilot):
+    await pilot.pause()
+    pilot.app.redraw()
+    await pilot.pause()
+
+
+def shown(scene, size=(100, 30), keys=(), press=None, **setting):
+    """The screen after some keys."""
+    lines = []
+
+    async def steps(app, pilot):
+        await pilot.press(*keys)
+        await settled(pilot)
+        lines.extend(screen(app))
+
+    visit(scene, size, steps, press, **setting)
+    return lines
+
+
+def told(lines):
+    """The top line, and what stands beside the picture."""
+    return [lines[0], *(line.rpartition("││")[2] for line in lines[1:-2])]
