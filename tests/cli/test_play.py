@@ -95,7 +95,7 @@ def test_keys_are_known_by_their_bytes(typed, keys):
 @pytest.mark.skipif(shutil.which("tmux") is None, reason="tmux is not installed")
 def test_on_a_terminal_keys_steer_it(tmp_path):
     file = write_mcap(tmp_path / "long.mcap", content(1000))
-    words = ("-m", "tftool", "play", str(file), "--host", "--paused")
+    words = ("-m", "tftool", "play", str(file), "--host", "--paused", "--loop")
     terminal = Terminal(tmp_path, 80, 12, words, {})
     try:
         terminal.shows("⏸  0.00 / ")
