@@ -18,6 +18,7 @@ import numpy.typing as npt
 from tftool.errors import InputError
 from tftool.sources.columns import Batch, words_at
 from tftool.sources.container import File
+from tftool.sources.contract import Stamps
 from tftool.wire.native import SCAN
 from tftool.wire.rows import Bytes
 
@@ -29,6 +30,7 @@ _INTERIOR: Final = 0x05
 _LEAF: Final = 0x0D
 _DEEPEST: Final = 20
 _AT_ONCE: Final = 256  # pages
+_MOST_APART: Final = 2  # times as many are read to have them at once
 _LEAST_ROW: Final = 8  # bytes that a row takes
 _MOST_BYTES: Final = 64 << 20  # of messages that go on on other pages, in one batch
 
@@ -76,8 +78,9 @@ class _Table:
             raise _Odd
         room = _AT_ONCE * (self._size // _LEAST_ROW)
         # For one batch after the other: what is new costs more.
-        self._pages = np.empty(_AT_ONCE * self._size, dtype=np.uint8)
-        self._columns = [np.empty(room, dtype=np.int64) for _ in range(5)]
+        self._pages = np.empty(_MOST_APART * _AT_ONCE * self._size, dtype=np.uint8)
+        self._senders = np.empty(room, dtype=np.int32)
+        self._columns = [np.empty(room, dtype=np.int64) for _ in range(3)]
 
     def _page(self, number: int) -> bytes:
         if number < 2:
@@ -86,19 +89,28 @@ class _Table:
 
     def batches(self, root: int, streams: dict[int, int]) -> Iterator[tuple[Batch, int]]:
         """See `read_pages`."""
+        numbered = sorted(one for one in streams.items() if -(2**63) <= one[0] < 2**63)
+        wanted = np.array(numbered, dtype=np.int64)
         for pages in self._leaves(root):
             for begin in range(0, len(pages), _AT_ONCE):
-                yield self._batch(self._read(pages[begin : begin + _AT_ONCE]), streams)
+                yield self._batch(*self._read(pages[begin : begin + _AT_ONCE]), wanted)
 
-    def _read(self, pages: Pages) -> Bytes:
-        """Some pages; those that lie one behind the other are read at once."""
+    def _read(self, pages: Pages) -> tuple[Bytes, Pages]:
+        """Some pages, and where each begins in what was read."""
+        first, apart = int(pages.min()), pages - pages.min()
+        span = int(apart.max()) + 1
+        if span <= _MOST_APART * len(pages):
+            # What lies between them, of an index as a rule, is less than what each call costs.
+            found = self._pages[: span * self._size]
+            self._file.into((first - 1) * self._size, found.data)
+            return found, apart * self._size
         found = self._pages[: len(pages) * self._size]
         # Where a run begins, and the next one.
         runs = np.flatnonzero(np.diff(pages, prepend=-1) != 1).tolist()
         for run, end in itertools.pairwise([*runs, len(pages)]):
             room = found.data[run * self._size : end * self._size]
             self._file.into((int(pages[run]) - 1) * self._size, room)
-        return found
+        return found, np.arange(0, len(found), self._size, dtype=np.int64)
 
     def _leaves(self, root: int) -> Iterator[Pages]:
         """The numbers of the pages with rows, in the order of the rows, in pieces."""
@@ -134,21 +146,15 @@ class _Table:
             raise _Odd
         return found
 
-    def _batch(self, pages: Bytes, streams: dict[int, int]) -> tuple[Batch, int]:
+    def _batch(self, pages: Bytes, places: Pages, wanted: Stamps) -> tuple[Batch, int]:
         """The messages of some leaf pages, and the id of their last row."""
-        rows = SCAN.rows(pages, *self._columns, self._size, self._usable)
-        if rows < 0:
+        columns = self._senders, *self._columns
+        found = SCAN.rows(pages, places, wanted, *columns, self._size, self._usable, self._last)
+        if found is None:
             raise _Odd
-        ids, topics, times, starts, lengths = (one[:rows] for one in self._columns)
-        if rows:
-            if int(ids[0]) <= self._last or not (ids[1:] > ids[:-1]).all():
-                raise _Odd
-            self._last = int(ids[-1])
-        senders = np.full(rows, -1, dtype=np.int32)
-        for topic, stream in streams.items():
-            senders[topics == topic] = stream
-        which = np.flatnonzero(senders >= 0)
-        starts, lengths = starts[which], lengths[which]
+        rows, self._last = found
+        senders = self._senders[:rows].copy()
+        times, starts, lengths = (one[:rows].copy() for one in self._columns)
         apart = np.flatnonzero(starts < 0)
         if len(apart):
             if int(lengths[apart].sum()) > _MOST_BYTES:
@@ -160,7 +166,7 @@ class _Table:
                 starts[row] = end
                 end += len(pieces[-1])
             pages = np.frombuffer(b"".join(pieces), dtype=np.uint8)
-        return Batch(pages, starts, lengths, times[which], senders[which]), self._last
+        return Batch(pages, starts, lengths, times, senders), self._last
 
     def _joined(self, raw: bytes, cell: int, length: int) -> bytes:
         """The data of a row that goes on on other pages."""

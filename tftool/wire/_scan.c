@@ -19,7 +19,7 @@
 #include "../frames/_kept.h"
 
 /* What `tftool.wire.native` expects; a build of another interface is not used. */
-#define INTERFACE 3
+#define INTERFACE 4
 
 #define SMALLEST 72              /* Bytes of a transform with empty names: stamp, two lengths, doubles. */
 #define LONGEST_NAME 4096        /* As in `rows`. */
@@ -629,33 +629,52 @@ static int whole(uint64_t type, const uint8_t *bytes, const uint8_t *end, int64_
     return sizes[type];
 }
 
+/* The number of a topic's stream, among pairs of both in the order of topics; -1 for none. */
+static int64_t stream_of(const char *pairs, Py_ssize_t count, int64_t topic) {
+    Py_ssize_t low = 0, high = count;
+    while (low < high) {
+        const Py_ssize_t middle = low + (high - low) / 2;
+        if (i64_at(pairs, 2 * middle) < topic)
+            low = middle + 1;
+        else
+            high = middle;
+    }
+    return low < count && i64_at(pairs, 2 * low) == topic ? i64_at(pairs, 2 * low + 1) : -1;
+}
+
 PyDoc_STRVAR(rows_doc, "The rows of a table's leaf pages; see `_scan.pyi`.");
 
 static PyObject *rows(PyObject *module, PyObject *const *arguments, Py_ssize_t count) {
     (void)module;
-    enum { PAGES, IDS, TOPICS, TIMES, STARTS, LENGTHS, VIEWS };
-    static const int flags[] = {PyBUF_SIMPLE, PyBUF_WRITABLE, PyBUF_WRITABLE, PyBUF_WRITABLE, PyBUF_WRITABLE, PyBUF_WRITABLE};
+    enum { PAGES, PLACES, STREAMS, SENDERS, TIMES, STARTS, LENGTHS, VIEWS };
+    static const int flags[] = {PyBUF_SIMPLE, PyBUF_SIMPLE, PyBUF_SIMPLE, PyBUF_WRITABLE,
+                                PyBUF_WRITABLE, PyBUF_WRITABLE, PyBUF_WRITABLE};
     Py_buffer views[VIEWS];
-    if (count != VIEWS + 2) {
-        PyErr_SetString(PyExc_TypeError, "rows takes pages, five arrays, a page's size, and what is used of it");
+    if (count != VIEWS + 3) {
+        PyErr_SetString(PyExc_TypeError, "rows takes pages, their places, streams, four arrays, and three numbers");
         return NULL;
     }
     const long size = PyLong_AsLong(arguments[VIEWS]), usable = PyLong_AsLong(arguments[VIEWS + 1]);
+    long long last = PyLong_AsLongLong(arguments[VIEWS + 2]);
     if (PyErr_Occurred() || !read_all(arguments, views, flags, VIEWS))
         return NULL;
-    Py_ssize_t room = PY_SSIZE_T_MAX, found = 0;
-    for (int k = IDS; k < VIEWS; k++)
+    Py_ssize_t room = views[SENDERS].len / 4, found = 0;
+    for (int k = TIMES; k < VIEWS; k++)
         room = views[k].len / 8 < room ? views[k].len / 8 : room;
     const uint8_t *pages = views[PAGES].buf;
-    if (usable < 480 || usable > size || views[PAGES].len % size)
-        found = -1;
-    for (Py_ssize_t place = 0; found >= 0 && place < views[PAGES].len; place += size) {
+    const char *streams = views[STREAMS].buf;
+    const Py_ssize_t topics = views[STREAMS].len / 16, leaves = views[PLACES].len / 8;
+    int is_odd = usable < 480 || usable > size || views[PAGES].len < size;
+    for (Py_ssize_t leaf = 0; leaf < leaves && !is_odd; leaf++) {
+        const int64_t place = i64_at(views[PLACES].buf, leaf);
+        is_odd = 1;
+        if (place < 0 || place > views[PAGES].len - size)
+            break;
         const uint8_t *page = pages + place, *end = page + usable;
         const int cells = page[3] << 8 | page[4];
-        if (page[0] != LEAF || 8 + 2 * cells > usable || cells > room - found) {
-            found = -1;
+        if (page[0] != LEAF || 8 + 2 * cells > usable || cells > room - found)
             break;
-        }
+        is_odd = 0;
         for (int k = 0; k < cells; k++) {
             const uint8_t *cell = page + (page[8 + 2 * k] << 8 | page[9 + 2 * k]);
             const uint8_t *start = cell;
@@ -665,8 +684,9 @@ static PyObject *rows(PyObject *module, PyObject *const *arguments, Py_ssize_t c
             if (cell >= end || !(step = varint(cell, end, &payload)))
                 goto odd;
             cell += step;
-            if (!(step = varint(cell, end, (uint64_t *)&id)))
+            if (!(step = varint(cell, end, (uint64_t *)&id)) || id <= last)
                 goto odd;
+            last = id;
             const uint8_t *record = cell + step, *type = record;
             if (!(step = varint(type, end, &head)) || head > payload || head > (uint64_t)(end - record))
                 goto odd;
@@ -691,17 +711,21 @@ static PyObject *rows(PyObject *module, PyObject *const *arguments, Py_ssize_t c
             const int is_here = payload <= (uint64_t)usable - 35;
             if (is_here && length > (uint64_t)(end - body))
                 goto odd;
-            const int64_t told[] = {id, row[0], row[1], is_here ? body - pages : -1 - (start - pages), (int64_t)length};
-            for (int column = 0; column < 5; column++)
-                memcpy((char *)views[IDS + column].buf + 8 * found, &told[column], 8);
+            const int32_t stream = (int32_t)stream_of(streams, topics, row[0]);
+            if (stream < 0)
+                continue;
+            const int64_t told[] = {row[1], is_here ? body - pages : -1 - (start - pages), (int64_t)length};
+            memcpy((char *)views[SENDERS].buf + 4 * found, &stream, 4);
+            for (int column = 0; column < 3; column++)
+                memcpy((char *)views[TIMES + column].buf + 8 * found, &told[column], 8);
             found++;
         }
         continue;
     odd:
-        found = -1;
+        is_odd = 1;
     }
     release_all(views, VIEWS);
-    return PyLong_FromSsize_t(found);
+    return is_odd ? Py_NewRef(Py_None) : Py_BuildValue("(nL)", found, last);
 }
 
 /* The module ------------------------------------------------------------- */

@@ -110,29 +110,34 @@ def pointed(
 
 def rows(
     pages: object,
-    ids: object,
-    topics: object,
+    places: object,
+    streams: object,
+    senders: object,
     times: object,
     starts: object,
     lengths: object,
     size: int,
     usable: int,
+    last: int,
     /,
-) -> int:
-    """What sqlite gives of rosbag2's table `messages`: id, topic, timestamp, and data.
+) -> tuple[int, int] | None:
+    """What sqlite gives of rosbag2's table `messages`, of some topics.
 
     Args:
-        pages: Leaf pages of the table, one behind the other.
-        ids: Where to write each row's id, int64, and likewise the next four.
-        topics: Its topic.
-        times: Its timestamp.
+        pages: Pages of the file, leaf pages of the table among them.
+        places: The byte of `pages` at which each of those begins, int64.
+        streams: A topic and what to call it, in the order of topics, int64 of shape (n, 2).
+        senders: Where to write what each row's topic is called, int32.
+        times: Its timestamp, int64, and likewise the next two.
         starts: The byte of the pages at which its data begins. Where it goes on on other pages,
             that at which its cell begins, n, as -1 - n.
         lengths: How many bytes its data has.
         size: Bytes of a page.
         usable: Bytes of it that sqlite uses.
+        last: The id of the row before the first one.
 
     Returns:
-        How many rows; -1, with anything in the arrays, where there is one that is no such row, or
-        more than there is room for.
+        How many rows were written, and the id of the last one that was looked at; None, with
+        anything in the arrays, where there is one that is no such row, or not newer than the one
+        before, or more than there is room for.
     """

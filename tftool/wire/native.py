@@ -4,5 +4,5 @@ from typing import Any, Final
 
 from tftool.frames.native import built
 
-SCAN: Final[Any] = built("tftool.wire._scan", 3)
+SCAN: Final[Any] = built("tftool.wire._scan", 4)
 """The module; None where it is not used."""
