@@ -3,12 +3,14 @@
 import random
 import sqlite3
 
+import numpy as np
 import pytest
 
 from tests.sources.scanning import REASON, is_native
 from tftool import InputError
 from tftool.sources import sqlite
 from tftool.sources.sqlite_pages import read_pages
+from tftool.wire.native import SCAN
 
 needs_scan = pytest.mark.skipif(not is_native(), reason=REASON)
 TOPICS = ["/tf", "/image", "/tf_static"]
@@ -118,3 +120,29 @@ def test_a_schema_with_bytes_that_are_no_text_is_refused(tmp_path):
 
     with pytest.raises(InputError, match="cannot be read"):
         sqlite.Sqlite(path)
+
+
+@needs_scan
+def test_refuses_places_and_arrays_that_are_too_short():
+    page = bytearray(4096)
+    row = bytes([10, 5, 5, 0, 1, 1, 16, 1, 7]) + b"abc"
+    page[0], page[4], page[8:10] = 0x0D, 1, (4000).to_bytes(2, "big")
+    page[4000 : 4000 + len(row)] = bytes([9]) + row[1:]
+    streams = np.array([[1, 6]])
+
+    def found(pages, place, room=1, size=4096, last=4):
+        times, starts, lengths = (np.zeros(room, dtype=np.int64) for _ in range(3))
+        senders = np.zeros(1, dtype=np.int32)
+        places = np.array([place])
+        return SCAN.rows(
+            pages, places, streams, senders, times, starts, lengths, size, size, last
+        ) and (senders[0], times[0], starts[0], lengths[0])
+
+    assert found(page, 0) == (6, 7, 4009, 2)
+    assert found(bytes(4096) + page, 4096) == (6, 7, 4096 + 4009, 2)
+    assert found(page, 0, last=5) is None
+    assert found(page, 0, room=0) is None
+    for place in (-1, 1, 4096, 2**62, -(2**63)):
+        assert found(page, place) is None
+    for size in (0, 8192, 256, -1, 2**62):
+        assert found(page, 0, size=size) is None
