@@ -127,6 +127,22 @@ def test_metadata_that_lies_is_told_and_not_believed(tmp_path):
         assert len(recording.transforms) > 100
 
 
+@pytest.mark.parametrize("name", ["ros 1 lz4", "ros 1 bz2", "mcap zstd", "mcap lz4"])
+def test_a_chunk_that_cannot_be_unpacked_is_told_once(tmp_path, name):
+    path = CONTAINERS[name](tmp_path, SENT)
+    raw = bytearray(path.read_bytes())
+    magic = {"bz2": b"BZh", "lz4": b"\x04\x22\x4d\x18", "zstd": b"\x28\xb5\x2f\xfd"}
+    place = raw.index(magic[name.split()[-1]])
+    raw[place : place + 40] = bytes(40)
+    path.write_bytes(raw)
+
+    with open_recording(path) as recording:
+        assert len(recording.transforms) > 100
+        (damage,) = recording.damage
+
+    assert damage.startswith("A chunk at byte ")
+
+
 @pytest.mark.parametrize("size", [2**62, 2**30 + 1, 10**8])
 def test_a_chunk_that_announces_too_much_is_not_unpacked(tmp_path, size):
     path = write_mcap(tmp_path / "a.mcap", SENT, use_statistics=False)

@@ -229,7 +229,7 @@ def unpacked_piece(
     Args:
         file: Where it lies.
         piece: The chunk.
-        note: Is told of damage.
+        note: Is told what is damaged about it.
         ahead: Where it may be on its way.
 
     Raises:
@@ -246,5 +246,5 @@ def unpacked_piece(
         return unpack(piece.method, data, piece.size)
     except InputError as error:
         data = file.at(piece.place, piece.packed)
-        note(f"A chunk at byte {piece.place} is damaged: {error}.")
+        note(str(error))
         return unpack_beginning(piece.method, data, piece.size)

@@ -83,6 +83,7 @@ class Mcap:
         self.streams: list[MessageStream] = []
         self.counts: list[int] = []
         self.damage: list[str] = []
+        self._damaged: set[int] = set()  # chunks that are noted
         self.profile = ""
         self._schemas: dict[int, tuple[str, str, bytes]] = {}
         self._numbers: dict[int, int] = {}  # of a channel: its stream
@@ -289,7 +290,7 @@ class Mcap:
     def _walk(self, chunk: IndexedChunk) -> None:
         """Walk through a chunk's records; learn its channels, and where its messages are."""
         found = chunk.walked = WalkedMessages()
-        data = bytes(unpacked_piece(self._file, chunk, self._note))
+        data = bytes(unpacked_piece(self._file, chunk, partial(self._note_chunk, chunk)))
         numbers, counts = self._numbers, self.counts
         low, high = LAST_STAMP, 0
         try:
@@ -307,7 +308,7 @@ class Mcap:
                     self._take_channel(data[first:last])
         except (InputError, struct.error) as error:
             if not chunk.cut:
-                self._note(f"A chunk at byte {chunk.place} is damaged ({reason_of(error)}).")
+                self._note_chunk(chunk, reason_of(error))
         if chunk.cut or len(found.places):
             # What is announced may not have been reached.
             chunk.start, chunk.end = (low, high) if len(found.places) else (0, 0)
@@ -353,7 +354,7 @@ class Mcap:
                 try:
                     batch = self._batch(chunk, chosen, channels, singly, ahead)
                 except (InputError, struct.error) as error:
-                    self._note(f"A chunk at byte {chunk.place} is damaged ({reason_of(error)}).")
+                    self._note_chunk(chunk, reason_of(error))
                     try:
                         batch = self._rest_of(chunk, channels)
                     except (InputError, struct.error) as worse:
@@ -392,7 +393,10 @@ class Mcap:
             places = sorted(place for pairs, _ in parts for place in pairs[:, 1].tolist())
             singly.read(places, chunk.place, chunk.place + chunk.packed)
             return None
-        data = np.frombuffer(unpacked_piece(self._file, chunk, self._note, ahead), dtype=np.uint8)
+        data = np.frombuffer(
+            unpacked_piece(self._file, chunk, partial(self._note_chunk, chunk), ahead),
+            dtype=np.uint8,
+        )
         return in_order(
             [
                 Batch(data, *indexed(data, pairs, channel), np.full(len(pairs), channels[channel]))
@@ -416,7 +420,10 @@ class Mcap:
         which = np.flatnonzero(channels[owners] >= 0)
         if not len(which):
             return None
-        data = np.frombuffer(unpacked_piece(self._file, chunk, self._note, ahead), dtype=np.uint8)
+        data = np.frombuffer(
+            unpacked_piece(self._file, chunk, partial(self._note_chunk, chunk), ahead),
+            dtype=np.uint8,
+        )
         places = np.frombuffer(walked.places, dtype=np.int64)[which]
         return Batch(
             data,
@@ -455,6 +462,12 @@ class Mcap:
             head = head[:15] + self._file.at(place + 15, count)
         pairs = np.frombuffer(head, dtype=np.int64, count=count // 8, offset=15)
         return pairs.reshape(-1, 2)
+
+    def _note_chunk(self, chunk: IndexedChunk, reason: str) -> None:
+        """Note what is damaged about a chunk first: the rest comes of it."""
+        if chunk.place not in self._damaged:
+            self._damaged.add(chunk.place)
+            self._note(f"A chunk at byte {chunk.place} is damaged ({reason}).")
 
     def _note(self, damage: str) -> None:
         if damage not in self.damage and len(self.damage) < 20:

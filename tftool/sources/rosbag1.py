@@ -8,6 +8,7 @@ import struct
 from array import array
 from collections.abc import Collection, Iterator
 from dataclasses import dataclass, field
+from functools import partial
 from pathlib import Path
 from typing import Final, TypeAlias
 
@@ -92,6 +93,7 @@ class Rosbag1:
         self.streams: list[MessageStream] = []
         self.counts: list[int] = []
         self.damage: list[str] = []
+        self._damaged: set[int] = set()  # chunks that are noted
         self._numbers: dict[int, int] = {}  # of a connection: its stream
         self._chunks: list[_Chunk] = []
         try:
@@ -243,7 +245,7 @@ class Rosbag1:
         """Walk through a chunk's records; learn its connections, and where its messages are."""
         walked = chunk.walked = array("q"), array("q"), array("q")
         connections, log_times, places = walked
-        data = bytes(unpacked_piece(self._file, chunk, self._note))
+        data = bytes(unpacked_piece(self._file, chunk, partial(self._note_chunk, chunk)))
         try:
             for header, first, last in _records(data):
                 code = header.get(b"op")
@@ -259,7 +261,7 @@ class Rosbag1:
                     self._take_connection(header, data[first:last])
         except (InputError, struct.error, KeyError) as error:
             if not chunk.cut:
-                self._note(f"A chunk at byte {chunk.position} is damaged ({_reason(error)}).")
+                self._note_chunk(chunk, _reason(error))
 
     # Messages
 
@@ -289,7 +291,7 @@ class Rosbag1:
                 try:
                     batch = self._batch(chunk, chosen, ahead)
                 except (InputError, struct.error, KeyError) as error:
-                    self._note(f"A chunk at byte {chunk.position} is damaged ({_reason(error)}).")
+                    self._note_chunk(chunk, _reason(error))
                     batch = self._rest_of(chunk, chosen)
                 if batch is not None and len(batch):
                     yield batch
@@ -303,7 +305,10 @@ class Rosbag1:
         parts = self._indexes(chunk, chosen)
         if not parts:
             return None
-        data = np.frombuffer(unpacked_piece(self._file, chunk, self._note, ahead), dtype=np.uint8)
+        data = np.frombuffer(
+            unpacked_piece(self._file, chunk, partial(self._note_chunk, chunk), ahead),
+            dtype=np.uint8,
+        )
         return in_order(
             [
                 Batch(data, *_indexed(data, entries, connection), senders)
@@ -355,7 +360,10 @@ class Rosbag1:
         which = [row for row, connection in enumerate(connections) if connection in chosen]
         if not which:
             return None
-        data = np.frombuffer(unpacked_piece(self._file, chunk, self._note, ahead), dtype=np.uint8)
+        data = np.frombuffer(
+            unpacked_piece(self._file, chunk, partial(self._note_chunk, chunk), ahead),
+            dtype=np.uint8,
+        )
         starts = np.frombuffer(places, dtype=np.int64)[which]
         return Batch(
             data,
@@ -372,6 +380,12 @@ class Rosbag1:
         except (InputError, struct.error, KeyError):
             return None
         return packed_piece(self._file, chunk)
+
+    def _note_chunk(self, chunk: _Chunk, reason: str) -> None:
+        """Note what is damaged about a chunk first: the rest comes of it."""
+        if chunk.position not in self._damaged:
+            self._damaged.add(chunk.position)
+            self._note(f"A chunk at byte {chunk.position} is damaged ({reason}).")
 
     def _note(self, damage: str) -> None:
         if damage not in self.damage and len(self.damage) < 20:
@@ -390,7 +404,9 @@ def _indexed(data: Bytes, entries: Entries, connection: int) -> tuple[Stamps, St
         InputError: If the index points at something else.
     """
     first = int(entries[0, 2])
-    head = int(_within(np.array([first]), data)[0])
+    if first > len(data) - 4:
+        raise InputError("its index points outside of it")
+    (head,) = _U32.unpack_from(data.data, first)
     header = data[first + 4 : first + 4 + min(head, _LARGEST_HEADER)].tobytes()
     code, owner = header.find(b"op=") + 3, header.find(b"conn=") + 5
     if code < 3 or owner < 5 or not code < len(header) >= owner + 4 or len(header) != head:
