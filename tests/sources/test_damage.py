@@ -143,6 +143,25 @@ def test_a_chunk_that_cannot_be_unpacked_is_told_once(tmp_path, name):
     assert damage.startswith("A chunk at byte ")
 
 
+@pytest.mark.parametrize("is_chunked", [True, False])
+def test_a_message_that_is_shorter_than_its_head_is_told(tmp_path, is_chunked):
+    path = CONTAINERS["mcap none" if is_chunked else "mcap unchunked"](tmp_path, SENT)
+    raw = path.read_bytes()
+    # The head of a message in the middle, by its channel and sequence, of which its body follows.
+    place = raw.index(b"\x00\x01\x00\x00", len(raw) // 3) - 31
+    assert raw[place] == 0x05
+    changed = bytearray(raw)
+    changed[place + 1 : place + 9] = (7).to_bytes(8, "little")
+    # Without the summary it is walked through.
+    path.write_bytes(changed[:-37])
+
+    with open_recording(path) as recording:
+        assert len(recording.transforms) > 30
+        # In a chunk its index is found wrong first.
+        told = "its message index points" if is_chunked else "announces 7 bytes"
+        assert any(told in one for one in recording.damage)
+
+
 @pytest.mark.parametrize("size", [2**62, 2**30 + 1, 10**8])
 def test_a_chunk_that_announces_too_much_is_not_unpacked(tmp_path, size):
     path = write_mcap(tmp_path / "a.mcap", SENT, use_statistics=False)

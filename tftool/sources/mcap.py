@@ -233,6 +233,7 @@ class Mcap:
                 if code == _CHUNK:
                     self._take_chunk(body, min(length, size - body), not whole)
                 elif code == MESSAGE and whole:
+                    _check_length(length)
                     if body - base + 22 > len(block):
                         base, block = position, file.up_to(position, _BLOCK)
                     channel, _, log_time, _ = _MESSAGE_HEAD.unpack_from(block, body - base)
@@ -296,6 +297,7 @@ class Mcap:
         try:
             for code, first, last in records_in(data):
                 if code == MESSAGE:
+                    _check_length(last - first)
                     channel, _, log_time, _ = _MESSAGE_HEAD.unpack_from(data, first)
                     found.append(channel, log_time, first - 9)
                     low, high = min(low, log_time), max(high, log_time)
@@ -472,3 +474,8 @@ class Mcap:
     def _note(self, damage: str) -> None:
         if damage not in self.damage and len(self.damage) < 20:
             self.damage.append(damage)
+
+
+def _check_length(length: int) -> None:
+    if length < _MESSAGE_HEAD.size:
+        raise InputError(f"a message's record announces {length} bytes")
