@@ -83,8 +83,9 @@ class Program:
 
     def ended(self):
         """Its status, and what it still said on stdout and stderr."""
-        out, said = self.process.communicate(timeout=PATIENCE)
-        return self.process.returncode, out, said
+        status = self.process.wait(PATIENCE)
+        # Not `communicate`, which passes over what came along with a line that was read before.
+        return status, self.process.stdout.read(), self.process.stderr.read()
 
 
 @pytest.fixture
