@@ -220,6 +220,37 @@ def output_file(words: str) -> Any:
     return typer.Option("-o", "--output", metavar="FILE", rich_help_panel=OUTPUT, help=words)
 
 
+def seconds_option(
+    words: str,
+    *names: str,
+    check: Callable[[float | None], float | None] = positive,
+    panel: str | None = WHEN,
+    show_default: bool = True,
+) -> Any:
+    """An option that takes seconds and gives nanoseconds.
+
+    Args:
+        words: What the help says of it.
+        names: What it is called; by its parameter where none is given.
+        check: What number it may be.
+        panel: The heading it is listed under; None for that of all others.
+        show_default: Whether the help says the default, which it does in nanoseconds.
+    """
+    return typer.Option(
+        *names,
+        metavar="SECONDS",
+        parser=duration(check),
+        rich_help_panel=panel,
+        show_default=show_default,
+        help=words,
+    )
+
+
+def moment_option(words: str, *names: str, panel: str | None = WHEN) -> Any:
+    """An option that takes a moment; `words` say in the help of what."""
+    return typer.Option(*names, metavar="MOMENT", parser=moment, rich_help_panel=panel, help=words)
+
+
 def decimals(words: str) -> Any:
     """The option `--precision N` of a command that prints numbers; `words` say of what."""
     return typer.Option(
@@ -239,48 +270,29 @@ From = Annotated[
 
 AtOption = Annotated[
     At | None,
-    typer.Option(
+    moment_option(
+        "Ask about one moment: seconds since the start of FROM, or a stamp (1e8 or more, or "
+        "an ISO date and time).",
         "--at",
         "-t",
-        metavar="MOMENT",
-        rich_help_panel=WHEN,
-        parser=moment,
-        help="Ask about one moment: seconds since the start of FROM, or a stamp (1e8 or more, or "
-        "an ISO date and time).",
     ),
 ]
 
 FromOption = Annotated[
     At | None,
-    typer.Option(
-        "--from",
-        metavar="MOMENT",
-        rich_help_panel=WHEN,
-        parser=moment,
-        help="Leave out what is before: seconds since the start of FROM, or a stamp.",
+    moment_option(
+        "Leave out what is before: seconds since the start of FROM, or a stamp.", "--from"
     ),
 ]
 
 ToOption = Annotated[
     At | None,
-    typer.Option(
-        "--to",
-        metavar="MOMENT",
-        rich_help_panel=WHEN,
-        parser=moment,
-        help="Leave out what is after; likewise.",
-    ),
+    moment_option("Leave out what is after; likewise.", "--to"),
 ]
 
 Every = Annotated[
     Duration | None,
-    typer.Option(
-        "--every",
-        metavar="SECONDS",
-        rich_help_panel=WHEN,
-        parser=duration(positive),
-        help="Ask so often, in place of the stamps of the fastest link.",
-    ),
+    seconds_option("Ask so often, in place of the stamps of the fastest link.", "--every"),
 ]
 
 Pairs = Annotated[
@@ -314,23 +326,12 @@ Rate = Annotated[
 
 CacheTime = Annotated[
     Duration | None,
-    typer.Option(
-        metavar="SECONDS",
-        parser=duration(positive),
-        rich_help_panel=WHEN,
-        help="How far back the buffer remembers; 10 unless the scenario says otherwise.",
-    ),
+    seconds_option("How far back the buffer remembers; 10 unless the scenario says otherwise."),
 ]
 
 RunFor = Annotated[
     Duration | None,
-    typer.Option(
-        "--for",
-        metavar="SECONDS",
-        parser=duration(positive),
-        rich_help_panel=WHEN,
-        help="Stop after so long.",
-    ),
+    seconds_option("Stop after so long.", "--for"),
 ]
 
 SkippedFolders = Annotated[

@@ -12,9 +12,8 @@ from tftool.cli.options import (
     Ascii,
     Json,
     Light,
-    duration,
-    positive,
     refuse_long_simulation,
+    seconds_option,
     within,
 )
 from tftool.errors import UsageError
@@ -48,12 +47,7 @@ def demo(
     ] = 1.0,
     lasting: Annotated[
         Duration | None,
-        typer.Option(
-            "--for",
-            metavar="SECONDS",
-            parser=duration(positive),
-            help="End after so many seconds of the world's time.",
-        ),
+        seconds_option("End after so many seconds of the world's time.", "--for", panel=None),
     ] = None,
     settings: Annotated[
         list[str] | None,

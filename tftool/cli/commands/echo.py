@@ -12,10 +12,11 @@ from tftool.cli.options import (
     AtOption,
     CacheTime,
     Json,
+    StampsOf,
     decimals,
-    duration,
     finite,
     not_negative,
+    seconds_option,
     within,
 )
 from tftool.errors import UsageError
@@ -62,23 +63,10 @@ def echo(
         ),
     ] = None,
     at: AtOption = None,
-    stamps_of: Annotated[
-        str | None,
-        typer.Option(
-            "--at-stamps-of",
-            metavar="TOPIC",
-            rich_help_panel=WHEN,
-            help="Ask at the stamps of a recorded topic's messages.",
-        ),
-    ] = None,
+    stamps_of: StampsOf = None,
     offset: Annotated[
         Duration | None,
-        typer.Option(
-            metavar="SECONDS",
-            parser=duration(finite),
-            rich_help_panel=WHEN,
-            help="Ask about a moment so far from now; -5 is five seconds ago.",
-        ),
+        seconds_option("Ask about a moment so far from now; -5 is five seconds ago.", check=finite),
     ] = None,
     fixed_frame: Annotated[
         str | None,
@@ -103,12 +91,7 @@ def echo(
     ] = 3,
     timeout: Annotated[
         Duration | None,
-        typer.Option(
-            metavar="SECONDS",
-            parser=duration(not_negative),
-            rich_help_panel=WHEN,
-            help="Give up waiting after so long (exit status 4).",
-        ),
+        seconds_option("Give up waiting after so long (exit status 4).", check=not_negative),
     ] = None,
     for_programs: Json = False,
     cache_time: CacheTime = None,

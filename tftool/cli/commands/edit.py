@@ -14,10 +14,10 @@ from tftool.cli.options import (
     At,
     Force,
     Json,
-    duration,
     finite,
     moment,
-    positive,
+    moment_option,
+    seconds_option,
 )
 from tftool.errors import UsageError
 from tftool.stamps import Duration
@@ -118,13 +118,7 @@ def edit(
     ] = False,
     start: Annotated[
         At | None,
-        typer.Option(
-            "--from",
-            metavar="MOMENT",
-            parser=moment,
-            rich_help_panel=WHEN,
-            help="Cut what lies before: seconds since the start, or a stamp.",
-        ),
+        moment_option("Cut what lies before: seconds since the start, or a stamp.", "--from"),
     ] = None,
     end: Annotated[
         At | None,
@@ -142,12 +136,7 @@ def edit(
     ] = False,
     shift: Annotated[
         Duration,
-        typer.Option(
-            metavar="SECONDS",
-            parser=duration(finite),
-            rich_help_panel=WHEN,
-            help="Add this to the stamps of transforms that move.",
-        ),
+        seconds_option("Add this to the stamps of transforms that move.", check=finite),
     ] = 0,
     restamp: Annotated[
         str | None,
@@ -159,12 +148,10 @@ def edit(
     ] = None,
     split_every: Annotated[
         Duration,
-        typer.Option(
-            metavar="SECONDS",
-            parser=duration(positive),
-            rich_help_panel=OUTPUT,
-            help="Write a folder of files that last so long, each with all statics at its head.",
+        seconds_option(
+            "Write a folder of files that last so long, each with all statics at its head.",
             show_default=False,
+            panel=OUTPUT,
         ),
     ] = 0,
     force: Force = False,

@@ -16,6 +16,7 @@ from tftool.cli.options import (
     RunFor,
     duration,
     moment,
+    moment_option,
     not_negative,
 )
 from tftool.errors import UsageError
@@ -42,11 +43,10 @@ def explain(
     ] = "",
     asked_at: Annotated[
         At | None,
-        typer.Option(
-            metavar="MOMENT",
-            parser=moment,
-            help="When it is asked, as log time; if not said, when the message of that stamp "
+        moment_option(
+            "When it is asked, as log time; if not said, when the message of that stamp "
             "arrived, else at the moment itself.",
+            panel=None,
         ),
     ] = None,
     cache_time: CacheTime = None,

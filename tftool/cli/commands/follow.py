@@ -5,7 +5,14 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 from tftool.cli.app import ExitStatus
-from tftool.cli.options import CacheTime, RunFor, duration, finite, not_negative, positive
+from tftool.cli.options import (
+    CacheTime,
+    RunFor,
+    finite,
+    not_negative,
+    positive,
+    seconds_option,
+)
 from tftool.stamps import Duration, as_seconds, seconds
 
 if TYPE_CHECKING:
@@ -30,20 +37,15 @@ def follow(
     ] = None,
     period: Annotated[
         Duration,
-        typer.Option(
-            metavar="SECONDS",
-            parser=duration(positive),
-            help="Time between two commands; 1 if not said.",
-            show_default=False,
-        ),
+        seconds_option("Time between two commands; 1 if not said.", show_default=False, panel=None),
     ] = seconds(1),
     delay: Annotated[
         Duration,
-        typer.Option(
-            metavar="SECONDS",
-            parser=duration(not_negative),
-            help="Go where the leader was so long ago: time travel.",
+        seconds_option(
+            "Go where the leader was so long ago: time travel.",
             show_default=False,
+            check=not_negative,
+            panel=None,
         ),
     ] = 0,
     fixed_frame: Annotated[
@@ -89,10 +91,8 @@ def follow(
     ] = None,
     stale_after: Annotated[
         Duration | None,
-        typer.Option(
-            metavar="SECONDS",
-            parser=duration(positive),
-            help="Stop when what is known of the leader is older; never, if not said.",
+        seconds_option(
+            "Stop when what is known of the leader is older; never, if not said.", panel=None
         ),
     ] = None,
     run_for: RunFor = None,

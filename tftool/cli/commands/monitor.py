@@ -9,7 +9,13 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 from tftool.cli.app import ExitStatus
-from tftool.cli.options import OUTPUT, WHEN, CacheTime, Json, RunFor, duration, positive
+from tftool.cli.options import (
+    OUTPUT,
+    CacheTime,
+    Json,
+    RunFor,
+    seconds_option,
+)
 from tftool.errors import InputError, TransformException, UsageError
 from tftool.frames.sample import TransformStamped
 from tftool.frames.traffic import NetDelay, Traffic
@@ -39,12 +45,7 @@ def monitor(
     run_for: RunFor = None,
     every: Annotated[
         Duration | None,
-        typer.Option(
-            metavar="SECONDS",
-            parser=duration(positive),
-            rich_help_panel=WHEN,
-            help="Time between two reports: 1 on a terminal, 10 elsewhere.",
-        ),
+        seconds_option("Time between two reports: 1 on a terminal, 10 elsewhere."),
     ] = None,
     as_tf2: Annotated[
         bool,

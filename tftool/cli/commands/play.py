@@ -6,7 +6,12 @@ from typing import TYPE_CHECKING, Annotated, Literal
 import typer
 
 from tftool.cli.app import ExitStatus
-from tftool.cli.options import WHEN, At, RunFor, moment, within
+from tftool.cli.options import (
+    At,
+    RunFor,
+    moment_option,
+    within,
+)
 from tftool.errors import UsageError
 from tftool.stamps import Duration, Stamp, as_seconds
 
@@ -40,23 +45,11 @@ def play(
     ] = 1.0,
     begin: Annotated[
         At | None,
-        typer.Option(
-            "--from",
-            metavar="MOMENT",
-            parser=moment,
-            rich_help_panel=WHEN,
-            help="Where to begin: seconds since the start, or a stamp.",
-        ),
+        moment_option("Where to begin: seconds since the start, or a stamp.", "--from"),
     ] = None,
     until: Annotated[
         At | None,
-        typer.Option(
-            "--to",
-            metavar="MOMENT",
-            parser=moment,
-            rich_help_panel=WHEN,
-            help="Where to end, likewise.",
-        ),
+        moment_option("Where to end, likewise.", "--to"),
     ] = None,
     loop: Annotated[bool, typer.Option("--loop", help="Start over at the end.")] = False,
     paused: Annotated[bool, typer.Option("--paused", help="Begin standing still.")] = False,

@@ -10,7 +10,6 @@ import typer
 from tftool.cli.app import ExitStatus
 from tftool.cli.options import (
     OUTPUT,
-    WHEN,
     Ascii,
     Every,
     Force,
@@ -21,9 +20,8 @@ from tftool.cli.options import (
     RunFor,
     StampsOf,
     ToOption,
-    duration,
     output_file,
-    positive,
+    seconds_option,
 )
 from tftool.errors import InputError, TransformException, UsageError
 from tftool.stamps import Duration, Stamp, as_seconds, seconds
@@ -73,12 +71,7 @@ def plot(
     stamps_of: StampsOf = None,
     window: Annotated[
         Duration,
-        typer.Option(
-            metavar="SECONDS",
-            parser=duration(positive),
-            rich_help_panel=WHEN,
-            help="How far back a live plot reaches.",
-        ),
+        seconds_option("How far back a live plot reaches."),
     ] = seconds(20),
     lasting: RunFor = None,
     ascii_only: Ascii = False,

@@ -12,7 +12,14 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 from tftool.cli.app import ExitStatus
-from tftool.cli.options import OUTPUT, WHEN, Force, Json, RunFor, duration, positive
+from tftool.cli.options import (
+    OUTPUT,
+    WHEN,
+    Force,
+    Json,
+    RunFor,
+    seconds_option,
+)
 from tftool.errors import UsageError
 from tftool.stamps import Duration, seconds
 
@@ -57,12 +64,7 @@ def record(
     run_for: RunFor = None,
     ring: Annotated[
         Duration | None,
-        typer.Option(
-            metavar="SECONDS",
-            parser=duration(positive),
-            rich_help_panel=WHEN,
-            help="Keep only so much of the past, in memory, and write it in the end.",
-        ),
+        seconds_option("Keep only so much of the past, in memory, and write it in the end."),
     ] = None,
     finding: Annotated[
         str | None,
@@ -83,12 +85,7 @@ def record(
     ] = None,
     max_duration: Annotated[
         Duration | None,
-        typer.Option(
-            metavar="SECONDS",
-            parser=duration(positive),
-            rich_help_panel=OUTPUT,
-            help="Begin a new file after so long.",
-        ),
+        seconds_option("Begin a new file after so long.", panel=OUTPUT),
     ] = None,
     force: Force = False,
     for_programs: Json = False,

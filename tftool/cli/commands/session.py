@@ -7,7 +7,10 @@ import typer
 
 from tftool.cli.app import ExitStatus
 from tftool.cli.connection import Connection, Mode
-from tftool.cli.options import Json, duration, positive
+from tftool.cli.options import (
+    Json,
+    seconds_option,
+)
 from tftool.stamps import Duration, as_seconds, seconds
 
 if TYPE_CHECKING:
@@ -18,11 +21,10 @@ def session(
     connection: Connection,
     listen_for: Annotated[
         Duration,
-        typer.Option(
+        seconds_option(
+            "How long to listen for rates; 1 if not said.",
             "--for",
-            metavar="SECONDS",
-            parser=duration(positive),
-            help="How long to listen for rates; 1 if not said.",
+            panel=None,
             show_default=False,
         ),
     ] = seconds(1),
