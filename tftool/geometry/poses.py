@@ -5,9 +5,8 @@ makes one tuple: calls to `quaternions.rotate`, `multiply` and a slerp of its ow
 of a lookup.
 """
 
-import math
-from math import sin
-from typing import Final, TypeAlias
+from math import acos, sin
+from typing import TypeAlias
 
 Pose: TypeAlias = tuple[float, float, float, float, float, float, float]
 """A pose of b in a: x, y, z in metres and a unit quaternion x, y, z, w."""
@@ -17,9 +16,6 @@ Pair: TypeAlias = tuple[
     int, float, float, float, float, float, float, float,
 ]  # fmt: skip
 """Two poses, each with its stamp before it: whole nanoseconds, too large for a float's digits."""
-
-# Compiled, this is quicker than to look the name up each time; `sin` is C's own there.
-_acos: Final = math.acos
 
 
 def interpolate(pair: Pair, share: float) -> Pose:
@@ -44,7 +40,7 @@ def interpolate(pair: Pair, share: float) -> Pose:
         cosine = -cosine
         take = -1.0
     if cosine < 1.0:
-        angle = _acos(cosine)
+        angle = acos(cosine)
         sine = sin(angle)
         keep = sin((1.0 - share) * angle) / sine
         take *= sin(share * angle) / sine

@@ -125,7 +125,7 @@ class RobotStatePublisher(Node):
         for joint in self.robot.joints.values():
             if joint.type in ("floating", "planar"):
                 self._tell_once(
-                    f"joint '{joint.name}' is {joint.type}: somebody else has to broadcast "
+                    f"joint '{joint.name}' is {joint.type}: another node has to broadcast "
                     f"'{joint.child}', else the tree falls apart there"
                 )
         still = [

@@ -94,7 +94,7 @@ class Written:
 
 
 def read(text: str, form: str | None = None, *, degrees: bool = False) -> Written:
-    """Read a rotation, or a pose, from what somebody pasted.
+    """Read a rotation, or a pose, from pasted text.
 
     Args:
         text: What was pasted.

@@ -372,7 +372,7 @@ class TurtleApp(PanelApp):
     # Keys
 
     async def on_event(self, event: events.Event) -> None:
-        """Note that somebody is there."""
+        """Note that a person is there."""
         if isinstance(event, events.Key | events.MouseDown) and self._idle is not None:
             self._idle.touch()
         await super().on_event(event)

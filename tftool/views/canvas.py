@@ -86,7 +86,7 @@ def paper(palette: theme.Palette) -> PaperColors:
 
 
 def on_field(ground: Color) -> PaperColors:
-    """The colours on the turtles' field, which is turtlesim's blue unless somebody repaints it."""
+    """The colours on the turtles' field, turtlesim's blue unless it is repainted."""
     return PaperColors(
         ground,
         theme.blend(ground, theme.WHITE, 0.13),
