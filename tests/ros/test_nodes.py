@@ -122,6 +122,19 @@ def test_two_nodes_of_one_name_are_told_apart_with_a_warning(node, ros_runtime):
     assert any("a node named 'probe' is here already" in text for text in ros_runtime.log())
 
 
+def test_a_node_of_another_process_of_the_same_name_is_warned_of(ros_runtime):
+    import rclpy
+
+    rclpy.init()
+    ros_runtime.world.know_far_nodes(["space/talker", "other"])
+    for name, namespace in [("talker", "space"), ("talker", "")]:
+        rclpy.create_node(name, namespace=namespace)
+
+    (told,) = [text for text in ros_runtime.log() if "another process" in text]
+    assert "has a node named 'space/talker'" in told
+    assert "--ros-args -r __node:=" in told
+
+
 def test_a_nodes_class_may_call_its_own_things_as_it_likes(node, ros_runtime):
     import rclpy
     from rclpy.node import Node

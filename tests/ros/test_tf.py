@@ -535,3 +535,24 @@ def test_a_rotation_that_ros_would_refuse_is_told_once_where_it_is_sent(
     assert told in said[0]
     # What the buffer refuses again and again it says ever more rarely.
     assert len(ros_runtime.log("buffer")) in (0, 4)
+
+
+def test_degrees_given_as_an_angle_are_told_once_with_their_line(ros_runtime, tmp_path):
+    file = tmp_path / "turn.py"
+    file.write_text(
+        "from tf_transformations import quaternion_from_euler\n"
+        "for _ in range(3):\n"
+        "    quaternion_from_euler(0, 0.1, 90)\n"
+        "for step in range(20):\n"
+        "    quaternion_from_euler(0, 0, step)\n"
+        "quaternion_from_euler(0, 0, 6.9)\n"
+        "quaternion_from_euler(0, 0, 1000.0)\n"
+    )
+    program = ros_runtime.start(file)
+    ros_runtime.sleep(1.0)
+
+    assert program.status == 0
+    assert [text for text in ros_runtime.log() if "degrees" in text] == [
+        f"{file}:3: quaternion_from_euler takes radians, and 90 looks like degrees: "
+        "math.radians(90)"
+    ]

@@ -82,6 +82,37 @@ def test_a_rate_that_is_given_up_is_no_longer_its_nodes(node):
     assert not node.destroy_rate(rate)
 
 
+def test_a_node_that_is_destroyed_has_no_new_rates(node):
+    from rclpy.exceptions import InvalidHandle
+
+    node.destroy_node()
+
+    with pytest.raises(InvalidHandle, match="is destroyed"):
+        node.create_rate(4)
+
+
+def test_a_rate_that_is_destroyed_while_it_begins_to_sleep_does_not_sleep(ros_runtime):
+    import rclpy
+    from rclpy.context import Context
+
+    class Meddling(Context):
+        rate = None
+
+        def ok(self):
+            if self.rate is not None:
+                self.rate.destroy()
+            return super().ok()
+
+    context = Meddling()
+    rclpy.init(context=context)
+    node = rclpy.create_node("probe", context=context)
+    context.rate = node.create_rate(1.0)
+    before = node.get_clock().now()
+    context.rate.sleep()
+
+    assert node.get_clock().now() == before
+
+
 def test_the_end_of_a_node_ends_its_rates_and_wakes_who_sleeps_by_them(node, ros_runtime):
     asleep, idle = node.create_rate(1e-6), node.create_rate(4)
     sleeper = ros_runtime.start(asleep.sleep)

@@ -167,6 +167,18 @@ def test_what_is_true_holds(expectation):
         ("{at: 3 s, frame: map, static: yes}", "at 3 s: frame map is static", "a root", 3),
         ("{at: 3 s, trees: 1}", "at 3 s: number of trees is 1", "2", 3),
         ("{at: 3 s, roots: []}", "at 3 s: roots are none", "map, world", 3),
+        (
+            "{at: 3 s, frame: post, parent: mpa}",
+            "at 3 s: frame post hangs under mpa",
+            "static, under map, from static; did you mean 'map'?",
+            3,
+        ),
+        (
+            "{at: 3 s, roots: [mapp, worlds]}",
+            "at 3 s: roots are mapp, worlds",
+            "map, world; did you mean 'map', 'world'?",
+            3,
+        ),
         ("{at: 3 s, turtles: [bob]}", "at 3 s: turtles are bob", "turtle1", 3),
         (
             "{at: 3 s, pose: bob, value: {x: 1}}",

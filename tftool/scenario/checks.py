@@ -5,8 +5,9 @@ the check judges answers and says in words what it expects and what it found.
 """
 
 from abc import ABC, abstractmethod
-from collections.abc import Iterable, Mapping
+from collections.abc import Collection, Iterable, Mapping
 from dataclasses import dataclass, field
+from difflib import get_close_matches
 from typing import Any
 
 from tftool.errors import LookupException, TransformException
@@ -154,6 +155,13 @@ class RangeForm(Form):
 # Frames and names.
 
 
+def _nearest(wanted: Iterable[str], known: Collection[str]) -> str:
+    """Which names that there are may be meant by those that there are not, one for each."""
+    found = [get_close_matches(name, known, n=1) for name in wanted if name not in known]
+    near = [f"'{names[0]}'" for names in found if names]
+    return f"; did you mean {', '.join(near)}?" if near else ""
+
+
 @dataclass(frozen=True, slots=True)
 class FrameFacts:
     """What is known of a frame; all None when it is not known at all.
@@ -163,26 +171,27 @@ class FrameFacts:
         parent: What it hangs from.
         static: Whether it holds at all times.
         broadcaster: Who sends it.
-        near: Of one that is not known, a name like it that is; empty without one.
+        known: The frames that there are.
     """
 
     exists: bool
     parent: str | None = None
     static: bool | None = None
     broadcaster: str | None = None
-    near: str = field(default="", compare=False)
+    known: Collection[str] = field(default=(), compare=False)
 
 
 @dataclass(frozen=True, slots=True)
 class FrameCheck(AnswerCheck):
     """A frame of which these facts hold; what is None is not looked at."""
 
+    name: str
     wanted: FrameFacts
 
     def judge(self, answer: FrameFacts) -> Judged:
         """Compare an answer."""
         if not answer.exists:
-            hint = f"; did you mean '{answer.near}'?" if answer.near else ""
+            hint = _nearest([self.name], answer.known)
             return Judged(not self.wanted.exists, f"no such frame{hint}")
         ok = self.wanted.exists
         for key in ("parent", "static", "broadcaster"):
@@ -191,7 +200,8 @@ class FrameCheck(AnswerCheck):
         if answer.parent is None:
             return Judged(ok, "a root")
         kind = "static" if answer.static else "dynamic"
-        return Judged(ok, f"{kind}, under {answer.parent}, from {answer.broadcaster}")
+        hint = "" if self.wanted.parent is None else _nearest([self.wanted.parent], answer.known)
+        return Judged(ok, f"{kind}, under {answer.parent}, from {answer.broadcaster}{hint}")
 
     def __str__(self) -> str:
         if not self.wanted.exists:
@@ -221,7 +231,7 @@ class FrameForm(Form):
         facts = FrameFacts(**{key: given[key] for key in self.fields})
         if not facts.exists and facts != FrameFacts(False):
             raise reading.refuse(place, "a frame that does not exist has nothing else to it")
-        return FrameCheck(facts)
+        return FrameCheck(given["name"], facts)
 
 
 @dataclass(frozen=True, slots=True)
@@ -233,7 +243,8 @@ class NamesCheck(AnswerCheck):
     def judge(self, answer: Iterable[str]) -> Judged:
         """Compare an answer."""
         found = frozenset(answer)
-        return Judged(found == self.wanted, listed(sorted(found)) or "none")
+        hint = _nearest(sorted(self.wanted), found)
+        return Judged(found == self.wanted, f"{listed(sorted(found)) or 'none'}{hint}")
 
     def __str__(self) -> str:
         return f"are {listed(sorted(self.wanted)) or 'none'}"

@@ -378,13 +378,11 @@ class FrameOf(Subject):
     def answer(self, scene: ScenarioWorld) -> FrameFacts:
         """Find the answer, now."""
         snapshot = scene.world.buffer.snapshot(scene.now)
+        known = [info.frame for info in snapshot.frames]
         if self.name not in snapshot:
-            from difflib import get_close_matches
-
-            near = get_close_matches(self.name, [info.frame for info in snapshot.frames], n=1)
-            return FrameFacts(False, near=near[0] if near else "")
+            return FrameFacts(False, known=known)
         info = snapshot.frame(self.name)
-        return FrameFacts(True, info.parent, info.is_static, info.authority)
+        return FrameFacts(True, info.parent, info.is_static, info.authority, known)
 
     def __str__(self) -> str:
         return f"frame {self.name}"

@@ -63,6 +63,7 @@ class Program(Node):
         status: Its exit status once it has ended, None before.
         nodes: The seats (`rclpy.seat.NodeSeat`) of the nodes it made, withdrawn at the end.
         event_loops: Those of asyncio that it made, closed at the end.
+        lines_with_angles: Lines of it whose angles were looked at: whether they are degrees.
     """
 
     is_shown: ClassVar[bool] = False
@@ -101,6 +102,7 @@ class Program(Node):
         self.nodes: list[Any] = []
         self.event_loops: list[asyncio.AbstractEventLoop] = []
         self.log_levels: dict[str, int] = {}
+        self.lines_with_angles: set[Any] = set()
         self._on_exit = on_exit
         self._others: set[asyncio.Task[None]] = set()
         self._loop: asyncio.AbstractEventLoop | None = None

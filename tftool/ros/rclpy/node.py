@@ -275,7 +275,12 @@ class Node(NodeGraph, NodeParameters):
         return self.__keep(lambda: GuardCondition(self._tftool, callback, group))
 
     def create_rate(self, frequency: float, clock: Clock | None = None) -> Rate:
-        """Something to pace a loop with."""
+        """Something to pace a loop with.
+
+        Raises:
+            InvalidHandle: If the node is destroyed.
+        """
+        self._tftool.require()
         return Rate(frequency, self._tftool)
 
     def destroy_rate(self, rate: Rate) -> bool:

@@ -110,7 +110,7 @@ class ParameterEventHandler:
         self, parameter_name: str, node_name: str, callback: Callable[[Any], object]
     ) -> ParameterCallbackHandle:
         """Have `callback` called with a parameter's message whenever it is set."""
-        handle = ParameterCallbackHandle(parameter_name, self._full(node_name), callback)
+        handle = ParameterCallbackHandle(parameter_name, self._resolve_path(node_name), callback)
         # As in ROS 2, who came last is told first.
         self._of_one.insert(0, handle)
         return handle
@@ -143,7 +143,7 @@ class ParameterEventHandler:
         """Whether events can be sorted out before they arrive: only asking for none can."""
         return not node_names
 
-    def _full(self, node_name: str) -> str:
+    def _resolve_path(self, node_name: str = "") -> str:
         if not node_name:
             return str(self.node.get_fully_qualified_name())
         if node_name.startswith("/"):

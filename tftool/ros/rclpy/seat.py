@@ -77,6 +77,13 @@ class NodeSeat:
                 f"a node named '{wanted}' is here already; this one is shown as '{name}'. "
                 f"Give it a name of its own: --ros-args -r __node:=…",
             )
+        elif name in self.world.far_nodes:
+            self.program.say(
+                "WARN",
+                name,
+                f"another process of this session has a node named '{name}': both publish and "
+                "answer. End one, or give this one a name of its own: --ros-args -r __node:=…",
+            )
         if self.program.name == name:
             # The executable and its node share a name, as they often do.
             self.program.name = f"{name} (program)"
@@ -94,14 +101,22 @@ class NodeSeat:
 
     # What it has
 
-    def keep(self, make: Callable[[], Any]) -> Any:
-        """Make a thing on the loop's thread, and have executors serve it.
+    def require(self) -> None:
+        """See that it can have something new.
 
         Raises:
             InvalidHandle: If the node is destroyed.
         """
         if self._destroyed:
             raise InvalidHandle(f"node '{self.name}' is destroyed: it can have nothing new")
+
+    def keep(self, make: Callable[[], Any]) -> Any:
+        """Make a thing on the loop's thread, and have executors serve it.
+
+        Raises:
+            InvalidHandle: If the node is destroyed.
+        """
+        self.require()
 
         def made() -> Any:
             entity = make()

@@ -2,6 +2,7 @@
 
 import asyncio
 import math
+from collections.abc import Callable
 from enum import IntEnum
 from typing import Any
 
@@ -230,7 +231,7 @@ class Clock:
         sleep = _Sleep(self._program)
         stop = None if context is None else context.on_change(sleep.end)
         try:
-            sleep.start(duration)
+            sleep.start(duration, lambda: context is not None and not context.ok())
         finally:
             if stop is not None:
                 stop()
@@ -259,13 +260,16 @@ class _Sleep:
         self._owner = owner
         self._timers: set[asyncio.Future[None]] = set()
 
-    def start(self, duration: int) -> None:
-        """Block for a while."""
+    def start(self, duration: int, is_over: Callable[[], bool]) -> None:
+        """Block for a while, unless it is over by the time that it begins."""
         if not self._owner.interrupted:
-            self._owner.ask(lambda: self._wait(max(0, duration)))
+            self._owner.ask(lambda: self._wait(max(0, duration), is_over))
 
-    async def _wait(self, duration: int) -> None:
+    async def _wait(self, duration: int, is_over: Callable[[], bool]) -> None:
         owner = self._owner
+        # Here, where others end it: before, it could end between the look and the timer.
+        if is_over():
+            return
         timer = owner.clock.timer(owner.clock.now() + duration, owner.turn, owner.rank)
         self._timers.add(timer)
         try:
@@ -381,7 +385,7 @@ class Rate:
         now = self._program.clock.now()
         if self._due < now:
             self._due += -(-(now - self._due) // self._period) * self._period
-        self._sleep.start(self._due - now)
+        self._sleep.start(self._due - now, lambda: self._over or not self._context.ok())
         if not self._over:
             self._require_context()
         self._due += self._period

@@ -4,13 +4,18 @@
 "sxyz" is roll, pitch, yaw. The computing is done in `tftool.geometry`.
 """
 
+import math
+import sys
 from collections.abc import Sequence
+from types import FrameType
 from typing import Any
 
 import numpy as np
 
 from tftool.geometry import conversions, quaternions
 from tftool.geometry.quaternions import Quad
+from tftool.ros.host.fibers import user_line
+from tftool.ros.host.locks import running_program
 
 TRANSLATION_IDENTITY = [0.0, 0.0, 0.0]
 ROTATION_IDENTITY = [0.0, 0.0, 0.0, 1.0]
@@ -26,7 +31,32 @@ def _quad(quaternion: Sequence[float]) -> Quad:
 
 def quaternion_from_euler(ai: float, aj: float, ak: float, axes: str = "sxyz") -> Quad:
     """The quaternion of three turns, one after the other."""
-    return _quad(conversions.quaternion_from_euler((ai, aj, ak), axes))
+    made = _quad(conversions.quaternion_from_euler((ai, aj, ak), axes))
+    if (owner := running_program()) is not None:
+        _look_for_degrees(owner, sys._getframe(1), (ai, aj, ak))
+    return made
+
+
+def _look_for_degrees(owner: Any, frame: FrameType, angles: tuple[float, float, float]) -> None:
+    """Say, once for a line of a program, that its angles look like degrees.
+
+    Only what a line gives first is looked at: an angle may well grow from turn to turn. And only
+    halves and wholes up to 360: 90.0 is no angle that anybody computes in radians.
+    """
+    line = (frame.f_code, frame.f_lineno)
+    if line in owner.lines_with_angles:
+        return
+    owner.lines_with_angles.add(line)
+    odd = next(
+        (one for one in angles if 2 * math.pi < abs(one) <= 360.0 and 2 * one % 1 == 0), None
+    )
+    place = None if odd is None else user_line(frame)
+    if odd is not None and place is not None:
+        told = (
+            f"{place.file}:{place.line}: quaternion_from_euler takes radians, and {odd:g} looks "
+            f"like degrees: math.radians({odd:g})"
+        )
+        owner.ask(lambda: owner.say("WARN", owner.label, told))
 
 
 def euler_from_quaternion(
