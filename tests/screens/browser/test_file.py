@@ -11,6 +11,8 @@ pytest.importorskip("websockets", reason="the extra `view` is not installed")
 
 pytest.importorskip("selenium.webdriver", reason="selenium is not installed")
 
+from selenium.webdriver.common.by import By
+
 import tftool
 from tests.screens.browser.driving import CHROMEDRIVER, CHROMIUM, Page
 from tests.screens.browser.mesh_files import write_package
@@ -21,6 +23,7 @@ from tftool.frames.buffer import Buffer
 from tftool.frames.sample import TransformStamped
 from tftool.geometry.rigid import Transform
 from tftool.screens.browser import protocol
+from tftool.screens.browser.robots import ShownRobot
 from tftool.screens.browser.standalone import StandaloneData, standalone_page
 from tftool.stamps import seconds
 
@@ -181,7 +184,40 @@ def test_a_file_of_a_robot_moves_its_joints_by_itself(chromium, tmp_path):
     check({"turn": -0.75})
     slide("slide", 7)  # no further than its limit
     check({"turn": -0.75, "slide": 0.4})
+    told = [page.row(one).find_element(By.CSS_SELECTOR, ".told").text for one in ("arm", "finger")]
+    assert told == ["joint", "joint"]
     assert asked_elsewhere(page) == []
+    assert page.complaints() == []
+
+
+def test_a_file_shared_while_sliders_move_the_joints_has_them_too(chromium, tmp_path):
+    description = tmp_path / "slider.urdf"
+    description.write_text(SLIDING)
+    robot = tftool.load_urdf(description)
+    mover = SimpleNamespace(positions=robot.positions({"slide": 0.3}))
+    buffer = Buffer()
+    for end in (0.0, 1.0):
+        for one in robot.transforms({"slide": 0.3}):
+            buffer.set_transform(one._replace(stamp=EPOCH + seconds(end)), "mover")
+    path = file_of(tmp_path, buffer, end=1.0, robot=ShownRobot(robot, mover=mover))
+    page = opened(chromium, path, "fixed=arm&target=arm&source=tip")
+    page.until(lambda: page.texts("#sliders output") == ["0.000 rad", "0.300 m"])
+
+    page.driver.execute_script(
+        """
+        const row = document.querySelector('input[aria-label="Joint slide"]');
+        row.value = 0.1;
+        row.dispatchEvent(new Event("input"));
+        """
+    )
+
+    wanted = robot.buffer({"slide": 0.1}).lookup_transform("arm", "tip", 0).transform
+    page.until(
+        lambda: (
+            page.said("tftool.pair()?.translation")
+            == pytest.approx([*wanted.translation], abs=1e-12)
+        )
+    )
     assert page.complaints() == []
 
 

@@ -10,7 +10,7 @@ import hashlib
 import json
 import re
 from collections.abc import Iterable, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from html import escape
 from typing import Any, Final
 from urllib.parse import quote, urljoin
@@ -219,11 +219,11 @@ def _robot(
     """The robot's message, and the files it names with those that they name."""
     if robot is None:
         return None, []
+    if robot.mover is not None:
+        # Nothing publishes from a file: the page moves them, from where they are.
+        robot = replace(robot, mover=None, rest=dict(robot.mover.positions))
     robot.place(frozenset(frame.frame for frame in shown))
     message: dict[str, Any] = json.loads(robot.as_text())
-    if robot.rest is None:
-        # No one is there who could move them.
-        message["sliders"] = []
     wanted = [
         address
         for link in message["links"]

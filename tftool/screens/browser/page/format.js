@@ -11,3 +11,9 @@ export function number(value, digits) {
   const text = Math.abs(value) >= 1e7 ? value.toExponential(3) : value.toFixed(digits);
   return /^-0(\.0*)?$/.test(text) ? text.slice(1) : text;
 }
+
+/**
+ * What is said in place of a rate of a frame that the model's `statics` holds.
+ * @param {number} still 1 where nothing moves it, 2 where its slider alone does
+ */
+export const stillness = (still) => (still === 2 ? "joint" : "static");

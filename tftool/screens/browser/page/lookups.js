@@ -31,6 +31,7 @@ export class Link {
     this.authority = frame.authority;
     this.count = frame.count ?? 0;
     this.isStatic = frame.static ?? false;
+    this.slides = false;
     const column = (one) => (one ? packed.column(one, this.count) : new Float64Array(0));
     this.stamps = column(frame.stamps);
     this.parents = column(frame.parents);
@@ -184,7 +185,8 @@ export class Lookups {
       revision,
       names: this.links.map(({ name }) => name),
       parents,
-      statics: this.links.map((link, index) => Number(link.isStatic && parents[index] >= 0)),
+      // 2: nothing moves it but a slider.
+      statics: this.links.map((link, index) => (link.isStatic && parents[index] >= 0 ? 1 + Number(link.slides) : 0)),
       authorities: this.links.map(({ authority }) => authority || "no recorded authority"),
       total: this.total,
       rate: 1,

@@ -1,6 +1,6 @@
 // @ts-check
 // Everything on the page that is words and numbers.
-import { number } from "./format.js";
+import { number, stillness } from "./format.js";
 import { degrees, rpy } from "./maths.js";
 
 /**
@@ -48,7 +48,7 @@ export function showFrame(model, index, fixed, trouble) {
   const facts = [["Status", trouble ? "Warning" : "Transform OK"], ["Parent", parent < 0 ? "none, a root" : model.names[parent]]];
   if (parent >= 0) {
     facts.push(["Broadcaster", model.authorities[index]]);
-    if (model.statics[index]) facts.push(["Kind", "static"]);
+    if (model.statics[index]) facts.push(["Kind", stillness(model.statics[index])]);
     else if (poses) {
       facts.push(["Average rate", `${number(poses.rateOf(index), 1)} Hz`]);
       facts.push(["Buffer length", `${number(poses.newestOf(index) - poses.oldestOf(index), 3)} s`]);

@@ -19,6 +19,10 @@ export class Standalone {
     this.handlers = handlers;
     this.lookups = new Lookups(packed);
     this.robot = packed.header.robot;
+    for (const { frame } of this.robot?.motion ?? []) {
+      const link = this.lookups.links[this.lookups.numbers.get(frame) ?? -1];
+      if (link) link.slides = true;
+    }
     this.marks = packed.header.marks;
     /** @type {number | null} */
     this.at = null;

@@ -1,5 +1,6 @@
 // @ts-check
 // The nested list of frames. Names go in by textContent and no other way.
+import { stillness } from "./format.js";
 import { kept, led, listed } from "./outline.js";
 
 export class Tree {
@@ -91,7 +92,7 @@ export class Tree {
     told.className = "told";
     if (model.parents[index] >= 0 && model.statics[index]) {
       told.classList.add("still");
-      told.textContent = "static";
+      told.textContent = stillness(model.statics[index]);
     }
     const solid = document.createElement("button");
     solid.className = "solid plain";
