@@ -99,7 +99,7 @@ def test_there_is_an_end_to_what_waits(out, monkeypatch, bound, most, size):
     publishing.join(0.05)
     assert publishing.is_alive()
     stuck.let_go.set()
-    publishing.join(20)
+    publishing.join(PATIENCE)
     out.close()
 
     assert sent == list(range(60))
@@ -135,7 +135,7 @@ def test_the_bytes_of_a_message_count_until_it_is_sent(out, monkeypatch):
     publishing.join(0.05)
     assert publishing.is_alive()
     stuck.let_go.set()
-    publishing.join(20)
+    publishing.join(PATIENCE)
 
     assert not publishing.is_alive()
 

@@ -146,7 +146,6 @@ def test_where_there_are_no_unix_sockets_the_loopback_serves(monkeypatch):
 
 @needs_openssl
 def test_over_tls_only_who_has_a_certificate_is_let_in(session_dir, monkeypatch, tmp_path):
-    monkeypatch.setattr("tftool.link.zenoh.opening.REACHING", 1.0)
     files = certificates(tmp_path)
 
     async def reach():
@@ -157,6 +156,7 @@ def test_over_tls_only_who_has_a_certificate_is_let_in(session_dir, monkeypatch,
             monkeypatch.setenv("TFTOOL_SESSION_DIR", str(session_dir / "far"))
             with Link(Options("echo", reach=Reach(connect=endpoint, certificates=files))) as far:
                 assert hosts(far.graph.processes())
+            monkeypatch.setattr("tftool.link.zenoh.opening.REACHING", 1.0)
             (tmp_path / "stranger").mkdir()
             stranger = certificates(tmp_path / "stranger")
             with pytest.raises(LinkError, match="no process answers at tls/localhost") as refusal:

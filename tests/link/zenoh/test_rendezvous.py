@@ -193,6 +193,7 @@ def test_without_unix_sockets_only_who_can_read_the_folder_gets_in(session_dir, 
             assert second.wire.neighbours == {first.wire.zid}
         finally:
             second.close()
+        monkeypatch.setattr("tftool.link.zenoh.opening.REACHING", 1.0)
         with pytest.raises(LinkError, match="no process answers at"):
             Opening(Options(domain=1, reach=Reach(connect=(f"tcp/127.0.0.1:{port}",))))
         assert first.wire.neighbours == frozenset()

@@ -15,7 +15,7 @@ from tftool.link.zenoh.transport import Wire
 from tftool.runtime.clock import WallClock
 from tftool.stamps import seconds
 
-REACHING: Final = 3.0
+REACHING: Final = 5.0
 """Seconds to wait for a process at the other end of `connect`."""
 
 NEARBY: Final = 1.0
