@@ -30,12 +30,12 @@ class Client(Node):
 
     def ask(self, kind, name, request):
         client = self.create_client(kind, name)
-        if not client.wait_for_service(timeout_sec=10.0):
+        if not client.wait_for_service(timeout_sec=180.0):
             raise RuntimeError(f"nobody serves {name}")
         return self.wait(client.call_async(request))
 
     def wait(self, future):
-        rclpy.spin_until_future_complete(self, future, timeout_sec=10.0)
+        rclpy.spin_until_future_complete(self, future, timeout_sec=180.0)
         return future.result()
 
 
@@ -57,7 +57,7 @@ say(f"enabled: {node.ask(SetBool, 'enable', SetBool.Request(data=True))}")
 say(f"map: {node.wait(node.map).data}")
 
 action = ActionClient(node, Fibonacci, "fibonacci")
-action.wait_for_server(timeout_sec=10.0)
+action.wait_for_server(timeout_sec=180.0)
 goal = node.wait(action.send_goal_async(Fibonacci.Goal(order=6)))
 end = node.wait(goal.get_result_async())
 say(f"fibonacci: {end.status} {list(end.result.sequence)}")

@@ -93,7 +93,7 @@ def ask(kind, **request):
         f"/turtlesim/{name}",
         srv_type=f"rcl_interfaces/srv/{kind}",
         router_port=PORT,
-        timeout=10.0,
+        timeout=180.0,
     )
     return client.call(**request)
 
@@ -120,7 +120,7 @@ while True:
             asked = True
             tell(topics=names, services=services)
             client = ROS2ServiceClient(
-                "/spawn", srv_type="turtlesim/srv/Spawn", router_port=PORT, timeout=10.0
+                "/spawn", srv_type="turtlesim/srv/Spawn", router_port=PORT, timeout=180.0
             )
             answer = client.call(
                 x=np.float32(3.0), y=np.float32(4.0), theta=np.float32(0.0), name="sdk_turtle"

@@ -119,7 +119,7 @@ class Foreign:
         self.process.kill()
         self.process.wait()
         for thread in self._threads:
-            thread.join(5)
+            thread.join(PATIENCE)
         self.process.stdout.close()
         self.process.stderr.close()
 
