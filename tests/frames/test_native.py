@@ -252,9 +252,8 @@ def test_fields_that_no_history_has_are_survived(data):
         st.lists(st.sampled_from(["start", "count", "newest_stamp", "oldest_stamp", "limit"]))
     ):
         setattr(link, name, data.draw(NUMBERS))
-    for name in ("_prune_after", "_compact_at"):
-        if data.draw(st.booleans()):
-            setattr(link, name, data.draw(NUMBERS))
+    if data.draw(st.booleans()):
+        link._compact_at = data.draw(NUMBERS)
     if data.draw(st.booleans()):
         link.records = data.draw(hostile_buffers())
     path = ((link,) * data.draw(st.integers(1, 9)), (link,) * data.draw(st.integers(0, 2)), (link,))

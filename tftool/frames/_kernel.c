@@ -24,10 +24,9 @@
 #define WORD 8
 #define RECORD (8 * WORD)
 #define PARENT_MASK 0xffffffffLL
-#define EXACT (1ULL << 53) /* Whole numbers below this are exact as doubles. */
 
 /* What `tftool.frames.native` expects; a build of another interface is not used. */
-#define INTERFACE 3
+#define INTERFACE 4
 
 #if defined(__GNUC__)
 #define INLINE static inline __attribute__((always_inline))
@@ -40,8 +39,14 @@
 #define PREFETCH(place) (void)(place)
 #endif
 
-typedef struct { double n[7]; } Pose; /* x y z qx qy qz qw */
-static const Pose identity = {{0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 1.0}};
+/* So many moments are worked on together, number by number: what they take stays in the
+   processor's nearest cache, and the compiler turns each loop into vector operations. */
+#define BLOCK 128
+
+/* Poses lie as rows, `width` numbers each: first every x, then y z qx qy qz qw. The functions
+   of one moment and of many are the same: for one, the width is 1. */
+typedef double Rows[7 * BLOCK];
+static const double identity[7] = {0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 1.0};
 
 /* Records ---------------------------------------------------------------- */
 
@@ -53,10 +58,6 @@ static inline int64_t word_of(const char *words, Py_ssize_t index) {
 
 static inline int64_t stamp_of(const char *records, Py_ssize_t index) {
     return word_of(records, WORD * index);
-}
-
-static inline void pose_of(const char *records, Py_ssize_t index, Pose *pose) {
-    memcpy(pose->n, records + RECORD * index + WORD, sizeof pose->n);
 }
 
 /* Where a moment is looked for first: by the mean rate of the samples. */
@@ -126,71 +127,88 @@ static inline double weight(double f, double u, int terms) {
 
 /* Arithmetic of poses: twins of `geometry.poses` ------------------------- */
 
-static inline void interpolate(const Pose *first, const Pose *second, double share, Pose *out) {
-    const double *a = first->n, *b = second->n;
-    double cosine = a[3] * b[3] + a[4] * b[4] + a[5] * b[5] + a[6] * b[6];
-    double take = 1.0;
-    if (share == 0.0) {
-        *out = *first;
-        return;
+/* The poses on the way from `a` to `b`, to be written to `out`. */
+INLINE void interpolate(const double *a, const double *b, const double *share, int n, int width,
+                        double *out) {
+    double near[BLOCK], sign[BLOCK], keep[BLOCK], take[BLOCK];
+    int longer = 0, longest = 0;
+    for (int i = 0; i < n; i++) {
+        const double *first = a + 3 * width + i, *second = b + 3 * width + i;
+        const double cosine = first[0] * second[0] + first[width] * second[width]
+            + first[2 * width] * second[2 * width] + first[3 * width] * second[3 * width];
+        sign[i] = cosine < 0.0 ? -1.0 : 1.0;
+        near[i] = fabs(cosine);
+        longer += 1.0 - near[i] > SHORT_ARC;
+        longest += 1.0 - near[i] > LONG_ARC;
     }
-    if (cosine < 0.0) {
-        cosine = -cosine;
-        take = -1.0;
-    }
-    for (int i = 0; i < 3; i++)
-        out->n[i] = a[i] + share * (b[i] - a[i]);
-    if (cosine < 1.0) {
-        double keep;
-        if (1.0 - cosine < SHORT_ARC) {
-            keep = weight(1.0 - share, 1.0 - cosine, SHORT_TERMS);
-            take *= weight(share, 1.0 - cosine, SHORT_TERMS);
+    if (longer == 0)
+        for (int i = 0; i < n; i++) {
+            keep[i] = weight(1.0 - share[i], 1.0 - near[i], SHORT_TERMS);
+            take[i] = weight(share[i], 1.0 - near[i], SHORT_TERMS);
         }
-        else {
-            const double angle = acos(cosine), sine = sin(angle);
-            keep = sin((1.0 - share) * angle) / sine;
-            take *= sin(share * angle) / sine;
-        }
-        for (int i = 3; i < 7; i++)
-            out->n[i] = keep * a[i] + take * b[i];
-    }
     else
-        for (int i = 3; i < 7; i++)
-            out->n[i] = a[i] + share * (take * b[i] - a[i]);
+        for (int i = 0; i < n; i++) {
+            keep[i] = weight(1.0 - share[i], 1.0 - near[i], LONG_TERMS);
+            take[i] = weight(share[i], 1.0 - near[i], LONG_TERMS);
+        }
+    for (int i = 0; longest > 0 && i < n; i++)
+        if (1.0 - near[i] > LONG_ARC) {
+            const double angle = acos(near[i]), sine = sin(angle);
+            keep[i] = sin((1.0 - share[i]) * angle) / sine;
+            take[i] = sin(share[i] * angle) / sine;
+        }
+    for (int k = 0; k < 3; k++)
+        for (int i = 0; i < n; i++) {
+            /* Where a sample is met it is taken as it is: no way leads to infinity. */
+            const double here = a[k * width + i];
+            const double moved = here + share[i] * (b[k * width + i] - here);
+            out[k * width + i] = share[i] == 0.0 ? here : moved;
+        }
+    for (int k = 3; k < 7; k++)
+        for (int i = 0; i < n; i++) {
+            const double here = a[k * width + i], there = sign[i] * b[k * width + i];
+            const double turned = keep[i] * here + take[i] * there;
+            const double straight = here + share[i] * (there - here);
+            /* Between equals the rotation stays to the last bit. */
+            out[k * width + i] = near[i] < 1.0 ? turned : straight;
+        }
 }
 
-static inline void compose(const Pose *outer, Pose *inner) {
-    const double *o = outer->n;
-    const double ax = o[3], ay = o[4], az = o[5], aw = o[6];
-    const double x = inner->n[0], y = inner->n[1], z = inner->n[2];
-    const double bx = inner->n[3], by = inner->n[4], bz = inner->n[5], bw = inner->n[6];
+/* Turn a pose by a rotation. */
+INLINE void turn(double ax, double ay, double az, double aw, double *pose, int width) {
+    const double x = pose[0], y = pose[width], z = pose[2 * width];
+    const double bx = pose[3 * width], by = pose[4 * width], bz = pose[5 * width];
+    const double bw = pose[6 * width];
     const double cx = 2.0 * (ay * z - az * y);
     const double cy = 2.0 * (az * x - ax * z);
     const double cz = 2.0 * (ax * y - ay * x);
-    inner->n[0] = x + aw * cx + ay * cz - az * cy + o[0];
-    inner->n[1] = y + aw * cy + az * cx - ax * cz + o[1];
-    inner->n[2] = z + aw * cz + ax * cy - ay * cx + o[2];
-    inner->n[3] = aw * bx + ax * bw + ay * bz - az * by;
-    inner->n[4] = aw * by + ay * bw + az * bx - ax * bz;
-    inner->n[5] = aw * bz + az * bw + ax * by - ay * bx;
-    inner->n[6] = aw * bw - ax * bx - ay * by - az * bz;
+    pose[0] = x + aw * cx + ay * cz - az * cy;
+    pose[width] = y + aw * cy + az * cx - ax * cz;
+    pose[2 * width] = z + aw * cz + ax * cy - ay * cx;
+    pose[3 * width] = aw * bx + ax * bw + ay * bz - az * by;
+    pose[4 * width] = aw * by + ay * bw + az * bx - ax * bz;
+    pose[5 * width] = aw * bz + az * bw + ax * by - ay * bx;
+    pose[6 * width] = aw * bw - ax * bx - ay * by - az * bz;
 }
 
-static inline void between(const Pose *first, Pose *second) {
-    const double *o = first->n;
-    const double ax = o[3], ay = o[4], az = o[5], aw = o[6];
-    const double x = second->n[0] - o[0], y = second->n[1] - o[1], z = second->n[2] - o[2];
-    const double bx = second->n[3], by = second->n[4], bz = second->n[5], bw = second->n[6];
-    const double cx = 2.0 * (az * y - ay * z);
-    const double cy = 2.0 * (ax * z - az * x);
-    const double cz = 2.0 * (ay * x - ax * y);
-    second->n[0] = x + aw * cx - ay * cz + az * cy;
-    second->n[1] = y + aw * cy - az * cx + ax * cz;
-    second->n[2] = z + aw * cz - ax * cy + ay * cx;
-    second->n[3] = aw * bx - ax * bw - ay * bz + az * by;
-    second->n[4] = aw * by - ay * bw - az * bx + ax * bz;
-    second->n[5] = aw * bz - az * bw - ax * by + ay * bx;
-    second->n[6] = aw * bw + ax * bx + ay * by + az * bz;
+/* `outer` after `inner`, in place of the latter. */
+INLINE void compose(const double *outer, double *inner, int n, int width) {
+    for (int i = 0; i < n; i++) {
+        const double *o = outer + i;
+        turn(o[3 * width], o[4 * width], o[5 * width], o[6 * width], inner + i, width);
+        for (int k = 0; k < 3; k++)
+            inner[k * width + i] += o[k * width];
+    }
+}
+
+/* `second` as seen from `first`, in place of the former: turned back, the difference of both. */
+INLINE void between(const double *first, double *second, int n, int width) {
+    for (int i = 0; i < n; i++) {
+        const double *o = first + i;
+        for (int k = 0; k < 3; k++)
+            second[k * width + i] -= o[k * width];
+        turn(-o[3 * width], -o[4 * width], -o[5 * width], o[6 * width], second + i, width);
+    }
 }
 
 static inline void canonical(double *turn) {
@@ -217,9 +235,8 @@ static inline int unit(double *turn) {
 typedef struct {
     PyObject_HEAD
     PyObject *records, *origins, *newest, *newest_pair;
-    long long newest_stamp, oldest_stamp, limit, prune_after;
-    long long start, count, compact_at, origin, parent;
-    char is_static, mixed, borrowed;
+    long long newest_stamp, oldest_stamp, limit, start, count, compact_at, origin, parent;
+    char is_static, mixed;
 } Link;
 
 /* What the methods of a buffer read: `Buffer` inherits it; see there. */
@@ -240,9 +257,9 @@ static PyMemberDef link_members[] = {
     MEMBER(Link, limit, T_LONGLONG), MEMBER(Link, start, T_LONGLONG),
     MEMBER(Link, count, T_LONGLONG), MEMBER(Link, origin, T_LONGLONG),
     MEMBER(Link, parent, T_LONGLONG), MEMBER(Link, is_static, T_BOOL),
-    MEMBER(Link, mixed, T_BOOL), PRIVATE(Link, newest_pair, T_OBJECT_EX),
-    PRIVATE(Link, prune_after, T_LONGLONG), PRIVATE(Link, compact_at, T_LONGLONG),
-    PRIVATE(Link, borrowed, T_BOOL), {NULL, 0, 0, 0, NULL},
+    MEMBER(Link, mixed, T_BOOL), PRIVATE(Link, newest, T_OBJECT_EX),
+    PRIVATE(Link, newest_pair, T_OBJECT_EX), PRIVATE(Link, compact_at, T_LONGLONG),
+    {NULL, 0, 0, 0, NULL},
 };
 static PyMemberDef door_members[] = {
     PRIVATE(Door, paths, T_OBJECT_EX), PRIVATE(Door, senders, T_OBJECT_EX),
@@ -324,25 +341,77 @@ static PyObject *floats(PyTypeObject *type, const double *numbers, Py_ssize_t si
     return made;
 }
 
-/* `newest`: what was set, or what was appended since, made when it is first asked for. */
-static PyObject *get_newest(PyObject *self, void *Py_UNUSED(closure)) {
-    Link *link = (Link *)self;
-    Py_buffer view;
-    if (link->newest == NULL && read_records(link, PyBUF_SIMPLE, &view)) {
-        Pose pose;
-        pose_of(view.buf, (Py_ssize_t)link->count - 1, &pose);
-        PyBuffer_Release(&view);
-        if ((link->newest = floats(&PyTuple_Type, pose.n, 7)) == NULL)
-            return NULL;
+/* One link made ready for moments: records in order, or a pose that never changes. */
+typedef struct {
+    Py_buffer view, origins_view;
+    const char *records, *origins; /* NULL: `fixed`; NULL: they are all alike. */
+    Py_ssize_t last, here;         /* `here`: where the last moment was found, or may be. */
+    int64_t oldest, newest;
+    double fixed[7];
+} Edge;
+
+/* Fetch both neighbours of each moment, and how far it lies between them. Where a link has no
+   data for a moment, `valid` becomes 0 and what is fetched is of no use. */
+INLINE void fetch(Edge *edge, const int64_t *times, int n, int width, double *first,
+                  double *second, double *share, unsigned char *valid) {
+    const char *records = edge->records;
+    const Py_ssize_t last = edge->last;
+    Py_ssize_t here = edge->here;
+    for (int i = 0; i < n; i++) {
+        const int64_t time = times[i];
+        if (!(edge->oldest < time && time < edge->newest)) {
+            /* Of equal stamps at the newest end it is the last, at the oldest end the first. */
+            here = time == edge->oldest && time != edge->newest ? 0 : last;
+            valid[i] &= time == edge->oldest || time == edge->newest;
+        }
+        else if (here == last || !(stamp_of(records, here) <= time && time < stamp_of(records, here + 1))) {
+            if (here + 2 <= last && stamp_of(records, here + 1) <= time
+                && time < stamp_of(records, here + 2))
+                here++;
+            else
+                here = find(records, last, time, guess(edge->oldest, edge->newest, last, time));
+        }
+        const Py_ssize_t next = here < last ? here + 1 : last;
+        const int64_t before = stamp_of(records, here);
+        const uint64_t length = (uint64_t)stamp_of(records, next) - (uint64_t)before;
+        const int parts = edge->origins != NULL
+            && ((word_of(edge->origins, here) ^ word_of(edge->origins, next)) & PARENT_MASK);
+        share[i] = parts || !length ? 0.0 : (double)((uint64_t)time - (uint64_t)before) / (double)length;
+        for (int k = 0; k < 7; k++) {
+            memcpy(&first[k * width + i], records + RECORD * here + WORD + WORD * k, WORD);
+            memcpy(&second[k * width + i], records + RECORD * next + WORD + WORD * k, WORD);
+        }
     }
-    return Py_NewRef(link->newest == NULL ? Py_None : link->newest);
+    edge->here = here;
 }
 
-static int set_newest(PyObject *self, PyObject *value, void *Py_UNUSED(closure)) {
-    PyObject *before = ((Link *)self)->newest;
-    ((Link *)self)->newest = Py_XNewRef(value);
-    Py_XDECREF(before);
-    return 0;
+/* The same pose for each moment. */
+INLINE void fill(const double *pose, int n, int width, double *out) {
+    for (int k = 0; k < 7; k++)
+        for (int i = 0; i < n; i++)
+            out[k * width + i] = pose[k];
+}
+
+/* The poses of several links one after the other, lowest first, for each moment: `path.chain`.
+   Where `pose` has begun already, these go on from it. */
+INLINE void climb(Edge *edges, Py_ssize_t count, const int64_t *times, int n, int width, double *pose,
+                  int begun, unsigned char *valid) {
+    Rows first, second, step;
+    double share[BLOCK];
+    if (!begun && !count)
+        fill(identity, n, width, pose);
+    for (Py_ssize_t e = 0; e < count; e++) {
+        double *out = begun ? step : pose;
+        if (edges[e].records != NULL) {
+            fetch(&edges[e], times, n, width, first, second, share, valid);
+            interpolate(first, second, share, n, width, out);
+        }
+        else
+            fill(edges[e].fixed, n, width, out);
+        if (begun)
+            compose(step, pose, n, width);
+        begun = 1;
+    }
 }
 
 /* Looking up -------------------------------------------------------------- */
@@ -350,89 +419,52 @@ static int set_newest(PyObject *self, PyObject *value, void *Py_UNUSED(closure))
 /* So many links are made ready before the first is read: meanwhile memory brings their samples. */
 #define AHEAD 8
 
-/* A link made ready for a moment: the pose it has, or records to find it in. */
-typedef struct {
-    Py_buffer view;
-    const char *records; /* NULL: `pose` is the answer. */
-    Py_ssize_t last;
-    Guess guess;
-    Pose pose;
-} Step;
-
-/* Make a link ready for a moment (0: its newest). Returns whether it is plain and has a pose
-   then; what `records` are of is then to be released. Never sets an error. */
-static int prepare(const Link *link, int64_t time, Step *step) {
-    step->records = NULL;
+/* Make a link ready for a moment. Returns whether it is plain; what `records` are of is then to
+   be released. Never sets an error. */
+static int prepare(const Link *link, int64_t time, Edge *edge) {
+    edge->records = edge->origins = NULL;
     if (link->is_static)
-        return link->newest != NULL && read_floats(link->newest, step->pose.n, 7);
-    const int64_t oldest = link->oldest_stamp, newest = link->newest_stamp;
-    const int between = oldest < time && time < newest;
-    if (link->mixed || (!between && time != newest && time != oldest && time != 0)
-        || !read_records(link, PyBUF_SIMPLE, &step->view))
+        return link->newest != NULL && read_floats(link->newest, edge->fixed, 7);
+    if (link->mixed || !read_records(link, PyBUF_SIMPLE, &edge->view))
         return 0;
-    const char *records = (const char *)step->view.buf + RECORD * link->start;
-    step->last = (Py_ssize_t)(link->count - link->start) - 1;
-    if (between && step->last > 0) {
-        step->records = records;
-        step->guess = guess(oldest, newest, step->last, time);
-        PREFETCH(records + RECORD * step->guess.at);
-        PREFETCH(records + RECORD * step->guess.at + RECORD);
-        PREFETCH(records + RECORD * step->guess.at + 2 * RECORD - 1);
-        return 1;
+    edge->records = (const char *)edge->view.buf + RECORD * link->start;
+    edge->here = edge->last = (Py_ssize_t)(link->count - link->start) - 1;
+    edge->oldest = stamp_of(edge->records, 0);
+    edge->newest = link->newest_stamp;
+    if (edge->last > 0 && edge->oldest < time && time < edge->newest) {
+        edge->here = guess(edge->oldest, edge->newest, edge->last, time).at;
+        for (int line = 0; line < 3; line++)
+            PREFETCH(edge->records + RECORD * edge->here + RECORD * line - (line == 2));
     }
-    pose_of(records, time == oldest && time != newest ? 0 : step->last, &step->pose);
-    PyBuffer_Release(&step->view);
-    return !between;
-}
-
-/* The pose of a link that is ready: `History.at`. Returns 0 where the samples are too far apart
-   to be told exactly. */
-static int pose_at(const Step *step, int64_t time, Pose *pose) {
-    const Py_ssize_t index = find(step->records, step->last, time, step->guess);
-    const uint64_t before = (uint64_t)stamp_of(step->records, index);
-    const uint64_t length = (uint64_t)stamp_of(step->records, index + 1) - before;
-    Pose first, second;
-    pose_of(step->records, index, &first);
-    pose_of(step->records, index + 1, &second);
-    /* A quotient of whole numbers; of larger ones it would be rounded twice. */
-    if (length >= EXACT)
-        return 0;
-    interpolate(&first, &second, (double)((uint64_t)time - before) / (double)length, pose);
     return 1;
 }
 
 /* The poses of several links one after the other, lowest first: `path.chain`. Returns 0 if one
    is not plain or has none; never sets an error. */
-static int chain(PyObject *links, PyTypeObject *fields, int64_t time, Pose *pose) {
+static int chain(PyObject *links, PyTypeObject *fields, int64_t time, double *pose) {
     const Py_ssize_t count = PyTuple_Size(links);
     PyTypeObject *known = fields;
-    Step steps[AHEAD];
-    int found = 1;
-    *pose = identity;
-    for (Py_ssize_t first = 0; found && first < count; first += AHEAD) {
-        const int most = count - first < AHEAD ? (int)(count - first) : AHEAD;
+    Edge edges[AHEAD];
+    unsigned char valid = 1;
+    Py_ssize_t done = 0;
+    do {
         int ready = 0;
-        for (; found && ready < most; ready += found) {
-            PyObject *link = PyTuple_GetItem(links, first + ready);
-            found = Py_TYPE(link) == known || PyObject_TypeCheck(link, fields);
-            if (found) {
+        for (; valid && ready < AHEAD && done + ready < count; ready += valid) {
+            PyObject *link = PyTuple_GetItem(links, done + ready);
+            valid = Py_TYPE(link) == known || PyObject_TypeCheck(link, fields);
+            if (valid) {
                 known = Py_TYPE(link);
-                found = prepare((const Link *)link, time, &steps[ready]);
+                valid = (unsigned char)prepare((const Link *)link, time, &edges[ready]);
             }
         }
-        for (int i = 0; i < ready; i++) {
-            Step *step = &steps[i];
-            if (step->records != NULL) {
-                found = found && pose_at(step, time, &step->pose);
-                PyBuffer_Release(&step->view);
-            }
-            if (first + i == 0)
-                *pose = step->pose;
-            else if (found)
-                compose(&step->pose, pose);
-        }
-    }
-    return found;
+        if (valid)
+            climb(edges, ready, &time, 1, 1, pose, done > 0, &valid);
+        for (int i = 0; i < ready; i++)
+            if (edges[i].records != NULL)
+                PyBuffer_Release(&edges[i].view);
+        done += ready;
+    } while (valid && done < count);
+    return valid;
 }
 
 /* Whether two plain strings are equal; one that is none is equal to nothing. */
@@ -487,20 +519,20 @@ static int latest(PyObject *path, PyTypeObject *fields, int64_t *moment, int *co
 /* The pose of source in target by a path that is kept, of tf2's sign, and the moment it holds
    for in place of 0: `Path.solve`. Returns 0 if that is not plain; never sets an error. */
 static int solve_path(const Door *door, const Types *types, PyObject *target, PyObject *source,
-                      int64_t *time, Pose *pose) {
+                      int64_t *time, double *pose) {
     PyObject *path = path_of(door, target, source);
-    Pose other;
+    double other[7];
     if (path == NULL || (*time == 0 && !latest(path, types->fields, time, NULL))
         || !chain(PyTuple_GetItem(path, 0), types->fields, *time, pose))
         return 0;
     PyObject *down = PyTuple_GetItem(path, 1);
     if (PyTuple_Size(down) > 0) {
-        if (!chain(down, types->fields, *time, &other))
+        if (!chain(down, types->fields, *time, other))
             return 0;
-        between(&other, pose);
+        between(other, pose, 1, 1);
     }
-    canonical(pose->n + 3);
-    return pose->n[6] == pose->n[6];
+    canonical(pose + 3);
+    return pose[6] == pose[6];
 }
 
 /* Put new references into a new tuple; all of them are given up on failure. */
@@ -518,9 +550,11 @@ static PyObject *tuple_of(PyTypeObject *type, PyObject **parts, Py_ssize_t size)
 }
 
 /* A TransformStamped; NULL with an error set on failure. */
-static PyObject *answer(const Types *types, int64_t stamp, PyObject *target, PyObject *source, const Pose *pose) {
-    PyObject *numbers[2] = {floats(types->vector, pose->n, 3), floats(types->quaternion, pose->n + 3, 4)};
-    PyObject *parts[4] = {PyLong_FromLongLong(stamp), Py_NewRef(target), Py_NewRef(source), tuple_of(types->transform, numbers, 2)};
+static PyObject *answer(const Types *types, int64_t stamp, PyObject *target, PyObject *source,
+                        const double *pose) {
+    PyObject *numbers[2] = {floats(types->vector, pose, 3), floats(types->quaternion, pose + 3, 4)};
+    PyObject *parts[4] = {PyLong_FromLongLong(stamp), Py_NewRef(target), Py_NewRef(source),
+                          tuple_of(types->transform, numbers, 2)};
     return tuple_of(types->stamped, parts, 4);
 }
 
@@ -528,7 +562,8 @@ static PyObject *answer(const Types *types, int64_t stamp, PyObject *target, PyO
 static PyObject *plainly(PyObject *self, const char *name, PyObject *const *args, Py_ssize_t count,
                          PyObject *names) {
     const Py_ssize_t named = names == NULL ? 0 : PyTuple_Size(names);
-    PyObject *call = PyObject_GetAttrString(self, name), *given = PyTuple_New(count), *by_name = PyDict_New(), *result = NULL;
+    PyObject *call = PyObject_GetAttrString(self, name), *result = NULL;
+    PyObject *given = PyTuple_New(count), *by_name = PyDict_New();
     int whole = call != NULL && given != NULL && by_name != NULL;
     for (Py_ssize_t i = 0; whole && i < count; i++)
         PyTuple_SetItem(given, i, Py_NewRef(args[i]));
@@ -550,17 +585,17 @@ static PyObject *plainly(PyObject *self, const char *name, PyObject *const *args
 METHOD(lookup_transform) {
     const Types *types = PyType_GetModuleState(door);
     int64_t time = 0;
-    Pose pose;
+    double pose[7];
     if (names == NULL && (count == 2 || (count == 3 && read_stamp(args[2], &time)))
-        && solve_path((const Door *)self, types, args[0], args[1], &time, &pose))
-        return answer(types, time, args[0], args[1], &pose);
+        && solve_path((const Door *)self, types, args[0], args[1], &time, pose))
+        return answer(types, time, args[0], args[1], pose);
     return PLAINLY(lookup_transform);
 }
 
 /* The same where target and source may be one frame, whose name another path has shown good. */
 static int solve_leg(const Door *door, const Types *types, PyObject *target, PyObject *source,
-                     int64_t *time, Pose *pose) {
-    *pose = identity;
+                     int64_t *time, double *pose) {
+    fill(identity, 1, 1, pose);
     return (*time != 0 && same_text(target, source))
         || solve_path(door, types, target, source, time, pose);
 }
@@ -568,15 +603,15 @@ static int solve_leg(const Door *door, const Types *types, PyObject *target, PyO
 METHOD(lookup_transform_full) {
     const Types *types = PyType_GetModuleState(door);
     int64_t here, there;
-    Pose inner, outer;
+    double inner[7], outer[7];
     if (names == NULL && count == 5 && read_stamp(args[1], &here) && read_stamp(args[3], &there)
         && !same_text(args[0], args[2])
-        && solve_leg((const Door *)self, types, args[4], args[2], &there, &inner)
-        && solve_leg((const Door *)self, types, args[0], args[4], &here, &outer)) {
-        compose(&outer, &inner);
-        if (unit(inner.n + 3)) {
-            canonical(inner.n + 3);
-            return answer(types, here, args[0], args[2], &inner);
+        && solve_leg((const Door *)self, types, args[4], args[2], &there, inner)
+        && solve_leg((const Door *)self, types, args[0], args[4], &here, outer)) {
+        compose(outer, inner, 1, 1);
+        if (unit(inner + 3)) {
+            canonical(inner + 3);
+            return answer(types, here, args[0], args[2], inner);
         }
     }
     return PLAINLY(lookup_transform_full);
@@ -596,143 +631,74 @@ METHOD(can_transform) {
 
 /* Inserting --------------------------------------------------------------- */
 
-/* So many pruned records are left where they are, at least and as a part of all (a shift to the
-   right): as in `history`. */
-#define LEAST_SLACK 32
-#define SLACK 3
-
-/* Room for samples to come is as much again as there is, at least so much, and so much at most or
-   that part of all: each time it is made, everything may have to be copied. */
-#define LEAST_ROOM 8
-#define MOST_ROOM 128
-#define ROOM 4
-
-#define LARGER(a, b) ((a) > (b) ? (a) : (b))
-#define SMALLER(a, b) ((a) < (b) ? (a) : (b))
-
-/* Take words out of an array. Returns whether it let go of them, which none does that a batch
-   reads; never sets an error. */
-static int cut(PyObject *records, Py_ssize_t from, Py_ssize_t to) {
-    if (PySequence_DelSlice(records, from, to) == 0)
-        return 1;
+/* Give up the last record of the room behind a link's samples. Returns whether that could be:
+   there was one, and no batch reads the array, for which it has to stay as it is. Never sets an
+   error; it may run code of others. */
+static int give_up_room(const Link *link) {
+    PyObject *records = Py_XNewRef(link->records);
+    const Py_ssize_t words = records == NULL ? 0 : PyObject_Size(records);
+    const int done = words / WORD > link->count
+        && PySequence_DelSlice(records, words - WORD, words) == 0;
+    Py_XDECREF(records);
     PyErr_Clear();
-    return 0;
+    return done;
 }
 
-/* Have so many records of zeros more at the end of an array. Returns whether it grew, which none
-   does that a batch reads; never sets an error. */
-static int grow(PyObject *records, Py_ssize_t more) {
-    PyObject *zeros = PyObject_CallFunction((PyObject *)&PyBytes_Type, "n", RECORD * more);
-    PyObject *none = zeros == NULL ? NULL : PyObject_CallMethod(records, "frombytes", "O", zeros);
-    Py_XDECREF(zeros);
-    Py_XDECREF(none);
-    if (none == NULL)
-        PyErr_Clear();
-    return none != NULL;
-}
-
-/* Have room for a sample in a link's records, that no batch reads if the sample is not the newest.
-   Returns whether it could be had; never sets an error. */
-static int make_room(Link *link, int64_t stamp) {
-    Py_ssize_t room = PyObject_Size(link->records) / WORD;
-    if (link->start < 0 || link->count <= link->start || link->count > room) {
-        PyErr_Clear();
-        return 0;
-    }
-    if (link->start >= link->compact_at) {
-        /* What is pruned makes room for as many. */
-        const Py_ssize_t start = (Py_ssize_t)link->start, count = (Py_ssize_t)link->count - start;
-        if (!cut(link->records, 0, WORD * start))
-            return 0;
-        link->start = 0;
-        link->count = count;
-        link->compact_at = LARGER(count >> SLACK, LEAST_SLACK);
-        if (!grow(link->records, start))
-            return 0;
-    }
-    else if (stamp <= link->newest_stamp) {
-        /* One in front takes no room behind. */
-        if (stamp < link->oldest_stamp && link->count < room)
-            return cut(link->records, WORD * room - WORD, WORD * room);
-        return grow(link->records, 1);
-    }
-    else if (link->count == room)
-        return grow(link->records, LARGER(LARGER(SMALLER(room, MOST_ROOM), LEAST_ROOM), room >> ROOM));
-    return 1;
-}
-
-/* A moment so much later, or the last one there is. */
-static inline int64_t later(int64_t stamp, int64_t span) {
-    return stamp > INT64_MAX - span ? INT64_MAX : stamp + span;
-}
-
-/* Put a sample into a link: `History.insert` where no other one has its stamp, and all are of the
-   same origin. Returns whether it was done; never sets an error. */
-static int put(Link *link, int64_t stamp, int64_t origin, Pose *pose) {
+/* Put a sample into a link, where it has room: `History.insert` where no other one has its stamp,
+   and all are of the same origin. Returns whether it was done; never sets an error. */
+static int put(Link *link, int64_t stamp, int64_t origin, double *pose) {
     Py_buffer view;
-    double *n = pose->n;
-    const double square = square_of(n + 3);
-    if (!(1.0 - ROUNDING < square && square < 1.0 + ROUNDING && n[0] + n[1] + n[2] < HUGE_VAL))
+    const double square = square_of(pose + 3);
+    if (!(1.0 - ROUNDING < square && square < 1.0 + ROUNDING && pose[0] + pose[1] + pose[2] < HUGE_VAL))
         return 0;
-    if (link->is_static || link->mixed || link->borrowed || link->origins != Py_None
-        || link->origin != origin || link->limit < 0 || link->records == NULL)
-        return 0;
-    /* Making room calls Python, whose collector may run code that gives the link other records. */
-    PyObject *records_held = Py_NewRef(link->records);
-    const int has_room = make_room(link, stamp);
-    Py_DECREF(records_held);
-    if (!has_room || !read_records(link, PyBUF_WRITABLE, &view))
+    if (link->is_static || link->mixed || link->origins != Py_None || link->origin != origin
+        || link->limit < 0 || (stamp <= link->newest_stamp && !give_up_room(link))
+        || !read_records(link, PyBUF_WRITABLE, &view))
         return 0;
     char *records = view.buf;
     const int64_t newest = link->newest_stamp;
+    const uint64_t limit = (uint64_t)link->limit;
     Py_ssize_t start = (Py_ssize_t)link->start, count = (Py_ssize_t)link->count, place = count;
-    int64_t oldest = link->oldest_stamp, after = link->prune_after;
-    while (newest > after && start + 1 < count) {
+    int64_t oldest = link->oldest_stamp;
+    while ((uint64_t)newest - (uint64_t)oldest > limit && start + 1 < count)
         oldest = stamp_of(records, ++start);
-        after = later(oldest, link->limit);
-    }
-    int fits = newest <= after;
-    if (fits && stamp <= newest) {
+    /* What is pruned is removed in plain Python. */
+    int fits = start == link->start || start < link->compact_at;
+    if (stamp < oldest)
+        place = start - 1;
+    else if (stamp <= newest) {
         const Py_ssize_t last = count - 1 - start;
-        fits = (uint64_t)newest - (uint64_t)stamp <= (uint64_t)link->limit;
-        if (stamp < oldest)
-            place = start - 1;
-        else if (fits && stamp < newest && last > 0) {
-            place = start + find(records + RECORD * start, last, stamp, guess(oldest, newest, last, stamp));
-            fits &= stamp_of(records, place++) != stamp;
-        }
-        else
-            fits = 0;
+        fits &= stamp < newest && last > 0;
+        if (fits)
+            place = start + 1
+                + find(records + RECORD * start, last, stamp, guess(oldest, newest, last, stamp));
+        fits &= stamp_of(records, place - 1) != stamp;
     }
+    fits &= stamp > newest || (uint64_t)newest - (uint64_t)stamp <= limit;
     fits &= place >= 0 && (place < start || count < view.len / RECORD);
     if (fits) {
         char *record = records + RECORD * place;
-        canonical(n + 3);
+        canonical(pose + 3);
         if (place < start) {
             oldest = stamp;
-            after = later(oldest, link->limit);
             start = place;
         }
         else
             memmove(record + RECORD, record, RECORD * (count++ - place));
         memcpy(record, &stamp, WORD);
-        memcpy(record + WORD, n, sizeof pose->n);
+        memcpy(record + WORD, pose, 7 * WORD);
         link->start = start;
         link->count = count;
         link->oldest_stamp = oldest;
-        link->prune_after = after;
+        link->newest_stamp = stamp > newest ? stamp : newest;
     }
     PyBuffer_Release(&view);
     if (!fits)
         return 0;
     /* Last of all: what is let go of here may run code of others. */
-    PyObject *pair = link->newest_pair, *before = NULL;
+    PyObject *pair = link->newest_pair, *before = link->newest;
     link->newest_pair = Py_NewRef(Py_None);
-    if (stamp > newest) {
-        link->newest_stamp = stamp;
-        before = link->newest;
-        link->newest = NULL;
-    }
+    link->newest = Py_NewRef(Py_None);
     Py_XDECREF(before);
     Py_XDECREF(pair);
     return 1;
@@ -742,7 +708,7 @@ static int put(Link *link, int64_t stamp, int64_t origin, Pose *pose) {
    was done; never sets an error. */
 static int insert(const Door *door, const Types *types, PyObject *sample, PyObject *authority) {
     int64_t stamp, origin;
-    Pose pose;
+    double pose[7];
     if (Py_TYPE(sample) != types->stamped || PyTuple_Size(sample) != 4 || door->senders == NULL
         || !PyDict_Check(door->senders))
         return 0;
@@ -751,8 +717,8 @@ static int insert(const Door *door, const Types *types, PyObject *sample, PyObje
     if (!PyUnicode_CheckExact(child) || !PyUnicode_CheckExact(parent)
         || !PyUnicode_CheckExact(authority) || Py_TYPE(transform) != types->transform
         || PyTuple_Size(transform) != 2 || !read_stamp(PyTuple_GetItem(sample, 0), &stamp)
-        || !read_floats(PyTuple_GetItem(transform, 0), pose.n, 3)
-        || !read_floats(PyTuple_GetItem(transform, 1), pose.n + 3, 4))
+        || !read_floats(PyTuple_GetItem(transform, 0), pose, 3)
+        || !read_floats(PyTuple_GetItem(transform, 1), pose + 3, 4))
         return 0;
     PyObject *sender = PyDict_GetItemWithError(door->senders, child);
     if (sender == NULL || !PyTuple_Check(sender) || PyTuple_Size(sender) != 4)
@@ -761,7 +727,7 @@ static int insert(const Door *door, const Types *types, PyObject *sample, PyObje
     return same_text(PyTuple_GetItem(sender, 0), parent)
         && same_text(PyTuple_GetItem(sender, 1), authority)
         && read_stamp(PyTuple_GetItem(sender, 2), &origin)
-        && PyObject_TypeCheck(link, types->fields) && put((Link *)link, stamp, origin, &pose);
+        && PyObject_TypeCheck(link, types->fields) && put((Link *)link, stamp, origin, pose);
 }
 
 METHOD(set_transform) {
@@ -803,16 +769,12 @@ static PyMethodDef door_methods[] = {
     {NULL, NULL, 0, NULL},
 };
 
-static PyGetSetDef link_getset[] = {
-    {"newest", get_newest, set_newest, NULL, NULL}, {NULL, NULL, NULL, NULL, NULL},
-};
-
 #define HOLDER(name, what, ...)                                                                   \
     static PyType_Slot name##_slots[] = {                                                         \
         {Py_tp_doc, what}, {Py_tp_members, name##_members}, {Py_tp_traverse, held_traverse},      \
         {Py_tp_clear, held_clear}, {Py_tp_dealloc, held_dealloc}, __VA_ARGS__, {0, NULL},         \
     }
-HOLDER(link, "The fields of a link, laid out so that the kernel can read them.", {Py_tp_getset, link_getset});
+HOLDER(link, "The fields of a link, laid out so that the kernel can read them.", {0, NULL});
 HOLDER(door, "The methods of a buffer that are called most.", {Py_tp_methods, door_methods});
 
 #define FLAGS Py_TPFLAGS_DEFAULT | Py_TPFLAGS_BASETYPE | Py_TPFLAGS_HAVE_GC
@@ -821,187 +783,48 @@ static PyType_Spec door_spec = {"tftool.frames._kernel.Door", sizeof(Door), 0, F
 
 /* A batch ---------------------------------------------------------------- */
 
-/* So many moments are worked on together, number by number: what they take stays in the
-   processor's nearest cache, and the compiler turns each loop into vector operations. */
-#define BLOCK 128
-
-/* One link of a batch: records in order, or a pose that never changes. */
+/* The links from source upward, and from target upward. */
 typedef struct {
-    Py_buffer view, origins_view;
-    const char *records, *origins; /* NULL: `fixed`; NULL: they are all alike. */
-    Py_ssize_t count, here;        /* `here`: where the last moment was found. */
-    Pose fixed;
-} Edge;
-
-typedef double Row[BLOCK];
-typedef Row Rows[7];
-
-typedef struct {
-    Rows first, second, step, up, down;
-    Row passed, length, arc, sign, keep, take;
-} Room;
-
-#if defined(__GNUC__) && (defined(__x86_64__) || defined(__i386__))
-#define DISPATCH 1
-#endif
-/* Fetch both neighbours of each moment, and how far it lies between them. Where a link has no
-   data for a moment, `valid` becomes 0 and what is fetched is of no use. */
-INLINE void fetch(Edge *edge, const int64_t *times, int n, Room *room, unsigned char *valid) {
-    const char *records = edge->records;
-    const Py_ssize_t last = edge->count - 1;
-    const int64_t oldest = stamp_of(records, 0), newest = stamp_of(records, last);
-    Py_ssize_t here = edge->here;
-    for (int i = 0; i < n; i++) {
-        const int64_t time = times[i];
-        if (!(oldest < time && time < newest)) {
-            /* Of equal stamps at the newest end it is the last, at the oldest end the first. */
-            here = time == oldest && time != newest ? 0 : last;
-            valid[i] &= time == oldest || time == newest;
-        }
-        else if (here == last || !(stamp_of(records, here) <= time && time < stamp_of(records, here + 1))) {
-            if (here + 2 <= last && stamp_of(records, here + 1) <= time
-                && time < stamp_of(records, here + 2))
-                here++;
-            else
-                here = find(records, last, time, guess(oldest, newest, last, time));
-        }
-        const Py_ssize_t next = here < last ? here + 1 : last;
-        const int64_t before = stamp_of(records, here);
-        uint64_t passed = (uint64_t)time - (uint64_t)before;
-        const uint64_t length = (uint64_t)stamp_of(records, next) - (uint64_t)before;
-        if (edge->origins != NULL
-            && ((word_of(edge->origins, here) ^ word_of(edge->origins, next)) & PARENT_MASK))
-            passed = 0;
-        room->passed[i] = (double)passed;
-        room->length[i] = length ? (double)length : 1.0;
-        const char *first = records + RECORD * here, *second = records + RECORD * next;
-        for (int k = 0; k < 7; k++)
-            memcpy(&room->first[k][i], first + WORD + WORD * k, WORD);
-        for (int k = 0; k < 7; k++)
-            memcpy(&room->second[k][i], second + WORD + WORD * k, WORD);
-    }
-    edge->here = here;
-}
-
-/* The pose on the way between what was fetched, for each moment: twin of `interpolate`. */
-INLINE void blend(Room *room, int n, Rows out) {
-    double *share = room->passed, *arc = room->arc, *sign = room->sign;
-    double *keep = room->keep, *take = room->take;
-    int longer = 0, longest = 0;
-    for (int i = 0; i < n; i++) {
-        const double cosine = room->first[3][i] * room->second[3][i]
-            + room->first[4][i] * room->second[4][i] + room->first[5][i] * room->second[5][i]
-            + room->first[6][i] * room->second[6][i];
-        const double near = fabs(cosine);
-        share[i] = share[i] / room->length[i];
-        sign[i] = cosine < 0.0 ? -1.0 : 1.0;
-        arc[i] = near < 1.0 ? 1.0 - near : 0.0;
-        longer += arc[i] > SHORT_ARC;
-        longest += arc[i] > LONG_ARC;
-    }
-    if (longer == 0)
-        for (int i = 0; i < n; i++) {
-            keep[i] = weight(1.0 - share[i], arc[i], SHORT_TERMS);
-            take[i] = weight(share[i], arc[i], SHORT_TERMS);
-        }
-    else
-        for (int i = 0; i < n; i++) {
-            keep[i] = weight(1.0 - share[i], arc[i], LONG_TERMS);
-            take[i] = weight(share[i], arc[i], LONG_TERMS);
-        }
-    for (int i = 0; longest > 0 && i < n; i++)
-        if (arc[i] > LONG_ARC) {
-            const double angle = acos(1.0 - arc[i]), sine = sin(angle);
-            keep[i] = sin((1.0 - share[i]) * angle) / sine;
-            take[i] = sin(share[i] * angle) / sine;
-        }
-    for (int k = 0; k < 3; k++)
-        for (int i = 0; i < n; i++) {
-            /* Where a sample is met it is taken as it is: no way leads to infinity. */
-            const double a = room->first[k][i];
-            const double moved = a + share[i] * (room->second[k][i] - a);
-            out[k][i] = share[i] == 0.0 ? a : moved;
-        }
-    for (int k = 3; k < 7; k++)
-        for (int i = 0; i < n; i++) {
-            const double a = room->first[k][i], b = sign[i] * room->second[k][i];
-            const double turned = keep[i] * a + take[i] * b;
-            const double straight = a + share[i] * (b - a);
-            /* Between equals the rotation stays to the last bit. */
-            out[k][i] = arc[i] == 0.0 ? straight : turned;
-        }
-}
-
-/* Put two poses of each moment together, in the second. */
-INLINE void join(void (*how)(const Pose *, Pose *), Rows first, Rows second, int n) {
-    for (int i = 0; i < n; i++) {
-        Pose one, other;
-        for (int k = 0; k < 7; k++) {
-            one.n[k] = first[k][i];
-            other.n[k] = second[k][i];
-        }
-        how(&one, &other);
-        for (int k = 0; k < 7; k++)
-            second[k][i] = other.n[k];
-    }
-}
-
-/* The poses of several links one after the other, for each moment, in `pose`. */
-INLINE void climb(Edge *edges, Py_ssize_t count, const int64_t *times, int n, Room *room, Rows pose,
-      unsigned char *valid) {
-    for (Py_ssize_t e = 0; e < count; e++) {
-        double(*step)[BLOCK] = e ? room->step : pose;
-        if (edges[e].records != NULL) {
-            fetch(&edges[e], times, n, room, valid);
-            blend(room, n, step);
-        }
-        else
-            for (int k = 0; k < 7; k++)
-                for (int i = 0; i < n; i++)
-                    step[k][i] = edges[e].fixed.n[k];
-        if (e)
-            join(compose, step, pose, n);
-    }
-}
+    Edge *up, *down;
+    Py_ssize_t ups, downs;
+} Way;
 
 /* One block: poses of source in target, or NaN where `valid` becomes 0. */
-INLINE void
-solve_block(Edge *up, Py_ssize_t ups, Edge *down, Py_ssize_t downs, const int64_t *times, int n,
-            Room *room, double *places, double *turns, unsigned char *valid) {
+INLINE void solve_block(const Way *way, const int64_t *times, int n, double *places, double *turns,
+                        unsigned char *valid) {
+    Rows pose, other;
     for (int i = 0; i < n; i++)
         valid[i] = times[i] != 0;
-    if (ups)
-        climb(up, ups, times, n, room, room->up, valid);
-    else
-        for (int k = 0; k < 7; k++)
-            for (int i = 0; i < n; i++)
-                room->up[k][i] = k == 6;
-    climb(down, downs, times, n, room, room->down, valid);
-    if (downs)
-        join(between, room->down, room->up, n);
-    double(*pose)[BLOCK] = room->up, *place = room->keep, *turn = room->take;
+    climb(way->up, way->ups, times, n, BLOCK, pose, 0, valid);
+    climb(way->down, way->downs, times, n, BLOCK, other, 0, valid);
+    if (way->downs)
+        between(other, pose, n, BLOCK);
     for (int i = 0; i < n; i++) {
-        place[i] = valid[i] ? 1.0 : NAN;
-        turn[i] = place[i] * (leading(pose[3][i], pose[4][i], pose[5][i], pose[6][i]) < 0.0 ? -1.0 : 1.0);
-    }
-    for (int i = 0; i < n; i++) {
+        const double *turn = pose + 3 * BLOCK + i, known = valid[i] ? 1.0 : NAN;
+        const double sign = leading(turn[0], turn[BLOCK], turn[2 * BLOCK], turn[3 * BLOCK]) < 0.0 ? -known : known;
         for (int k = 0; k < 3; k++)
-            places[3 * i + k] = pose[k][i] * place[i];
+            places[3 * i + k] = pose[k * BLOCK + i] * known;
         for (int k = 0; k < 4; k++)
-            turns[4 * i + k] = pose[3 + k][i] * turn[i];
+            turns[4 * i + k] = turn[k * BLOCK] * sign;
     }
 }
 
-#define SOLVE_PARAMETERS                                                                          \
-    Edge *up, Py_ssize_t ups, Edge *down, Py_ssize_t downs, const int64_t *times, int n,          \
-        Room *room, double *places, double *turns, unsigned char *valid
-#define SOLVE_ARGUMENTS up, ups, down, downs, times, n, room, places, turns, valid
+typedef void Solve(const Way *, const int64_t *, int, double *, double *, unsigned char *);
 
-static void solve_plain(SOLVE_PARAMETERS) { solve_block(SOLVE_ARGUMENTS); }
+static void solve_plain(const Way *way, const int64_t *times, int n, double *places, double *turns,
+                        unsigned char *valid) {
+    solve_block(way, times, n, places, turns, valid);
+}
 
-#ifdef DISPATCH
+#if defined(__GNUC__) && (defined(__x86_64__) || defined(__i386__))
 /* The same, where the processor works on four numbers at once. */
-__attribute__((target("avx2"))) static void solve_avx2(SOLVE_PARAMETERS) { solve_block(SOLVE_ARGUMENTS); }
+__attribute__((target("avx2"))) static void
+solve_avx2(const Way *way, const int64_t *times, int n, double *places, double *turns, unsigned char *valid) {
+    solve_block(way, times, n, places, turns, valid);
+}
+#define SOLVE (__builtin_cpu_supports("avx2") ? solve_avx2 : solve_plain)
+#else
+#define SOLVE solve_plain
 #endif
 
 static void release_edges(Edge *edges, Py_ssize_t count) {
@@ -1014,7 +837,7 @@ static void release_edges(Edge *edges, Py_ssize_t count) {
 
 /* Make the links of a batch ready: each a sample of seven floats, or records and the origins of
    each (None: all alike). NULL with an error set if one is neither. */
-static Edge * read_edges(PyObject *links) {
+static Edge *read_edges(PyObject *links) {
     const Py_ssize_t count = PyTuple_Size(links);
     Edge *edges = PyMem_Calloc(count ? count : 1, sizeof(Edge));
     if (edges == NULL)
@@ -1022,7 +845,7 @@ static Edge * read_edges(PyObject *links) {
     for (Py_ssize_t i = 0; i < count; i++) {
         PyObject *link = PyTuple_GetItem(links, i);
         Edge *edge = &edges[i];
-        if (read_floats(link, edge->fixed.n, 7))
+        if (read_floats(link, edge->fixed, 7))
             continue;
         if (!PyTuple_Check(link) || PyTuple_Size(link) != 2) {
             PyErr_SetString(PyExc_TypeError, "a link is a pose of seven floats, or records and origins");
@@ -1034,12 +857,14 @@ static Edge * read_edges(PyObject *links) {
             goto failed;
         edge->records = edge->view.buf;
         edge->origins = edge->origins_view.buf;
-        edge->count = edge->view.len / RECORD;
-        if (edge->count < 1 || edge->view.len % RECORD
-            || (edge->origins != NULL && edge->origins_view.len / WORD < edge->count)) {
+        edge->last = edge->view.len / RECORD - 1;
+        if (edge->last < 0 || edge->view.len % RECORD
+            || (edge->origins != NULL && edge->origins_view.len / WORD <= edge->last)) {
             PyErr_SetString(PyExc_ValueError, "records are rows of 64 bytes, one or more, an origin for each");
             goto failed;
         }
+        edge->oldest = stamp_of(edge->records, 0);
+        edge->newest = stamp_of(edge->records, edge->last);
     }
     return edges;
 failed:
@@ -1055,12 +880,12 @@ static PyObject *solve(PyObject *Py_UNUSED(module), PyObject *args) {
     static const Py_ssize_t sizes[4] = {8, 24, 32, 1};
     Py_buffer views[4];
     PyObject *links[2], *result = NULL;
-    Edge *up = NULL, *down = NULL;
-    Room *room = NULL;
+    Way way = {NULL, NULL, 0, 0};
     if (!PyArg_ParseTuple(args, "O!O!y*w*w*w*:solve", &PyTuple_Type, &links[0], &PyTuple_Type, &links[1],
                           &views[0], &views[1], &views[2], &views[3]))
         return NULL;
-    const Py_ssize_t ups = PyTuple_Size(links[0]), downs = PyTuple_Size(links[1]);
+    way.ups = PyTuple_Size(links[0]);
+    way.downs = PyTuple_Size(links[1]);
     const Py_ssize_t rows = views[0].len / WORD;
     for (int i = 0; i < 4; i++)
         if (views[i].len != rows * sizes[i] || (sizes[i] > 1 && (uintptr_t)views[i].buf % WORD)) {
@@ -1068,17 +893,9 @@ static PyObject *solve(PyObject *Py_UNUSED(module), PyObject *args) {
                 "aligned rows of 8, 24, 32 and 1 bytes, of each equally many");
             goto done;
         }
-    if ((up = read_edges(links[0])) == NULL || (down = read_edges(links[1])) == NULL)
+    if ((way.up = read_edges(links[0])) == NULL || (way.down = read_edges(links[1])) == NULL)
         goto done;
-    if ((room = PyMem_Malloc(sizeof(Room))) == NULL) {
-        PyErr_NoMemory();
-        goto done;
-    }
-    void (*chosen)(SOLVE_PARAMETERS) = solve_plain;
-#ifdef DISPATCH
-    if (__builtin_cpu_supports("avx2"))
-        chosen = solve_avx2;
-#endif
+    Solve *const solve_rows = SOLVE;
     const int64_t *times = views[0].buf;
     double *places = views[1].buf, *turns = views[2].buf;
     unsigned char *valid = views[3].buf;
@@ -1086,16 +903,15 @@ static PyObject *solve(PyObject *Py_UNUSED(module), PyObject *args) {
     Py_BEGIN_ALLOW_THREADS
     for (Py_ssize_t row = 0; row < rows; row += BLOCK) {
         const int n = rows - row < BLOCK ? (int)(rows - row) : BLOCK;
-        chosen(up, ups, down, downs, times + row, n, room, places + 3 * row, turns + 4 * row, valid + row);
+        solve_rows(&way, times + row, n, places + 3 * row, turns + 4 * row, valid + row);
         for (int i = 0; i < n; i++)
             missing += !valid[row + i];
     }
     Py_END_ALLOW_THREADS
     result = PyLong_FromSsize_t(missing);
 done:
-    PyMem_Free(room);
-    release_edges(up, ups);
-    release_edges(down, downs);
+    release_edges(way.up, way.ups);
+    release_edges(way.down, way.downs);
     for (int i = 0; i < 4; i++)
         PyBuffer_Release(&views[i]);
     return result;
@@ -1118,9 +934,9 @@ static PyObject *are_kept(PyObject *Py_UNUSED(module), PyObject *args) {
     const char *records = view.buf;
     int kept = 1;
     for (Py_ssize_t row = begin; row < end && kept; row++) {
-        Pose pose;
-        pose_of(records, row, &pose);
-        kept = is_kept(pose.n) && (row == 0 || stamp_of(records, row) > stamp_of(records, row - 1));
+        double pose[7];
+        memcpy(pose, records + RECORD * row + WORD, sizeof pose);
+        kept = is_kept(pose) && (row == 0 || stamp_of(records, row) > stamp_of(records, row - 1));
     }
     PyBuffer_Release(&view);
     return PyBool_FromLong(kept);

@@ -168,11 +168,12 @@ class Buffer(Door):
         try:
             stamp, parent, child, pose = transform
             known_parent, known_authority, origin, history = self._senders[child]
-            outcome = NEEDS_CHECK
-            if parent == known_parent and authority == known_authority:
+            outcome = (
                 # (*translation, *rotation) would take a tenth longer.
-                numbers = _joined(pose.translation, pose.rotation)
-                outcome = history.insert(stamp, origin, numbers)
+                history.insert(stamp, origin, _joined(pose.translation, pose.rotation))
+                if parent == known_parent and authority == known_authority
+                else NEEDS_CHECK
+            )
         except _NOT_PLAIN:
             return self._set_slowly(transform, authority, False)
         if outcome != STORED:

@@ -81,6 +81,12 @@ _unpack_pair: Final = struct.Struct("q7dq7d").unpack_from
 _SLACK: Final = 3
 _LEAST_SLACK: Final = 32
 
+# Room for samples to come is as much again as there is, at least so much, and so much at most or
+# that part of all (a shift to the right): each time it is made, everything may have to be copied.
+_LEAST_ROOM: Final = 8
+_MOST_ROOM: Final = 256
+_ROOM: Final = 4
+
 # A quaternion whose square lies between these is of length one but for rounding.
 SHORTEST: Final = 1.0 - 8e-16
 LONGEST: Final = 1.0 + 8e-16
@@ -92,7 +98,6 @@ if TYPE_CHECKING or not IS_NATIVE:
         """What either kind of link keeps; natively the same, where C code can read it."""
 
         __slots__ = (
-            "_borrowed",
             "_compact_at",
             "_newest_pair",
             "_prune_after",
@@ -111,7 +116,31 @@ if TYPE_CHECKING or not IS_NATIVE:
         )
 
 else:
-    from tftool.frames._kernel import Fields
+    from tftool.frames import _kernel
+
+    class Fields(_kernel.Fields):
+        """The kernel's, and what it leaves to be worked out when it is needed."""
+
+        __slots__ = ()
+
+        @property
+        def newest(self) -> "Sample | None":
+            """What was set, or what was put in since."""
+            if self._newest is None and self.count > 0:
+                self._newest = _unpack_pose(self.records, RECORD * self.count - 56)
+            return self._newest
+
+        @newest.setter
+        def newest(self, sample: "Sample | None") -> None:
+            self._newest = sample
+
+        @property
+        def _prune_after(self) -> Stamp:
+            return self.oldest_stamp + self.limit
+
+        @_prune_after.setter
+        def _prune_after(self, stamp: Stamp) -> None:
+            pass
 
 
 class StaticLink(Fields):
@@ -203,18 +232,16 @@ class History(Fields):
         self.newest_stamp: Stamp = 0
         self.oldest_stamp: Stamp = 0
         self.newest: Sample | None = None
+        # A newest stamp beyond this means that the oldest sample is to be pruned.
+        self._prune_after: Stamp = 0
         # The last two samples as they lie in `records`; read when they are first asked for.
         self._newest_pair: poses.Pair | None = None
         self.parent: int = NO_PARENT
         self.origin: int = NO_PARENT
         self.origins: array[int] | None = None
         self.mixed: bool = False
-        # Whether the records belong to a recording too, which must not see them change.
-        self._borrowed: bool = False
         # So many pruned records are too many to leave where they are.
         self._compact_at: int = _LEAST_SLACK
-        # A newest stamp beyond this means that the oldest sample is to be pruned.
-        self._prune_after: Stamp = 0
         # Where the newest samples that share a parent begin; of use while mixed.
         self._newest_parent_start: int = 0
 
@@ -394,12 +421,12 @@ class History(Fields):
         if not validated:
             # NaN is not below anything; nor is a place so far off that it cannot be told from it.
             if not (
-                stamp.__class__ is int
+                type(stamp) is int
                 and SHORTEST < qx * qx + qy * qy + qz * qz + qw * qw < LONGEST
                 and x + y + z < inf
             ):
                 return self._insert_scaled(stamp, origin, sample)
-            if qw < -0.5 or (qw <= 0.5 and quaternions.leading(qx, qy, qz, qw) < 0.0):
+            if qw <= 0.5 and quaternions.leading(qx, qy, qz, qw) < 0.0:
                 qx *= -1.0
                 qy *= -1.0
                 qz *= -1.0
@@ -420,21 +447,21 @@ class History(Fields):
             else:
                 self.start = start
                 self.oldest_stamp = oldest
-                self._prune_after = prune_after if prune_after < LAST_STAMP else LAST_STAMP
-        records = self._own() if self._borrowed else self.records
+                self._prune_after = prune_after
         if IS_NATIVE:
-            # In place of the room that the kernel makes behind.
-            self._splice(self.count, len(records) // WORDS, array("q", record))
+            self._have_room()
+            self.records[WORDS * self.count : WORDS * (self.count + 1)] = array("q", record)
         else:
             try:
-                records.frombytes(record)
-            except BufferError:
+                self.records.frombytes(record)
+            except (AttributeError, BufferError):
+                # Borrowed, or read by a batch.
                 self._splice(self.count, self.count, array("q", record))
         self.count += 1
         self.newest_stamp = stamp
         self.newest = sample
         self._newest_pair = None
-        if origin == self.origin and self.origins is None:
+        if origin is self.origin and self.origins is None:
             return STORED
         return self._append_origin(origin)
 
@@ -448,6 +475,8 @@ class History(Fields):
 
     def _append_origin(self, origin: int) -> int:
         """Note the origin of the sample just appended."""
+        if origin == self.origin and self.origins is None:
+            return STORED
         count = self.count
         parent = origin & PARENT_MASK
         if self.parent == NO_PARENT:
@@ -487,6 +516,8 @@ class History(Fields):
             return PARENT_CHANGED
         if newest > self._prune_after:
             self._prune(newest - self.limit)
+        if IS_NATIVE:
+            self._have_room()
         if stamp < newest - self.limit:
             return TOO_OLD
         place = self._after(stamp)
@@ -540,35 +571,35 @@ class History(Fields):
             self.start = room
             self.count += room
             self._newest_parent_start += room
-        elif self._borrowed or self._is_read():
+        elif self._is_read():
             # That place may hold a sample which was pruned after the batch began.
-            self._own()
+            self.records = _copied(self.records, 0, len(self.records) // WORDS)
         return self.start - 1
 
     def _splice(self, start: int, stop: int, words: "array[int]") -> None:
         """Put records in place of those from `start` up to, but not including, `stop`."""
         where = slice(WORDS * start, WORDS * stop)
-        if not self._borrowed:
-            try:
-                self.records[where] = words
-            except BufferError:
-                # A batch reads them, which keeps the array as it is.
-                pass
-            else:
-                return
-        records = _copied(self.records, 0, len(self.records) // WORDS)
-        records[where] = words
-        self.records = records
-        self._borrowed = False
+        try:
+            self.records[where] = words
+        except (BufferError, TypeError, ValueError):
+            # A batch reads them, which keeps the array as it is; or they are borrowed.
+            self.records = _copied(self.records, 0, len(self.records) // WORDS)
+            self.records[where] = words
 
     def _is_read(self) -> bool:
-        """Whether a batch reads the records right now."""
+        """Whether the array must stay as it is: a batch reads it, or it is borrowed."""
         try:
             self.records.append(0)
             self.records.pop()
-        except BufferError:
+        except (AttributeError, BufferError):
             return True
         return False
+
+    def _have_room(self) -> None:
+        """Have room behind the newest sample, for those that the kernel is to put in."""
+        if self.count == len(self.records) // WORDS:
+            room = max(_LEAST_ROOM, min(self.count, _MOST_ROOM), self.count >> _ROOM)
+            self._splice(self.count, self.count, array("q", bytes(RECORD * room)))
 
     # Many at once
 
@@ -588,15 +619,11 @@ class History(Fields):
         if self.oldest_stamp < oldest_kept:
             self._prune(oldest_kept)
 
-    def replace(self, records: "Words", origins: "array[int]", count: int | None = None) -> None:
-        """Remember these instead: not none, oldest first, of equal stamps the newest last.
-
-        Only so many of them, if that is said.
-        """
+    def replace(self, records: "Words", origins: "array[int]") -> None:
+        """Remember these instead: not none, oldest first, of equal stamps the newest last."""
         # Of what is borrowed nothing is asked that a view cannot do.
         self.records = cast("array[int]", records)
-        self.count = len(records) // WORDS if count is None else count
-        self._borrowed = False
+        self.count = len(records) // WORDS
         self._compact_at = max(_LEAST_SLACK, self.count >> _SLACK)
         self._begin(0)
         self._note_newest()
@@ -606,19 +633,13 @@ class History(Fields):
         self._newest_parent_start = self._find_newest_parent_start()
         self.mixed = self._newest_parent_start > 0
 
-    def borrow(self, records: "Words", origin: int, count: int | None = None) -> None:
+    def borrow(self, records: "Words", origin: int) -> None:
         """Remember these instead, each newer than the one before, all of one origin.
 
         They are copied only when something is inserted or pruned: until then they may lie in
-        memory of others.
-
-        Args:
-            records: See the head of this module.
-            origin: Likewise.
-            count: How many of them, if not all.
+        memory of others, and `records` is a view that cannot be written to.
         """
-        self.replace(records, array("q", [origin]), count)
-        self._borrowed = True
+        self.replace(memoryview(records).toreadonly(), array("q", [origin]))
 
     def lend(self, other: "History", origin: int, until: Stamp) -> bool:
         """Let another history remember the samples up to a stamp as well, uncopied.
@@ -642,15 +663,10 @@ class History(Fields):
                 last = middle
         if first:
             # Neither may write into what both have.
-            self._borrowed = True
-            other.borrow(self.records, origin, first)
+            shared = memoryview(self.records).toreadonly()
+            self.records = cast("array[int]", shared[: WORDS * self.count])
+            other.borrow(shared[: WORDS * first], origin)
         return True
-
-    def _own(self) -> "array[int]":
-        """Copy records that were borrowed, before they change."""
-        self.records = _copied(self.records, 0, self.count)
-        self._borrowed = False
-        return self.records
 
     def _find_newest_parent_start(self) -> int:
         """Where the newest samples that share a parent begin."""
@@ -693,6 +709,9 @@ class History(Fields):
                 del self.origins[:start]
                 if self.origins.count(self.origin) == len(self.origins):
                     self.origins = None
+            if IS_NATIVE:
+                # What is pruned makes room for as many.
+                self._splice(self.count, self.count, array("q", bytes(RECORD * start)))
             self._newest_parent_start -= start
             start = 0
             self._compact_at = max(_LEAST_SLACK, self.count >> _SLACK)
@@ -702,7 +721,7 @@ class History(Fields):
         """Have the samples begin at a record."""
         self.start = start
         self.oldest_stamp = oldest = self._stamp(start)
-        self._prune_after = min(oldest + self.limit, LAST_STAMP)
+        self._prune_after = oldest + self.limit
 
 
 def _copied(records: Words, start: int, stop: int) -> "array[int]":
