@@ -443,7 +443,7 @@ class Buffer(Door):
             ExtrapolationException: If a link has no data for that moment.
             TypeError: If `time` is not a whole number.
         """
-        if time.__class__ is not int:
+        if type(time) is not int:
             time = whole(time)
         pose: Transform | None = None
         try:
@@ -647,7 +647,7 @@ class Buffer(Door):
 
     def can_transform(self, target_frame: str, source_frame: str, time: Stamp = 0) -> bool:
         """Whether `lookup_transform` would answer; it never raises for a name or a time."""
-        if time.__class__ is not int:
+        if type(time) is not int:
             time = whole(time)
         try:
             path = self._paths.get(target_frame, _NO_PATHS).get(source_frame)

@@ -279,9 +279,7 @@ class History(Fields):
                 pair = _unpack_pair(self.records, RECORD * self.index(time))
         if self.mixed and self.parent_changes_after(time):
             return pair[1:8]
-        before = pair[0]
-        # A quotient of whole numbers: as floats, stamps of today are 256 ns apart.
-        return poses.interpolate(pair, (time - before) / (pair[8] - before))
+        return poses.interpolate(pair, time)
 
     def parent_at(self, time: Stamp) -> int:
         """Number of the parent at that moment: the older neighbour's; NO_PARENT if there is none.
@@ -469,7 +467,7 @@ class History(Fields):
         """Insert a sample whose quaternion is to be scaled, if nothing else is to be checked."""
         x, y, z, qx, qy, qz, qw = sample
         turn = quaternions.canonical(quaternions.unit((qx, qy, qz, qw)))
-        if stamp.__class__ is not int or x + y + z != x + y + z or turn[3] != turn[3]:
+        if type(stamp) is not int or x + y + z != x + y + z or turn[3] != turn[3]:
             return NEEDS_CHECK
         return self.insert(stamp, origin, (x, y, z, *turn), True)
 

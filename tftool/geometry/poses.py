@@ -18,22 +18,24 @@ Pair: TypeAlias = tuple[
 """Two poses, each with its stamp before it: whole nanoseconds, too large for a float's digits."""
 
 
-def interpolate(pair: Pair, share: float) -> Pose:
+def interpolate(pair: Pair, time: float) -> Pose:
     """The pose on the way from one to the other of two poses.
 
-    The translation goes straight, the rotation along the shorter arc at constant speed. At
-    share 0 it is the first pose, to the last bit.
+    The translation goes straight, the rotation along the shorter arc at constant speed. At the
+    first stamp it is the first pose, to the last bit.
 
     Args:
         pair: The two poses, each behind its stamp: 16 numbers.
-        share: Share of the way, from 0 to 1.
+        time: From the first stamp to the second.
 
     Source:
         Shoemake, "Animating Rotation with Quaternion Curves", SIGGRAPH 1985.
     """
-    _, x, y, z, ax, ay, az, aw, _, ux, uy, uz, bx, by, bz, bw = pair
-    if share == 0.0:
+    before, x, y, z, ax, ay, az, aw, after, ux, uy, uz, bx, by, bz, bw = pair
+    if time == before:
         return (x, y, z, ax, ay, az, aw)
+    # Stamps are whole numbers, and so is what is divided: as floats they are 256 ns apart.
+    share = (time - before) / (after - before)
     cosine = ax * bx + ay * by + az * bz + aw * bw
     take = 1.0
     if cosine < 0.0:
