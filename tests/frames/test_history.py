@@ -82,6 +82,11 @@ def on_the_way(start, end, share):
     return quaternions.multiply(start, (x * part, y * part, z * part, math.cos(half)))
 
 
+def put(link, stamp, origin, sample, *validated):
+    """Insert a sample of seven numbers."""
+    return link.insert(stamp, origin, (sample[:3], sample[3:]), *validated)
+
+
 def poses(x, turn=NO_TURN):
     return (float(x), 0.0, 0.0, *turn)
 
@@ -103,7 +108,7 @@ def test_a_naive_model_agrees(steps, limit, questions):
     history, model = History(limit), Model(limit)
     for stamp, parent, x, turn in steps:
         pose = poses(x, turn)
-        accepted = history.insert(stamp, parent, pose, True) != TOO_OLD
+        accepted = put(history, stamp, parent, pose, True) != TOO_OLD
         assert accepted is model.insert(stamp, parent, pose)
         assert history.items() == model.items
     assert len(history) == len(model.items)
@@ -132,9 +137,9 @@ def test_a_naive_model_agrees(steps, limit, questions):
 def test_distinct_stamps_may_arrive_in_any_order(order):
     in_order, shuffled = History(100), History(100)
     for stamp in range(12):
-        in_order.insert(stamp * 7, 0, poses(stamp))
+        put(in_order, stamp * 7, 0, poses(stamp))
     for stamp in order:
-        shuffled.insert(stamp * 7, 0, poses(stamp))
+        put(shuffled, stamp * 7, 0, poses(stamp))
 
     assert shuffled.items() == in_order.items()
     assert [shuffled.at(time) for time in range(78)] == [in_order.at(time) for time in range(78)]
@@ -145,7 +150,7 @@ def test_every_sample_of_a_long_history_is_found(jitter):
     history = History(10**12)
     stamps = [1 + 1000 * n + (n * 7919) % (jitter + 1) for n in range(5000)]
     for n, stamp in enumerate(stamps):
-        history.insert(stamp, 0, poses(n))
+        put(history, stamp, 0, poses(n))
 
     for n, stamp in enumerate(stamps[:-1]):
         assert history.at(stamp) == poses(n)
@@ -157,10 +162,10 @@ def test_every_sample_of_a_long_history_is_found(jitter):
 def test_a_rate_that_falls_misleads_no_search():
     history = History(10**9)
     for stamp in range(1, 101):
-        history.insert(stamp, 0, poses(stamp))
+        put(history, stamp, 0, poses(stamp))
     assert history.at(50) == poses(50)
     for stamp in range(1000, 11_000, 1000):
-        history.insert(stamp, 0, poses(stamp))
+        put(history, stamp, 0, poses(stamp))
 
     assert history.at(5500)[0] == pytest.approx(5500.0)
     assert history.at(60) == poses(60)
@@ -170,7 +175,7 @@ def test_stamps_with_gaps_of_every_size_are_found():
     history = History(10**18)
     stamps = [2**n for n in range(58)]
     for n, stamp in enumerate(stamps):
-        history.insert(stamp, 0, poses(n))
+        put(history, stamp, 0, poses(n))
 
     assert [history.at(stamp)[0] for stamp in stamps] == list(range(58))
     assert history.at(2**40 + 1)[0] == pytest.approx(40.0)
@@ -180,7 +185,7 @@ def test_stamps_with_gaps_of_every_size_are_found():
 def test_the_window_slides_and_holds_no_more_than_it_must():
     history = History(100)
     for stamp in range(100_000):
-        history.insert(stamp, stamp % 1000 // 999, poses(stamp))
+        put(history, stamp, stamp % 1000 // 999, poses(stamp))
 
     assert len(history) == 102
     assert history.oldest_stamp == 100_000 - 102
@@ -189,13 +194,13 @@ def test_the_window_slides_and_holds_no_more_than_it_must():
 
 def test_a_mix_of_parents_ends_when_the_old_one_is_forgotten():
     history = History(10)
-    history.insert(1, 0, poses(1))
-    assert history.insert(2, 1, poses(2)) == PARENT_CHANGED
+    put(history, 1, 0, poses(1))
+    assert put(history, 2, 1, poses(2)) == PARENT_CHANGED
     assert history.mixed
-    assert history.insert(11, 1, poses(11)) == STORED
+    assert put(history, 11, 1, poses(11)) == STORED
     assert history.mixed
-    history.insert(12, 1, poses(12))
-    history.insert(13, 1, poses(13))
+    put(history, 12, 1, poses(12))
+    put(history, 13, 1, poses(13))
 
     assert not history.mixed
     assert history.parent == 1
@@ -205,16 +210,16 @@ def test_a_mix_of_parents_ends_when_the_old_one_is_forgotten():
 def test_a_late_sample_of_another_parent_makes_a_mix():
     history = History(100)
     for stamp in (10, 20, 30):
-        history.insert(stamp, 0, poses(stamp))
+        put(history, stamp, 0, poses(stamp))
 
-    assert history.insert(25, 1, poses(25)) == PARENT_CHANGED
+    assert put(history, 25, 1, poses(25)) == PARENT_CHANGED
     assert [history.parent_at(time) for time in (20, 25, 29, 30, 0)] == [0, 1, 1, 0, 0]
 
 
 def test_samples_that_arrive_backwards_are_all_kept():
     history = History(10**6)
     for stamp in range(1000, 0, -1):
-        history.insert(stamp, stamp // 500, poses(stamp))
+        put(history, stamp, stamp // 500, poses(stamp))
 
     assert [one[0] for one in history.items()] == list(range(1000, 0, -1))
     assert [one[1] for one in history.items()] == [stamp // 500 for stamp in range(1000, 0, -1)]
@@ -223,17 +228,17 @@ def test_samples_that_arrive_backwards_are_all_kept():
 
 def test_the_same_sample_twice_is_one():
     history = History(100)
-    assert history.insert(5, 0, poses(1)) == PARENT_CHANGED
-    assert history.insert(5, 0, poses(1)) == KNOWN
-    assert history.insert(5, 0, poses(2)) == STORED
+    assert put(history, 5, 0, poses(1)) == PARENT_CHANGED
+    assert put(history, 5, 0, poses(1)) == KNOWN
+    assert put(history, 5, 0, poses(2)) == STORED
     assert len(history) == 2
 
 
 def test_a_stamp_beyond_64_bits_changes_nothing():
     history = History(100)
-    history.insert(5, 0, poses(1))
+    put(history, 5, 0, poses(1))
     with pytest.raises(struct.error):
-        history.insert(2**63, 0, poses(2))
+        put(history, 2**63, 0, poses(2))
 
     assert history.items() == [(5, 0, poses(1))]
     assert history.at(0) == poses(1)
@@ -244,7 +249,7 @@ def test_a_sample_just_as_it_came_is_kept_scaled_and_with_tf2s_sign(turn, scale)
     history = History(100)
     came = tuple(scale * number for number in turn)
 
-    assert history.insert(1, 0, (1.0, 2.0, 3.0, *came)) == PARENT_CHANGED
+    assert put(history, 1, 0, (1.0, 2.0, 3.0, *came)) == PARENT_CHANGED
 
     assert history.at(1)[:3] == (1.0, 2.0, 3.0)
     assert history.at(1)[3:] == quaternions.canonical(quaternions.unit(came))
@@ -263,15 +268,15 @@ def test_a_sample_just_as_it_came_is_kept_scaled_and_with_tf2s_sign(turn, scale)
 def test_a_sample_with_a_number_that_is_none_needs_a_check(sample):
     history = History(100)
 
-    assert history.insert(1, 0, sample) == NEEDS_CHECK
+    assert put(history, 1, 0, sample) == NEEDS_CHECK
     assert history.items() == []
 
 
 def test_a_static_link_answers_at_all_times():
     link = StaticLink()
     assert link.items() == []
-    assert link.insert(7, 3, poses(1)) == PARENT_CHANGED
-    assert link.insert(9, 3, poses(1)) == KNOWN
+    assert put(link, 7, 3, poses(1)) == PARENT_CHANGED
+    assert put(link, 9, 3, poses(1)) == KNOWN
 
     assert link.at(10**18) == poses(1)
     assert link.parent_at(-5) == 3
@@ -282,7 +287,7 @@ def test_a_static_link_answers_at_all_times():
 
 def test_infinite_places_are_remembered_as_they_are():
     history = History(100)
-    history.insert(1, 0, (math.inf, 0.0, 0.0, *NO_TURN))
+    put(history, 1, 0, (math.inf, 0.0, 0.0, *NO_TURN))
 
     assert history.at(1)[0] == math.inf
     assert Vector3(*history.at(0)[:3]).x == math.inf
@@ -291,7 +296,7 @@ def test_infinite_places_are_remembered_as_they_are():
 def test_samples_decades_apart_are_interpolated_at_the_first_question():
     history = History(2**63 - 1)
     for stamp, x in ((1, 0.0), (10**18, 1.0), (3 * 10**18, 5.0)):
-        history.insert(stamp, 1, (x, 0.0, 0.0, *NO_TURN))
+        put(history, stamp, 1, (x, 0.0, 0.0, *NO_TURN))
 
     assert history.at(2 * 10**18)[0] == 3.0
     assert history.at(5 * 10**17)[0] == pytest.approx(0.5)
@@ -301,9 +306,9 @@ def test_a_sample_is_looked_for_among_the_last_of_its_stamp_alone():
     poses = [(float(x), 0.0, 0.0, *NO_TURN) for x in range(MOST_ALIKE + 1)]
     history = History(10)
     for pose in poses:
-        history.insert(5, 0, pose, True)
+        put(history, 5, 0, pose, True)
 
-    assert history.insert(5, 0, poses[1], True) == KNOWN
-    assert history.insert(5, 0, poses[0], True) == STORED
-    assert history.insert(5, 0, poses[0], True) == KNOWN
+    assert put(history, 5, 0, poses[1], True) == KNOWN
+    assert put(history, 5, 0, poses[0], True) == STORED
+    assert put(history, 5, 0, poses[0], True) == KNOWN
     assert len(history) == MOST_ALIKE + 2

@@ -247,7 +247,7 @@ def test_fields_that_no_history_has_are_survived(data):
 
     link = History(10**9)
     for stamp in (1, 2, 3):
-        link.insert(stamp * 10**9, 5, (0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 1.0))
+        link.insert(stamp * 10**9, 5, Transform())
     for name in data.draw(
         st.lists(st.sampled_from(["start", "count", "newest_stamp", "oldest_stamp", "limit"]))
     ):

@@ -60,7 +60,6 @@ _TURNS: Final = 4096
 
 _NO_PATHS: dict[str, Path] = {}
 _new: Final = tuple.__new__
-_joined: Final = tuple.__add__
 
 
 class Shortened(NamedTuple):
@@ -169,9 +168,10 @@ class Buffer(Door):
             stamp, parent, child, pose = transform
             known_parent, known_authority, origin, history = self._senders[child]
             outcome = (
-                # (*translation, *rotation) would take a tenth longer.
-                history.insert(stamp, origin, _joined(pose.translation, pose.rotation))
-                if parent == known_parent and authority == known_authority
+                history.insert(stamp, origin, pose)
+                if parent == known_parent
+                and authority == known_authority
+                and pose.__class__ is Transform
                 else NEEDS_CHECK
             )
         except _NOT_PLAIN:
@@ -226,9 +226,9 @@ class Buffer(Door):
 
         known = len(trees.frames)
         frame, link, fresh = trees.hang(child, parent, static)
-        sample = (*pose.translation, *rotation)
+        pose = rigid.transform(pose.translation, rotation)
         origin = trees.origin(parent, authority)
-        outcome = link.insert(stamp, origin, sample, True)
+        outcome = link.insert(stamp, origin, pose, True)
         # A name that comes up is news even if the sample is refused; a parent that was
         # known is none, or each new child would wake every request below its parent.
         named = [new.name for new in trees.frames[known:]]
@@ -240,7 +240,7 @@ class Buffer(Door):
         if fresh or outcome == PARENT_CHANGED:
             self._solver.drop_paths()
         if self._listening or self._pending:
-            kept = _stamped(parent, child, stamp, sample)
+            kept = TransformStamped(stamp, parent, child, pose)
             self._tell((kept,), static, authority, (child, *named))
         return True
 
@@ -352,7 +352,7 @@ class Buffer(Door):
         links = [
             (frame, frame.link)
             for frame in self._tree.frames
-            if isinstance(frame.link, History) and frame.link.newest is not None
+            if isinstance(frame.link, History) and frame.link
         ]
         sizes = [len(link) for _, link in links]
         room = limit // RECORD

@@ -12,8 +12,8 @@ How a moving link's samples lie in memory, which the batch path and `Buffer.samp
 - An *origin* is a sample's parent and authority in one word: the parent's number in the low 32
   bits, the authority's above them. As long as all samples have the same origin, `origin` is
   all there is; from the first other one on, `origins` holds one word for each record.
-- The newest sample, and the newest two once they are asked for, are kept as tuples too, so
-  that most questions touch no array.
+- The newest sample and the newest two are kept as tuples too once they are asked for, so that
+  most questions touch no array.
 """
 
 import struct
@@ -99,13 +99,13 @@ if TYPE_CHECKING or not IS_NATIVE:
 
         __slots__ = (
             "_compact_at",
+            "_newest",
             "_newest_pair",
             "_prune_after",
             "count",
             "is_static",
             "limit",
             "mixed",
-            "newest",
             "newest_stamp",
             "oldest_stamp",
             "origin",
@@ -124,17 +124,6 @@ else:
         __slots__ = ()
 
         @property
-        def newest(self) -> "Sample | None":
-            """What was set, or what was put in since."""
-            if self._newest is None and self.count > 0:
-                self._newest = _unpack_pose(self.records, RECORD * self.count - 56)
-            return self._newest
-
-        @newest.setter
-        def newest(self, sample: "Sample | None") -> None:
-            self._newest = sample
-
-        @property
         def _prune_after(self) -> Stamp:
             return self.oldest_stamp + self.limit
 
@@ -148,7 +137,6 @@ class StaticLink(Fields):
 
     Attributes:
         is_static: True.
-        newest: The sample; None before there is one.
         newest_stamp: 0, as in tf2.
         oldest_stamp: 0.
         parent: Number of the parent; NO_PARENT before there is one.
@@ -160,7 +148,7 @@ class StaticLink(Fields):
 
     def __init__(self, newest: Sample | None = None) -> None:
         self.is_static: Literal[True] = True
-        self.newest: Sample | None = newest
+        self._newest: Sample | None = newest
         self.newest_stamp: Stamp = 0
         self.oldest_stamp: Stamp = 0
         self.parent: int = NO_PARENT
@@ -170,26 +158,32 @@ class StaticLink(Fields):
     def __len__(self) -> int:
         return 1
 
+    @property
+    def newest(self) -> Sample | None:
+        """The sample; None before there is one."""
+        return self._newest
+
     def at(self, time: Stamp) -> Sample:
         """The one pose, whatever the moment; NO_POSE before there is one."""
-        return self.newest if self.newest is not None else NO_POSE
+        return self._newest or NO_POSE
 
     def parent_at(self, time: Stamp) -> int:
         """The one parent, whatever the moment."""
         return self.parent
 
-    def insert(self, stamp: Stamp, origin: int, sample: Any, validated: bool = True) -> int:
+    def insert(self, stamp: Stamp, origin: int, pose: Any, validated: bool = True) -> int:
         """Put a sample in place of the one that was there; KNOWN or PARENT_CHANGED."""
         parent = origin & PARENT_MASK
-        known = parent == self.parent and sample == self.newest
+        sample = (*pose[0], *pose[1])
+        known = parent == self.parent and sample == self._newest
         self.origin = origin
         self.parent = parent
-        self.newest = sample
+        self._newest = sample
         return KNOWN if known else PARENT_CHANGED
 
     def items(self) -> list[tuple[Stamp, int, Sample]]:
         """The one sample, at stamp 0: stamp, parent's number, pose."""
-        return [] if self.newest is None else [(0, self.parent, self.newest)]
+        return [] if self._newest is None else [(0, self.parent, self._newest)]
 
 
 class History(Fields):
@@ -203,7 +197,6 @@ class History(Fields):
         limit: How far it remembers back from its newest sample.
         newest_stamp: Stamp of the newest sample; 0 when there is none.
         oldest_stamp: Stamp of the oldest sample; 0 likewise.
-        newest: The newest sample itself; None when there is none.
         parent: Number of the newest sample's parent; NO_PARENT when there is none.
         origin: The newest sample's origin; see the head of this module.
         origins: One for each record; None while all are the same.
@@ -231,7 +224,8 @@ class History(Fields):
         self.count: int = 0
         self.newest_stamp: Stamp = 0
         self.oldest_stamp: Stamp = 0
-        self.newest: Sample | None = None
+        # The newest sample, read when it is first asked for.
+        self._newest: Sample | None = None
         # A newest stamp beyond this means that the oldest sample is to be pruned.
         self._prune_after: Stamp = 0
         # The last two samples as they lie in `records`; read when they are first asked for.
@@ -250,6 +244,13 @@ class History(Fields):
 
     # Asking
 
+    @property
+    def newest(self) -> Sample | None:
+        """The newest sample itself; None when there is none."""
+        if self._newest is None and self.count:
+            self._newest = self._sample(self.count - 1)
+        return self._newest
+
     def at(self, time: Stamp) -> Sample:
         """The pose at that moment (0: the newest), interpolated; NO_POSE if there is none.
 
@@ -258,8 +259,8 @@ class History(Fields):
         newest = self.newest_stamp
         if not self.oldest_stamp < time < newest:
             if time == newest or time == 0:
-                return self.newest if self.newest is not None else NO_POSE
-            if time == self.oldest_stamp and self.newest is not None:
+                return self._newest or self.newest or NO_POSE
+            if time == self.oldest_stamp and self.count:
                 return self._sample(self.start)
             return NO_POSE
         # Most questions fall between the last two: without them at hand, latest and recent
@@ -288,7 +289,7 @@ class History(Fields):
         """
         if time == self.newest_stamp or time == 0:
             return self.parent
-        if self.newest is None or not self.oldest_stamp <= time < self.newest_stamp:
+        if not self.count or not self.oldest_stamp <= time < self.newest_stamp:
             return NO_PARENT
         if not self.mixed:
             return self.parent
@@ -340,7 +341,7 @@ class History(Fields):
     def parents(self) -> set[int]:
         """The number of every parent that a remembered sample has."""
         if not self.mixed or self.origins is None:
-            return {self.parent} if self.newest is not None else set()
+            return {self.parent} if self.count else set()
         return {origin & PARENT_MASK for origin in set(self.origins[self.start :])}
 
     def parent_changes_after(self, time: Stamp) -> bool:
@@ -396,14 +397,14 @@ class History(Fields):
 
     # Inserting
 
-    def insert(self, stamp: Stamp, origin: int, sample: Any, validated: bool = False) -> int:
+    def insert(self, stamp: Stamp, origin: int, pose: Any, validated: bool = False) -> int:
         """Prune what is too old by now, then remember a sample.
 
         Args:
             stamp: Nanoseconds.
             origin: Its parent's and its authority's number in one word.
-            sample: Seven floats just as they came, the quaternion not always of length one
-                or of tf2's sign.
+            pose: Three and four floats just as they came, the quaternion not always of length
+                one or of tf2's sign.
             validated: Whether stamp and numbers were checked and the quaternion is of length
                 one and of tf2's sign.
 
@@ -415,7 +416,7 @@ class History(Fields):
         Raises:
             struct.error: If the stamp does not fit 64 bits; nothing was done.
         """
-        x, y, z, qx, qy, qz, qw = sample
+        (x, y, z), (qx, qy, qz, qw) = pose
         if not validated:
             # NaN is not below anything; nor is a place so far off that it cannot be told from it.
             if not (
@@ -423,17 +424,16 @@ class History(Fields):
                 and SHORTEST < qx * qx + qy * qy + qz * qz + qw * qw < LONGEST
                 and x + y + z < inf
             ):
-                return self._insert_scaled(stamp, origin, sample)
+                return self._insert_scaled(stamp, origin, pose)
             if qw <= 0.5 and quaternions.leading(qx, qy, qz, qw) < 0.0:
                 qx *= -1.0
                 qy *= -1.0
                 qz *= -1.0
                 qw *= -1.0
-                sample = (x, y, z, qx, qy, qz, qw)
         newest = self.newest_stamp
         if stamp <= newest:
             late = array("q", _pack(stamp, x, y, z, qx, qy, qz, qw))
-            return self._insert_late(stamp, origin, sample, late)
+            return self._insert_late(stamp, origin, late)
         record = _pack(stamp, x, y, z, qx, qy, qz, qw)
         if newest > self._prune_after:
             # As a rule every sample that comes prunes one.
@@ -457,19 +457,18 @@ class History(Fields):
                 self._splice(self.count, self.count, array("q", record))
         self.count += 1
         self.newest_stamp = stamp
-        self.newest = sample
-        self._newest_pair = None
+        self._newest = self._newest_pair = None
         if origin is self.origin and self.origins is None:
             return STORED
         return self._append_origin(origin)
 
-    def _insert_scaled(self, stamp: Any, origin: int, sample: Any) -> int:
+    def _insert_scaled(self, stamp: Any, origin: int, pose: Any) -> int:
         """Insert a sample whose quaternion is to be scaled, if nothing else is to be checked."""
-        x, y, z, qx, qy, qz, qw = sample
-        turn = quaternions.canonical(quaternions.unit((qx, qy, qz, qw)))
+        (x, y, z), turn = pose
+        turn = quaternions.canonical(quaternions.unit(turn))
         if type(stamp) is not int or x + y + z != x + y + z or turn[3] != turn[3]:
             return NEEDS_CHECK
-        return self.insert(stamp, origin, (x, y, z, *turn), True)
+        return self.insert(stamp, origin, ((x, y, z), turn), True)
 
     def _append_origin(self, origin: int) -> int:
         """Note the origin of the sample just appended."""
@@ -499,16 +498,15 @@ class History(Fields):
             origins = self.origins = array("q", [self.origin]) * count
         return origins
 
-    def _insert_late(self, stamp: Stamp, origin: int, sample: Any, record: "array[int]") -> int:
+    def _insert_late(self, stamp: Stamp, origin: int, record: "array[int]") -> int:
         """Insert the first sample, or one that is not newer than all others."""
         newest = self.newest_stamp
         parent = origin & PARENT_MASK
-        if self.newest is None:
+        if not self.count:
             self.records = record
             self.count = 1
             self._begin(0)
             self.newest_stamp = stamp
-            self.newest = sample
             self.parent = parent
             self.origin = origin
             return PARENT_CHANGED
@@ -520,6 +518,7 @@ class History(Fields):
             return TOO_OLD
         place = self._after(stamp)
         behind = place - 1
+        sample = _unpack_pose(record, 8)
         # Not all of them: who never sets a stamp has every sample look at those before.
         last = max(self.start, place - MOST_ALIKE)
         while behind >= last and self._stamp(behind) == stamp:
@@ -550,7 +549,7 @@ class History(Fields):
         self._newest_pair = None
         if place == self.count - 1:
             # Equal to the newest stamp: the one that came last is in front.
-            self.newest = sample
+            self._newest = sample
             self.origin = origin
             if changes:
                 self.parent = parent
@@ -678,8 +677,8 @@ class History(Fields):
     def _note_newest(self) -> None:
         """Keep the newest sample at hand."""
         last = self.count - 1
-        self.newest_stamp, self.newest = self._stamp(last), self._sample(last)
-        self._newest_pair = None
+        self.newest_stamp = self._stamp(last)
+        self._newest = self._newest_pair = None
 
     # Pruning
 

@@ -359,7 +359,7 @@ class FrameTree:
         frame = source
         while True:
             link = frames[frame].link
-            if link is None or link.newest is None:
+            if link is None or link.parent < 0:
                 break
             stamps.append(link.newest_stamp)
             frame = link.parent
@@ -373,7 +373,7 @@ class FrameTree:
         frame = target
         while True:
             link = frames[frame].link
-            if link is None or link.newest is None:
+            if link is None or link.parent < 0:
                 return UNCONNECTED, 0
             ours.append(link.newest_stamp)
             frame = link.parent
