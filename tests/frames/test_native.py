@@ -425,20 +425,3 @@ def test_a_batch_and_its_plain_twin_agree(poses, moments, ordered):
         twins_raised = twins.ask("lookup_transforms", target, source, asked)
         if isinstance(twins_raised[0], tuple):
             assert repr(twins_raised[0]) == repr(twins_raised[1])
-
-
-def test_records_are_looked_at_within_their_array_alone():
-    from tftool.frames import _kernel
-
-    rows = np.zeros((3, 8), dtype=np.int64)
-    rows[:, 0] = 1, 2, 2
-    rows.view(np.float64)[:, 7] = 1.0
-
-    assert _kernel.are_kept(rows, 0, 2)
-    assert _kernel.are_kept(rows, 3, 3)
-    assert not _kernel.are_kept(rows, 2, 3)
-    for begin, end in ((-1, 2), (2, 1), (0, 4), (4, 4)):
-        with pytest.raises(ValueError, match="no such records"):
-            _kernel.are_kept(rows, begin, end)
-    with pytest.raises(TypeError):
-        _kernel.are_kept(rows, 0)

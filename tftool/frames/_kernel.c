@@ -917,36 +917,10 @@ done:
     return result;
 }
 
-/* Records that are kept as they are ---------------------------------------- */
-
-PyDoc_STRVAR(are_kept_doc, "are_kept(records, begin, end)\n--\n\n"
-"Whether these records can be a history's as they are; see `_kernel.pyi`.");
-
-static PyObject *are_kept(PyObject *Py_UNUSED(module), PyObject *args) {
-    Py_buffer view;
-    Py_ssize_t begin, end;
-    if (!PyArg_ParseTuple(args, "y*nn:are_kept", &view, &begin, &end))
-        return NULL;
-    if (begin < 0 || begin > end || end > view.len / RECORD) {
-        PyBuffer_Release(&view);
-        return PyErr_Format(PyExc_ValueError, "there are no such records");
-    }
-    const char *records = view.buf;
-    int kept = 1;
-    for (Py_ssize_t row = begin; row < end && kept; row++) {
-        double pose[7];
-        memcpy(pose, records + RECORD * row + WORD, sizeof pose);
-        kept = is_kept(pose) && (row == 0 || stamp_of(records, row) > stamp_of(records, row - 1));
-    }
-    PyBuffer_Release(&view);
-    return PyBool_FromLong(kept);
-}
-
 /* The module ------------------------------------------------------------- */
 
 static PyMethodDef methods[] = {
-    {"are_kept", are_kept, METH_VARARGS, are_kept_doc}, {"solve", solve, METH_VARARGS, solve_doc},
-    {NULL, NULL, 0, NULL},
+    {"solve", solve, METH_VARARGS, solve_doc}, {NULL, NULL, 0, NULL},
 };
 
 /* A class of a module of ours that is a kind of tuple; NULL with an error set if not. */

@@ -47,19 +47,3 @@ def solve(
     /,
 ) -> int:
     """Poses of a path at many moments; how many rows have none."""
-
-def are_kept(records: object, begin: int, end: int, /) -> bool:
-    """Whether a history can keep records as they are: what `batch.insert.adopt` asks of a block.
-
-    Args:
-        records: One row a sample, 64 bytes each.
-        begin: The first one in question.
-        end: The one behind the last.
-
-    Returns:
-        Whether each of them is newer than the one before it, finite, and of a unit quaternion
-        with tf2's sign.
-
-    Raises:
-        ValueError: If there are not so many.
-    """

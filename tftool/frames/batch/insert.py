@@ -20,13 +20,9 @@ from tftool.frames.history import (
     History,
     Sample,
 )
-from tftool.frames.native import IS_NATIVE
 from tftool.frames.tree import FrameTree, stripped
 from tftool.geometry import batch
 from tftool.geometry.batch import Floats
-
-if IS_NATIVE:
-    from tftool.frames import _kernel
 
 Flags: TypeAlias = npt.NDArray[np.bool_]
 """One yes or no for each row."""
@@ -216,9 +212,6 @@ def adopt(
         return False
     lent = words = _lent(records)
     for begin in range(kept, len(records), _BLOCK):
-        end = min(begin + _BLOCK, len(records))
-        if IS_NATIVE and _kernel.are_kept(lent, begin, end):
-            continue
         # With the one before: what lies in the cache is looked at only once.
         stamps = records[max(begin - 1, 0) : begin + _BLOCK, 0]
         samples = records[begin : begin + _BLOCK].view(np.float64)[:, 1:]
