@@ -37,7 +37,7 @@ class Runner:
 
     def do_insert(self, step: Step) -> None:
         fields(step, "stamp", "parent", "xyz", "q", "ok")
-        pose = (*step.get("xyz", (0.0, 0.0, 0.0)), *step.get("q", (0.0, 0.0, 0.0, 1.0)))
+        pose = (step.get("xyz", (0.0, 0.0, 0.0)), step.get("q", (0.0, 0.0, 0.0, 1.0)))
         outcome = self.link.insert(step["stamp"], self.number(step["parent"]), pose)
         assert (outcome != TOO_OLD) is step.get("ok", True)
 
