@@ -142,7 +142,11 @@ class Lookup(Subject):
     @property
     def problem(self) -> str:
         """What is wrong with the whole, empty when nothing is."""
-        return _two_times(self.time, self.target_time, self.source_time, self.fixed)
+        if self.fixed is None and (self.target_time or self.source_time):
+            return "two times need a fixed frame to go through: 'fixed'"
+        if self.fixed is not None and self.time is not None:
+            return "through a fixed frame there are two times, not one 'time'"
+        return ""
 
     def answer(self, scene: ScenarioWorld) -> Transform:
         """Find the answer, now."""
@@ -159,15 +163,20 @@ class Lookup(Subject):
         return found.transform
 
     def __str__(self) -> str:
-        if self.fixed is None:
-            return f"{self.source} in {self.target}{self.when}"
-        source, target = _at(self.source, self.source_time), _at(self.target, self.target_time)
-        return f"{source} in {target}, through {self.fixed},"
+        target, source, how = self.words
+        return f"{source} in {target}{how}"
 
     @property
-    def when(self) -> str:
-        """The one moment asked about, in words; empty for the latest."""
-        return "" if self.time is None else f" ({self.time})"
+    def words(self) -> tuple[str, str, str]:
+        """Target, source, and when or by way of what, in words."""
+        if self.fixed is None:
+            return self.target, self.source, "" if self.time is None else f" ({self.time})"
+        latest = RelativeMoment()
+        return (
+            f"{self.target} ({self.target_time or latest})",
+            f"{self.source} ({self.source_time or latest})",
+            f", through {self.fixed},",
+        )
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
@@ -184,7 +193,7 @@ class Between(Subject, ABC):
     @property
     def problem(self) -> str:
         """What is wrong with the whole, empty when nothing is."""
-        return _two_times(self.time, self.start_time, self.end_time, self.fixed)
+        return self.lookup.problem
 
     @property
     def lookup(self) -> Lookup:
@@ -210,10 +219,8 @@ class Distance(Between):
         return math.hypot(*self.lookup.answer(scene).translation)
 
     def __str__(self) -> str:
-        if self.fixed is None:
-            return f"distance from {self.start} to {self.end}{self.lookup.when}"
-        start, end = _at(self.start, self.start_time), _at(self.end, self.end_time)
-        return f"distance from {start} to {end}, through {self.fixed},"
+        start, end, how = self.lookup.words
+        return f"distance from {start} to {end}{how}"
 
 
 class Bearing(Between):
@@ -227,27 +234,8 @@ class Bearing(Between):
         return planar.bearing(self.lookup.answer(scene))
 
     def __str__(self) -> str:
-        if self.fixed is None:
-            return f"bearing of {self.end} from {self.start}{self.lookup.when}"
-        start, end = _at(self.start, self.start_time), _at(self.end, self.end_time)
-        return f"bearing of {end} from {start}, through {self.fixed},"
-
-
-def _at(frame: str, time: RelativeMoment | None) -> str:
-    return f"{frame} ({time or RelativeMoment()})"
-
-
-def _two_times(
-    time: RelativeMoment | None,
-    target_time: RelativeMoment | None,
-    source_time: RelativeMoment | None,
-    fixed: str | None,
-) -> str:
-    if fixed is None and (target_time or source_time):
-        return "two times need a fixed frame to go through: 'fixed'"
-    if fixed is not None and time is not None:
-        return "through a fixed frame there are two times, not one 'time'"
-    return ""
+        start, end, how = self.lookup.words
+        return f"bearing of {end} from {start}{how}"
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)

@@ -93,16 +93,9 @@ def _file(objects: list[bytes]) -> bytes:
 
 
 def _link(link: Curve) -> str:
-    x0, y0, x1, y1 = link.x0, link.y0, link.x1, link.y1
-    if link.down:
-        half = (y0 + y1) / 2
-        bends = (x0, half, x1, half, x1, y1)
-    else:
-        half = (x0 + x1) / 2
-        bends = (half, y0, half, y1, x1, y1)
     dash = "[5 4] 0 d" if link.static else "[] 0 d"
     ink = _colour(_STATIC_LINK if link.static else _LINK, "RG")
-    return f"{ink} 1.6 w {dash} {x0:.2f} {y0:.2f} m {_numbers(*bends)} c S"
+    return f"{ink} 1.6 w {dash} {link.x0:.2f} {link.y0:.2f} m {_numbers(*link.bends)} c S"
 
 
 def _box(box: Box) -> str:

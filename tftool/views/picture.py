@@ -80,6 +80,15 @@ class Curve:
     static: bool
     down: bool
 
+    @property
+    def bends(self) -> tuple[float, ...]:
+        """Its two control points and its end, as a cubic Bézier curve has them."""
+        if self.down:
+            half = (self.y0 + self.y1) / 2
+            return self.x0, half, self.x1, half, self.x1, self.y1
+        half = (self.x0 + self.x1) / 2
+        return half, self.y0, half, self.y1, self.x1, self.y1
+
 
 @dataclass(frozen=True, slots=True)
 class Picture:

@@ -54,15 +54,9 @@ def render(picture: Picture) -> str:
 
 
 def _link(link: Curve) -> str:
-    x0, y0, x1, y1 = link.x0, link.y0, link.x1, link.y1
-    if link.down:
-        half = (y0 + y1) / 2
-        bends = (x0, half, x1, half, x1, y1)
-    else:
-        half = (x0 + x1) / 2
-        bends = (half, y0, half, y1, x1, y1)
     style = ' class="still"' if link.static else ""
-    return f'<path{style} d="M{_number(x0)} {_number(y0)}C{" ".join(map(_number, bends))}"/>'
+    bends = " ".join(map(_number, link.bends))
+    return f'<path{style} d="M{_number(link.x0)} {_number(link.y0)}C{bends}"/>'
 
 
 def _box(box: Box) -> str:
