@@ -138,6 +138,27 @@ def test_who_leaves_takes_its_files_along(home):
     assert [each.name for each in member.folder.iterdir()] == ["lock"]
 
 
+@unix_only
+@pytest.mark.parametrize(
+    "put",
+    [
+        os.mkfifo,
+        lambda path: path.write_bytes(b"5"),
+        lambda path: path.write_bytes(b"[" * 100_000),
+        lambda path: path.write_bytes(b'["odom"'),
+    ],
+)
+def test_a_list_of_frames_that_is_none_holds_up_and_breaks_nothing(home, put):
+    with Rendezvous(0, home / "run") as member, listening(path_of(member.endpoint)):
+        member.tell_frames(["base"])
+        assert rendezvous.frames_known(0, home / "run") == ["base"]
+        (file,) = member.folder.glob("*.frames")
+        file.unlink()
+        put(file)
+
+        assert rendezvous.frames_known(0, home / "run") == []
+
+
 def test_without_unix_sockets_ports_of_the_loopback_are_filed(home, monkeypatch):
     monkeypatch.setattr(rendezvous, "HAS_UNIX_SOCKETS", False)
 

@@ -85,9 +85,10 @@ def frames_known(domain: int, home: Path | None = None) -> list[str]:
         members = {_member(Path(endpoint)) for endpoint, _ in _living(place, sweep=False)}
         for path in place.glob(f"*{FRAMES}"):
             if _member(path) in members:
-                with contextlib.suppress(OSError, ValueError), path.open("rb") as file:
-                    listed = json.loads(file.read(_LONGEST_LIST))
-                    found.update(name for name in listed if isinstance(name, str))
+                with contextlib.suppress(ValueError, RecursionError):
+                    listed = json.loads(_content_of(path, _LONGEST_LIST))
+                    if isinstance(listed, list):
+                        found.update(name for name in listed if isinstance(name, str))
     return sorted(found)
 
 
@@ -312,14 +313,19 @@ def _port_in(path: Path) -> int:
 
 
 def _text_of(path: Path) -> str:
-    """What a small file holds; "" of what is no plain file, a pipe say, which would hold us up."""
+    """What a small file holds."""
+    return _content_of(path, _LONGEST_TEXT).decode("ascii", "replace").strip()
+
+
+def _content_of(path: Path, longest: int) -> bytes:
+    """A file's first bytes; none of what is no plain file, a pipe say, which would hold us up."""
     flags = os.O_RDONLY | getattr(os, "O_NONBLOCK", 0) | getattr(os, "O_NOFOLLOW", 0)
     try:
         with open(os.open(path, flags), "rb") as file:
             plain = stat.S_ISREG(os.fstat(file.fileno()).st_mode)
-            return file.read(_LONGEST_TEXT).decode("ascii", "replace").strip() if plain else ""
+            return file.read(longest) if plain else b""
     except OSError:
-        return ""
+        return b""
 
 
 def _sweep(*paths: Path) -> None:
