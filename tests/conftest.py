@@ -5,12 +5,13 @@ import tempfile
 from pathlib import Path
 
 import pytest
-from hypothesis import settings
+from hypothesis import HealthCheck, settings
 
 # No test compares wall time, so hypothesis may not either; and a build machine draws the
 # same examples in every run, so that a red build means a change and not a lucky draw.
-settings.register_profile("desk", deadline=None)
-settings.register_profile("ci", deadline=None, derandomize=True)
+TIMELESS = {"deadline": None, "suppress_health_check": [HealthCheck.too_slow]}
+settings.register_profile("desk", **TIMELESS)
+settings.register_profile("ci", **TIMELESS, derandomize=True)
 settings.load_profile("ci" if os.environ.get("CI") else "desk")
 
 pytest_plugins = ["pytester", "tftool.ros.pytest_plugin"]
