@@ -206,7 +206,7 @@ def refusing_link(known: TraceResult) -> Reason:
     if trace.moment < first:
         return _before_start(known, link, track, first)
     if trace.moment > last:
-        return _stopped(link, track, trace, last)
+        return _stopped(link, trace, last)
     return _late(known, link, track)
 
 
@@ -284,7 +284,7 @@ def _before_start(known: TraceResult, link: TracedLink, track: Track, first: Sta
     )
 
 
-def _stopped(link: TracedLink, track: Track, trace: LookupTrace, last: Stamp) -> Reason:
+def _stopped(link: TracedLink, trace: LookupTrace, last: Stamp) -> Reason:
     return Reason(
         Cause.STOPPED,
         (

@@ -250,19 +250,19 @@ def rep105_shape(model: Model, limits: Limits) -> Iterator[Hit]:
             above = parent_of.get(base, "")
             chain = [track.parent for track in model.above(base)]
             if above in named["map"] and not set(named["odom"]) & set(chain):
-                yield _shape(model, (above, base), f"{base} hangs from {above}, beside odom")
+                yield _shape((above, base), f"{base} hangs from {above}, beside odom")
             for odom in named["odom"]:
                 if parent_of.get(odom) == base and set(chain) & set(named["map"]):
-                    yield _shape(model, (base, odom), f"{odom} hangs from {base}, below map")
+                    yield _shape((base, odom), f"{odom} hangs from {base}, below map")
     for foot in named["base_footprint"]:
         for link in named["base_link"]:
             above = parent_of.get(foot, "")
             if above in named["odom"] and parent_of.get(link) == above:
                 text = f"{foot} and {link} both hang from {above}"
-                yield _shape(model, (above, link), text, (above, foot))
+                yield _shape((above, link), text, (above, foot))
 
 
-def _shape(model: Model, edge: tuple[str, str], found: str, *more: tuple[str, str]) -> Hit:
+def _shape(edge: tuple[str, str], found: str, *more: tuple[str, str]) -> Hit:
     return Hit(
         edges=(edge, *more),
         frames=tuple(dict.fromkeys(name for one in (edge, *more) for name in one)),

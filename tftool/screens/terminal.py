@@ -142,7 +142,7 @@ class TurtleApp(PanelApp):
         self._dragged: tuple[int, int] | None = None
         self._rows_shown: tuple[str, ...] = ()
         self._journal = Journal(scene.world.log.records)
-        self._unlisten = scene.world.log.listen(self._journal.add, "screen")
+        scene.world.log.listen(self._journal.add, "screen")
 
     def begin(self, stamp: Stamp) -> None:
         """Count time from now on: the world begins to live. What is all there began before."""

@@ -393,15 +393,6 @@ class McapWriter:
             )
         )
 
-    def define_all(self) -> None:
-        """Put the records of every channel into the file, in front of chunks that are copied."""
-        for channel in self._channel_records:
-            if channel not in self._defined:
-                self._define(channel)
-        # Outside of a chunk: they are few, and readers without an index find them first.
-        pieces, self._pieces, self._length = self._pieces, [], 0
-        self._put(b"".join(pieces))
-
     def attach(
         self, name: str, media_type: str, data: bytes, log_time: Stamp = 0, create_time: Stamp = 0
     ) -> None:
