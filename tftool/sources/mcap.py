@@ -89,6 +89,7 @@ class Mcap:
         self._numbers: dict[int, int] = {}  # of a channel: its stream
         self._chunks: list[IndexedChunk] = []
         self._loose = WalkedMessages()
+        self._index_sizes: dict[int, int] = {}  # of a channel: bytes that one takes, about
         try:
             self._open(path)
         except BaseException:
@@ -455,13 +456,15 @@ class Mcap:
 
     def _pairs(self, channel: int, place: int) -> Stamps:
         """Log time and place of each message that a message index tells, shape (n, 2)."""
-        # As a rule all of a short one at once.
-        head = self._file.up_to(place, _INDEX_AT_ONCE)
+        # As a rule all of one at once: that of the chunk before was about as long.
+        guess = self._index_sizes.get(channel, _INDEX_AT_ONCE)
+        head = self._file.up_to(place, guess)
         code, length, told, count = _INDEX_HEAD.unpack_from(head)
         if code != _MESSAGE_INDEX or told != channel or count > length - 6 or count % 16:
             raise InputError(f"no message index of its is at byte {place}")
         if 15 + count > len(head):
-            head = head[:15] + self._file.at(place + 15, count)
+            head = self._file.at(place, 15 + count)
+        self._index_sizes[channel] = max(15 + count * 17 // 16, _INDEX_AT_ONCE)
         pairs = np.frombuffer(head, dtype=np.int64, count=count // 8, offset=15)
         return pairs.reshape(-1, 2)
 
