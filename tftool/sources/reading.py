@@ -171,9 +171,13 @@ class Recorded:
                     continue
                 if decode is not None:
                     of_stream[number] = Decoding(table, decode, static)
+        takers = set(of_stream.values())
         for batch in self._batches(of_stream.keys(), progress):
             first = table.note(batch.log_times, batch.senders)
             numbers = np.arange(first, first + len(batch), dtype=np.int32)
+            if len(takers) == 1:
+                next(iter(takers)).add(batch, numbers)
+                continue
             for taker, which in _by_cutter(batch, of_stream):
                 taker.add(batch.chosen(which), numbers[which])
         for one in cutters.values():
