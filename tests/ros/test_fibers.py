@@ -3,6 +3,7 @@ import threading
 
 import pytest
 
+from tests.patience import PATIENCE
 from tftool.errors import TftoolError
 from tftool.ros.host import fibers
 from tftool.ros.host.fibers import Fiber, StuckError
@@ -148,7 +149,7 @@ def test_a_busy_fiber_is_named_by_the_line_it_is_at_and_given_up_on_simulated_ti
             pass
 
     with pytest.raises(StuckError, match=r"'fiber 0' did not come to rest .*test_fibers\.py:\d+"):
-        drive(SimClock(), body, on_busy=told.append, patience=0.02, give_up=0.04)
+        drive(SimClock(), body, on_busy=told.append, patience=1.0, give_up=2.0)
 
     assert told[0].function == "body"
     assert told[0].text in ("while True:", "pass")
@@ -157,18 +158,21 @@ def test_a_busy_fiber_is_named_by_the_line_it_is_at_and_given_up_on_simulated_ti
 def test_a_busy_fiber_on_the_wall_clock_holds_up_nobody_and_can_be_interrupted():
     clock = WallClock()
     told, trace = [], []
+    begun, ended = threading.Event(), threading.Event()
 
     def busy():
         try:
+            begun.set()
             while True:
                 pass
         except KeyboardInterrupt:
             trace.append("interrupted")
+            ended.set()
 
     async def main():
         fiber = Fiber("busy", busy, strict=False, on_busy=told.append, patience=0.01)
         task = asyncio.get_running_loop().create_task(fiber.drive())
-        while not told:
+        while not (told and begun.is_set()):
             await clock.sleep(seconds(0.01))
         trace.append("others go on")
         task.cancel()
@@ -176,6 +180,7 @@ def test_a_busy_fiber_on_the_wall_clock_holds_up_nobody_and_can_be_interrupted()
 
     run(clock, main())
 
+    assert ended.wait(PATIENCE)
     assert trace == ["others go on", "interrupted"]
 
 
