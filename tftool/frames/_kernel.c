@@ -330,17 +330,6 @@ static int read_records(const Link *link, int flags, Py_buffer *view) {
     return 0;
 }
 
-/* A new tuple of that many floats; NULL with an error set on failure. */
-static PyObject *floats(PyTypeObject *type, const double *numbers, Py_ssize_t size) {
-    PyObject *made = PyType_GenericAlloc(type, size);
-    for (Py_ssize_t i = 0; made != NULL && i < size; i++) {
-        PyObject *number = PyFloat_FromDouble(numbers[i]);
-        if (number == NULL || PyTuple_SetItem(made, i, number) < 0)
-            Py_CLEAR(made);
-    }
-    return made;
-}
-
 /* One link made ready for moments: records in order, or a pose that never changes. */
 typedef struct {
     Py_buffer view, origins_view;
@@ -547,6 +536,14 @@ static PyObject *tuple_of(PyTypeObject *type, PyObject **parts, Py_ssize_t size)
         else
             PyTuple_SetItem(made, i, parts[i]);
     return made;
+}
+
+/* A new tuple of so many floats, four at most; NULL with an error set on failure. */
+static PyObject *floats(PyTypeObject *type, const double *numbers, Py_ssize_t size) {
+    PyObject *parts[4];
+    for (Py_ssize_t i = 0; i < size; i++)
+        parts[i] = PyFloat_FromDouble(numbers[i]);
+    return tuple_of(type, parts, size);
 }
 
 /* A TransformStamped; NULL with an error set on failure. */

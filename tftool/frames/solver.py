@@ -4,7 +4,7 @@ from typing import Final
 
 from tftool.errors import TransformException
 from tftool.frames import refusals, snapshot, tree
-from tftool.frames.history import IDENTITY, History, Sample
+from tftool.frames.history import History, Sample
 from tftool.frames.path import Path, path_of
 from tftool.frames.requests import AVAILABLE, EXPIRED, PENDING, Lookup
 from tftool.frames.tree import ARRIVED, LOOP, REFUSED, FrameTree, Walk
@@ -15,6 +15,8 @@ MOST_PATHS: Final = 20_000
 for each path anew rather than with memory."""
 
 _LOOKUP = "lookupTransform"
+
+_HERE: Final = Path((), (), ())
 
 
 class Solver:
@@ -35,7 +37,18 @@ class Solver:
     def pose(self, target: str, source: str, time: Stamp) -> tuple[Stamp, Sample]:
         """The pose of source in target and the moment it holds for, by walking.
 
-        Keeps the path for the next time where that is possible.
+        Raises:
+            TransformException: As `Buffer.lookup_transform` says.
+        """
+        time, path, _ = self.way(target, source, time)
+        pose = path.solve(time)
+        assert pose is not None, "a link that answers for its parent answers for its pose"
+        return time, (*pose.translation, *pose.rotation)
+
+    def way(self, target: str, source: str, time: Stamp) -> tuple[Stamp, Path, bool]:
+        """The moment that is asked for, and the way then, by walking.
+
+        Keeps the path for the next time where that is possible; whether it did is told last.
 
         Raises:
             TransformException: As `Buffer.lookup_transform` says.
@@ -45,7 +58,7 @@ class Solver:
             if time == 0:
                 number = trees.numbers.get(target)
                 time = 0 if number is None else trees.newest_stamp(number)
-            return time, IDENTITY
+            return time, _HERE, False
         target_number = self.number(target, "target_frame", _LOOKUP, target, source)
         source_number = self.number(source, "source_frame", _LOOKUP, target, source)
         time = time or self.latest_common(target_number, source_number)
@@ -53,10 +66,7 @@ class Solver:
         if walk.ended != ARRIVED:
             raise self._refusal(walk, time, target, source)
         path = path_of(trees, walk)
-        pose = path.solve(time)
-        assert pose is not None, "a link that answers for its parent answers for its pose"
-        self._remember(target_number, source_number, walk, path)
-        return time, (*pose.translation, *pose.rotation)
+        return time, path, self._remember(target_number, source_number, walk, path)
 
     def latest_common(self, target: int, source: int) -> Stamp:
         """The newest moment for which every link between two frames has data.
@@ -96,7 +106,7 @@ class Solver:
         """The frames from source to target, both included; empty if they are the same."""
         if target == source:
             return []
-        time, _ = self.pose(target, source, time)
+        time, _, _ = self.way(target, source, time)
         trees = self._tree
         walk = trees.walk(trees.numbers[target], trees.numbers[source], time)
         # The two sides meet above the last link of either.
@@ -156,19 +166,24 @@ class Solver:
             self.paths.clear()
             self._kept = 0
 
-    def _remember(self, target: int, source: int, walk: Walk, path: Path) -> None:
-        """Keep the path of a walk that arrived, if no link on the way leads elsewhere at times."""
+    def _remember(self, target: int, source: int, walk: Walk, path: Path) -> bool:
+        """Keep the path of a walk that arrived, if no link on the way leads elsewhere at times.
+
+        Returns:
+            Whether it is kept.
+        """
         trees = self._tree
         if not walk.timeless:
             # What leads elsewhere, or has no data, may lie above the way.
             walk = trees.walk(target, source, 0)
             if walk.ended != ARRIVED or not trees.is_steady(walk):
-                return
+                return False
             path = path_of(trees, walk)
         if self._kept >= MOST_PATHS:
             self.drop_paths()
         self.paths.setdefault(trees.frames[target].name, {})[trees.frames[source].name] = path
         self._kept += 1
+        return True
 
     def _refusal(self, walk: Walk, time: Stamp, target: str, source: str) -> TransformException:
         """What a walk that did not arrive is refused with."""
