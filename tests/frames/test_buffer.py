@@ -34,6 +34,24 @@ def put(buffer, at, x=0.0, parent="world", child="turtle1", turn=(0, 0, 0, 1), s
     return (buffer.set_transform_static if static else buffer.set_transform)(sample, "test")
 
 
+def test_the_first_question_about_a_pair_asks_no_subclass_once_more():
+    asked = []
+
+    class Other(Buffer):
+        def lookup_transform(self, target_frame, source_frame, time=0):
+            asked.append(time)
+            return super().lookup_transform(target_frame, source_frame, time)
+
+    other = Other()
+    put(other, 1, 1.0)
+    put(other, 3, 3.0)
+
+    first = other.lookup_transform("world", "turtle1", seconds(2))
+    assert first == other.lookup_transform("world", "turtle1", seconds(2))
+    assert first.transform.translation.x == pytest.approx(2.0)
+    assert asked == [seconds(2)] * 2
+
+
 @pytest.mark.parametrize(
     ("second", "kind", "told"),
     [
