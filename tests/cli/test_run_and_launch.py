@@ -330,8 +330,10 @@ def interrupted(folder, line, *words):
                 command.send_signal(signal.SIGINT)
                 break
         rest = command.stderr.readlines()
-    # On a busy machine an end may take longer than what is told of.
-    return command.returncode, "".join(said for said in rest if "has not returned" not in said)
+    # On a busy machine an end may take longer than what is told of, and a timer be behind.
+    slow = ("has not returned", "behind its own timer")
+    told = [said for said in rest if not any(words in said for words in slow)]
+    return command.returncode, "".join(told)
 
 
 def test_ctrl_c_ends_a_launch_as_ros2_launch_ends(tmp_path):
