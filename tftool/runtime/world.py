@@ -28,7 +28,7 @@ from tftool.runtime.endpoints import (
 )
 from tftool.runtime.log import Log
 from tftool.runtime.memory import MemoryBound, allowed
-from tftool.runtime.offers import Offer
+from tftool.runtime.offers import Offer, Offers
 from tftool.runtime.resident import Resident, Supervision
 from tftool.runtime.topics import Acceptor, GoalHandle, Handler, Topic, Unmade
 from tftool.stamps import CACHE_TIME, Duration, Stamp
@@ -150,12 +150,10 @@ class World:
         self._joined = 0
         self._topics: dict[str, Topic[Any]] = {}
         self._doors: dict[str, ValueTopic[Any]] = {}
-        self._services: dict[str, Offer[Handler]] = {}
+        self._services: Offers[Handler] = Offers("service", self._changed)
+        self._actions: Offers[Acceptor] = Offers("action", self._changed)
         # How often the buffer refused the same, by what it says.
         self._refused: dict[str, int] = {}
-        # Who serves a name that another serves already, by "service" and the name.
-        self._waiting: dict[str, list[Any]] = {}
-        self._actions: dict[str, Offer[Acceptor]] = {}
         self._statics: dict[str, dict[str, TransformStamped]] = {}
         self._far_statics: dict[str, TransformStamped] = {}
         self.far_nodes: tuple[str, ...] = ()
@@ -349,20 +347,19 @@ class World:
         """
         take = serving(handler, kind) if kind in values.SERVICES else handler
         offer = Offer(take, values.interface_class(kind), node, is_remote)
-        return self._offer(self._services, name, offer, "service", shares=shares)
+        return self._services.add(name, offer, shares=shares)
 
     def has_service(self, name: str) -> bool:
         """Whether any node answers that service."""
-        return name.removeprefix("/") in self._services
+        return self._services.get(name) is not None
 
     def count_services(self, name: str) -> int:
         """How many nodes here would answer that service in turn; another process counts as one."""
-        plain = name.removeprefix("/")
-        return self.has_service(plain) + len(self._waiting.get(f"service {plain}", ()))
+        return self._services.count(name)
 
     def services(self) -> Mapping[str, Offer[Handler]]:
         """Every service by its name, read-only."""
-        return MappingProxyType(self._services)
+        return self._services.by_name
 
     async def call(self, name: str, request: Any) -> Any:
         """Ask a service and wait for its answer.
@@ -376,7 +373,7 @@ class World:
             TftoolError: If no node serves that name, or the request is of another type.
             LinkError: If another process does not answer a value in time.
         """
-        offer = self._services.get(name.removeprefix("/"))
+        offer = self._services.get(name)
         if offer is None:
             raise TftoolError(f"no node serves '{name}'")
         kind = offer.kind
@@ -415,11 +412,11 @@ class World:
         """
         take = accepting(accept, kind) if kind in values.ACTIONS else accept
         offer = Offer(take, values.interface_class(kind), node, is_remote)
-        return self._offer(self._actions, name, offer, "action", shares=shares)
+        return self._actions.add(name, offer, shares=shares)
 
     def actions(self) -> Mapping[str, Offer[Acceptor]]:
         """Every action by its name, read-only."""
-        return MappingProxyType(self._actions)
+        return self._actions.by_name
 
     async def send_goal(
         self, name: str, goal: Any, on_feedback: Callable[[Any], object] | None = None
@@ -434,7 +431,7 @@ class World:
         Raises:
             TftoolError: If no node serves that action, or the goal is of another type.
         """
-        offer = self._actions.get(name.removeprefix("/"))
+        offer = self._actions.get(name)
         if offer is None:
             raise TftoolError(f"no node serves the action '{name}'")
         kind = offer.kind
@@ -464,36 +461,6 @@ class World:
 
     def _changed(self) -> None:
         self._watchers.call()
-
-    def _offer(
-        self,
-        offers: dict[str, Offer[T]],
-        name: str,
-        offer: Offer[T],
-        what: str,
-        *,
-        shares: bool = False,
-    ) -> Callable[[], None]:
-        name = name.removeprefix("/")
-        waiting = self._waiting.setdefault(f"{what} {name}", [])
-        if name in offers and not offers[name].is_remote:
-            if not shares:
-                raise TftoolError(f"{what} '{name}' is served already")
-            waiting.append(offer)
-        else:
-            offers[name] = offer
-            self._changed()
-
-        def stop() -> None:
-            if any(one is offer for one in waiting):
-                waiting.remove(offer)
-            if offers.get(name) is offer:
-                del offers[name]
-                if waiting:
-                    offers[name] = waiting.pop(0)
-                self._changed()
-
-        return stop
 
     # Transforms
 
