@@ -92,7 +92,9 @@ def build(folder):
     for part in ("c", "f"):
         (folder / part).mkdir(exist_ok=True)
     for line in RECIPE:
-        done = subprocess.run(line.split(), cwd=folder, capture_output=True, text=True, timeout=900)
+        done = subprocess.run(
+            line.split(), cwd=folder, capture_output=True, text=True, timeout=3600
+        )
         assert done.returncode == 0, f"{line}\n{done.stdout}\n{done.stderr}"
 
 
