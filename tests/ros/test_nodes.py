@@ -122,6 +122,31 @@ def test_two_nodes_of_one_name_are_told_apart_with_a_warning(node, ros_runtime):
     assert any("a node named 'probe' is here already" in text for text in ros_runtime.log())
 
 
+def test_the_handles_of_a_node_and_of_what_it_has_are_invalid_once_they_are_destroyed(node):
+    from rclpy.exceptions import InvalidHandle
+    from std_msgs.msg import String
+    from std_srvs.srv import Trigger
+
+    each = [
+        node.create_publisher(String, "said", 1),
+        node.create_subscription(String, "said", print, 1),
+        node.create_client(Trigger, "asked"),
+        node.create_service(Trigger, "asked", print),
+        node.create_timer(1.0, print),
+    ]
+    for one in each:
+        with one.handle:
+            pass
+        one.destroy()
+        with pytest.raises(InvalidHandle, match="of 'probe' is destroyed"):
+            one.handle.__enter__()
+    with node.handle:
+        assert node.get_name() == "probe"
+    node.destroy_node()
+    with pytest.raises(InvalidHandle, match="'probe' is destroyed"):
+        node.handle.__enter__()
+
+
 def test_a_node_of_another_process_of_the_same_name_is_warned_of(ros_runtime):
     import rclpy
 

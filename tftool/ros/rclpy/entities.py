@@ -19,6 +19,20 @@ MOST_WAITING: Final = 1000
 """Requests or goals that may wait for a node that takes none; more are refused."""
 
 
+class RequiredHandle:
+    """What a `with` block holds a thing by, once it is seen to be there."""
+
+    def __init__(self, require: Callable[[], object]) -> None:
+        self._require = require
+
+    def __enter__(self) -> Self:
+        self._require()
+        return self
+
+    def __exit__(self, *args: object) -> None:
+        """Nothing to let go of."""
+
+
 class NodeEntity:
     """Something of a node that can become ready."""
 
@@ -46,6 +60,11 @@ class NodeEntity:
     def destroy(self) -> None:
         """Stop listening, and leave the node."""
         self.seat.forget(self)
+
+    @property
+    def handle(self) -> RequiredHandle:
+        """What raises InvalidHandle once it is destroyed."""
+        return RequiredHandle(lambda: self.seat.require_of(self))
 
     def __enter__(self) -> Self:
         return self

@@ -9,7 +9,7 @@ from tftool.nodes.parameter_services import parameter_services
 from tftool.ros.host import names, program
 from tftool.ros.rclpy import parameter_events
 from tftool.ros.rclpy.context import Context, context_of
-from tftool.ros.rclpy.entities import GuardCondition, NodeEntity
+from tftool.ros.rclpy.entities import GuardCondition, NodeEntity, RequiredHandle
 from tftool.ros.rclpy.exceptions import NotInitializedException
 from tftool.ros.rclpy.groups import CallbackGroup, MutuallyExclusiveCallbackGroup
 from tftool.ros.rclpy.logger_service import logger_services
@@ -141,9 +141,9 @@ class Node(NodeGraph, NodeParameters):
         return self._default_callback_group
 
     @property
-    def handle(self) -> "Node":
-        """Itself."""
-        return self
+    def handle(self) -> RequiredHandle:
+        """What raises InvalidHandle once it is destroyed."""
+        return RequiredHandle(self._tftool.require)
 
     def __enter__(self) -> "Node":
         return self
@@ -306,8 +306,8 @@ class Node(NodeGraph, NodeParameters):
 
     @property
     def publishers(self) -> Iterator[Publisher]:
-        """Its publishers."""
-        yield from self.__all(Publisher)
+        """Its publishers; what its loggers say is published beside them, as in ROS."""
+        yield from (one for one in self.__all(Publisher) if one is not self._tftool.rosout)
 
     @property
     def subscriptions(self) -> Iterator[Subscription]:

@@ -101,6 +101,15 @@ class NodeSeat:
 
     # What it has
 
+    def require_of(self, entity: Any) -> None:
+        """See that it still has a thing.
+
+        Raises:
+            InvalidHandle: If that is destroyed.
+        """
+        if entity not in self.entities:
+            raise InvalidHandle(f"a {type(entity).__name__} of '{self.name}' is destroyed")
+
     def require(self) -> None:
         """See that it can have something new.
 
