@@ -628,20 +628,72 @@ METHOD(can_transform) {
 
 /* Inserting --------------------------------------------------------------- */
 
-/* Give up the last record of the room behind a link's samples. Returns whether that could be:
-   there was one, and no batch reads the array, for which it has to stay as it is. Never sets an
-   error; it may run code of others. */
-static int give_up_room(const Link *link) {
-    PyObject *records = Py_XNewRef(link->records);
-    const Py_ssize_t words = records == NULL ? 0 : PyObject_Size(records);
-    const int done = words / WORD > link->count
-        && PySequence_DelSlice(records, words - WORD, words) == 0;
-    Py_XDECREF(records);
+/* So many pruned records are left where they are, at least and as a part of all (a shift to the
+   right): as in `history`. */
+#define LEAST_SLACK 32
+#define SLACK 3
+
+/* Room for samples to come is as much again as there is, at least so much, and so much at most or
+   that part of all: each time it is made, everything may have to be copied. */
+#define LEAST_ROOM 8
+#define MOST_ROOM 128
+#define ROOM 4
+
+#define LARGER(a, b) ((a) > (b) ? (a) : (b))
+#define SMALLER(a, b) ((a) < (b) ? (a) : (b))
+
+/* Take words out of an array. Returns whether it let go of them, which none does that a batch
+   reads; never sets an error. */
+static int cut(PyObject *records, Py_ssize_t from, Py_ssize_t to) {
+    if (PySequence_DelSlice(records, from, to) == 0)
+        return 1;
     PyErr_Clear();
-    return done;
+    return 0;
 }
 
-/* Put a sample into a link, where it has room: `History.insert` where no other one has its stamp,
+/* Have so many records of zeros more at the end of an array. Returns whether it grew, which none
+   does that a batch reads; never sets an error. */
+static int grow(PyObject *records, Py_ssize_t more) {
+    PyObject *zeros = PyObject_CallFunction((PyObject *)&PyBytes_Type, "n", RECORD * more);
+    PyObject *none = zeros == NULL ? NULL : PyObject_CallMethod(records, "frombytes", "O", zeros);
+    Py_XDECREF(zeros);
+    Py_XDECREF(none);
+    if (none == NULL)
+        PyErr_Clear();
+    return none != NULL;
+}
+
+/* Have room for a sample in a link's records, that no batch reads if the sample is not the newest.
+   Returns whether it could be had; never sets an error. */
+static int make_room(Link *link, int64_t stamp) {
+    Py_ssize_t room = PyObject_Size(link->records) / WORD;
+    if (link->start < 0 || link->count <= link->start || link->count > room) {
+        PyErr_Clear();
+        return 0;
+    }
+    if (link->start >= link->compact_at) {
+        /* What is pruned makes room for as many. */
+        const Py_ssize_t start = (Py_ssize_t)link->start, count = (Py_ssize_t)link->count - start;
+        if (!cut(link->records, 0, WORD * start))
+            return 0;
+        link->start = 0;
+        link->count = count;
+        link->compact_at = LARGER(count >> SLACK, LEAST_SLACK);
+        if (!grow(link->records, start))
+            return 0;
+    }
+    else if (stamp <= link->newest_stamp) {
+        /* One in front takes no room behind. */
+        if (stamp < link->oldest_stamp && link->count < room)
+            return cut(link->records, WORD * room - WORD, WORD * room);
+        return grow(link->records, 1);
+    }
+    else if (link->count == room)
+        return grow(link->records, LARGER(LARGER(SMALLER(room, MOST_ROOM), LEAST_ROOM), room >> ROOM));
+    return 1;
+}
+
+/* Put a sample into a link: `History.insert` where no other one has its stamp,
    and all are of the same origin. Returns whether it was done; never sets an error. */
 static int put(Link *link, int64_t stamp, int64_t origin, double *pose) {
     Py_buffer view;
@@ -649,8 +701,13 @@ static int put(Link *link, int64_t stamp, int64_t origin, double *pose) {
     if (!(1.0 - ROUNDING < square && square < 1.0 + ROUNDING && pose[0] + pose[1] + pose[2] < HUGE_VAL))
         return 0;
     if (link->is_static || link->mixed || link->origins != Py_None || link->origin != origin
-        || link->limit < 0 || (stamp <= link->newest_stamp && !give_up_room(link))
-        || !read_records(link, PyBUF_WRITABLE, &view))
+        || link->limit < 0 || link->records == NULL)
+        return 0;
+    /* Making room calls Python, whose collector may run code that gives the link other records. */
+    PyObject *records_held = Py_NewRef(link->records);
+    const int has_room = make_room(link, stamp);
+    Py_DECREF(records_held);
+    if (!has_room || !read_records(link, PyBUF_WRITABLE, &view))
         return 0;
     char *records = view.buf;
     const int64_t newest = link->newest_stamp;
@@ -659,8 +716,7 @@ static int put(Link *link, int64_t stamp, int64_t origin, double *pose) {
     int64_t oldest = link->oldest_stamp;
     while ((uint64_t)newest - (uint64_t)oldest > limit && start + 1 < count)
         oldest = stamp_of(records, ++start);
-    /* What is pruned is removed in plain Python. */
-    int fits = start == link->start || start < link->compact_at;
+    int fits = 1;
     if (stamp < oldest)
         place = start - 1;
     else if (stamp <= newest) {
