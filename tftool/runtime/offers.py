@@ -28,7 +28,7 @@ class Offer(Generic[T]):
     is_remote: bool = False
 
 
-class Offers(Generic[T]):
+class NamedOffers(Generic[T]):
     """Services, or actions, by name: who answers each, and who does from when that leaves.
 
     Attributes:

@@ -28,7 +28,7 @@ from tftool.runtime.endpoints import (
 )
 from tftool.runtime.log import Log
 from tftool.runtime.memory import MemoryBound, allowed
-from tftool.runtime.offers import Offer, Offers
+from tftool.runtime.offers import NamedOffers, Offer
 from tftool.runtime.resident import Resident, Supervision
 from tftool.runtime.topics import Acceptor, GoalHandle, Handler, Topic, Unmade
 from tftool.stamps import CACHE_TIME, Duration, Stamp
@@ -150,8 +150,8 @@ class World:
         self._joined = 0
         self._topics: dict[str, Topic[Any]] = {}
         self._doors: dict[str, ValueTopic[Any]] = {}
-        self._services: Offers[Handler] = Offers("service", self._changed)
-        self._actions: Offers[Acceptor] = Offers("action", self._changed)
+        self._services: NamedOffers[Handler] = NamedOffers("service", self._changed)
+        self._actions: NamedOffers[Acceptor] = NamedOffers("action", self._changed)
         # How often the buffer refused the same, by what it says.
         self._refused: dict[str, int] = {}
         self._statics: dict[str, dict[str, TransformStamped]] = {}
