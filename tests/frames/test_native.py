@@ -1,6 +1,7 @@
 """The native kernel against the plain path: one meaning."""
 
 import math
+import tracemalloc
 from array import array
 from random import Random
 
@@ -363,6 +364,47 @@ def test_arguments_by_name_and_wrong_ones_are_as_in_plain_python():
         ours, plain = twins.ask("lookup_transform", *wrong)
         assert ours[0] is plain[0] is TypeError
         assert ours[1].split("lookup_transform()")[1] == plain[1].split("lookup_transform()")[1]
+
+
+@pytest.mark.parametrize("name", [5, None, b"b", ["b"]])
+def test_names_that_are_no_strings_are_refused_as_in_plain_python(name):
+    twins = Twins(seconds(10))
+    for stamp in (1, 2):
+        twins.ask("set_transform", TransformStamped(stamp, "a", "b", Transform()), "me")
+    twins.ask("lookup_transform_full", "a", 1, "b", 2, "a")
+
+    for asked in (("a", 1, name, 2, "a"), ("a", 1, "b", 2, name), (name, 1, "b", 2, "a")):
+        ours, plain = twins.ask("lookup_transform_full", *asked)
+        assert ours == plain
+        assert ours[0] is TypeError
+
+
+@pytest.mark.parametrize("repeated", [100, 50, 1])
+def test_samples_that_are_there_already_take_no_memory(repeated):
+    buffer = Buffer(seconds(10), log=lambda level, text: None)
+    for stamp in range(1, 101):
+        buffer.set_transform(TransformStamped(stamp, "a", "b", Transform()), "me")
+    again = TransformStamped(repeated, "a", "b", Transform())
+    tracemalloc.start()
+    for _ in range(5000):
+        buffer.set_transform(again, "me")
+    grown, _ = tracemalloc.get_traced_memory()
+    tracemalloc.stop()
+
+    assert len(buffer.samples("b")) == 100
+    assert grown < 64 * 1000
+
+
+def test_moments_that_lie_at_any_byte_are_asked_for():
+    buffer = Buffer()
+    for stamp in (1, 3):
+        pose = Transform((float(stamp), 0.0, 0.0))
+        buffer.set_transform(TransformStamped(seconds(stamp), "a", "b", pose))
+    raw = bytes(4) + np.array([seconds(1), seconds(2)]).tobytes()
+
+    found = buffer.lookup_transforms("a", "b", np.frombuffer(raw, np.int64, offset=4))
+
+    assert found.translations[:, 0].tolist() == [1.0, 2.0]
 
 
 def test_listeners_and_requests_are_told_of_what_the_kernel_took():

@@ -459,7 +459,8 @@ static int chain(PyObject *links, PyTypeObject *fields, int64_t time, double *po
 /* Whether two plain strings are equal; one that is none is equal to nothing. */
 static int same_text(PyObject *known, PyObject *given) {
     return known == given
-        || (PyUnicode_CheckExact(known) && PyUnicode_Compare(known, given) == 0);
+        || (PyUnicode_CheckExact(known) && PyUnicode_Check(given)
+            && PyUnicode_Compare(known, given) == 0);
 }
 
 /* The path between two frames that is kept: NULL if there is none, or it is not plain. Never
@@ -642,13 +643,21 @@ METHOD(can_transform) {
 #define LARGER(a, b) ((a) > (b) ? (a) : (b))
 #define SMALLER(a, b) ((a) < (b) ? (a) : (b))
 
-/* Take words out of an array. Returns whether it let go of them, which none does that a batch
-   reads; never sets an error. */
-static int cut(PyObject *records, Py_ssize_t from, Py_ssize_t to) {
-    if (PySequence_DelSlice(records, from, to) == 0)
-        return 1;
-    PyErr_Clear();
-    return 0;
+/* Take words out of a link's records, that are held. Returns whether it let go of them, which none
+   does that a batch reads; never sets an error. */
+static int cut(const Link *link, PyObject *records, Py_ssize_t from, Py_ssize_t to) {
+    const int64_t start = link->start, count = link->count;
+    PyObject *first = PyLong_FromSsize_t(from), *last = PyLong_FromSsize_t(to);
+    PyObject *words = first == NULL || last == NULL ? NULL : PySlice_New(first, last, NULL);
+    /* To make the slice may run the collector, and that code which changes the link. */
+    const int same = link->records == records && link->start == start && link->count == count;
+    const int done = words != NULL && same && PyObject_DelItem(records, words) == 0;
+    Py_XDECREF(first);
+    Py_XDECREF(last);
+    Py_XDECREF(words);
+    if (!done)
+        PyErr_Clear();
+    return done;
 }
 
 /* Have so many records of zeros more at the end of an array. Returns whether it grew, which none
@@ -663,10 +672,10 @@ static int grow(PyObject *records, Py_ssize_t more) {
     return none != NULL;
 }
 
-/* Have room for a sample in a link's records, that no batch reads if the sample is not the newest.
-   Returns whether it could be had; never sets an error. */
-static int make_room(Link *link, int64_t stamp) {
-    Py_ssize_t room = PyObject_Size(link->records) / WORD;
+/* Have room for a sample in a link's records, which are held, and which no batch reads if the
+   sample is not the newest. Returns whether it could be had; never sets an error. */
+static int make_room(Link *link, PyObject *records, int64_t stamp) {
+    const Py_ssize_t room = PyObject_Size(records) / WORD;
     if (link->start < 0 || link->count <= link->start || link->count > room) {
         PyErr_Clear();
         return 0;
@@ -674,22 +683,23 @@ static int make_room(Link *link, int64_t stamp) {
     if (link->start >= link->compact_at) {
         /* What is pruned makes room for as many. */
         const Py_ssize_t start = (Py_ssize_t)link->start, count = (Py_ssize_t)link->count - start;
-        if (!cut(link->records, 0, WORD * start))
+        if (!cut(link, records, 0, WORD * start))
             return 0;
         link->start = 0;
         link->count = count;
         link->compact_at = LARGER(count >> SLACK, LEAST_SLACK);
-        if (!grow(link->records, start))
+        if (!grow(records, start))
             return 0;
     }
     else if (stamp <= link->newest_stamp) {
-        /* One in front takes no room behind. */
-        if (stamp < link->oldest_stamp && link->count < room)
-            return cut(link->records, WORD * room - WORD, WORD * room);
-        return grow(link->records, 1);
+        /* One record more or one less: either is done where nobody reads them. One in front takes
+           no room behind, and one that is there already takes none in the end. */
+        if (link->count + (stamp >= link->oldest_stamp) < room)
+            return cut(link, records, WORD * room - WORD, WORD * room);
+        return grow(records, 1);
     }
     else if (link->count == room)
-        return grow(link->records, LARGER(LARGER(SMALLER(room, MOST_ROOM), LEAST_ROOM), room >> ROOM));
+        return grow(records, LARGER(LARGER(SMALLER(room, MOST_ROOM), LEAST_ROOM), room >> ROOM));
     return 1;
 }
 
@@ -704,9 +714,9 @@ static int put(Link *link, int64_t stamp, int64_t origin, double *pose) {
         || link->limit < 0 || link->records == NULL)
         return 0;
     /* Making room calls Python, whose collector may run code that gives the link other records. */
-    PyObject *records_held = Py_NewRef(link->records);
-    const int has_room = make_room(link, stamp);
-    Py_DECREF(records_held);
+    PyObject *held = Py_NewRef(link->records);
+    const int has_room = make_room(link, held, stamp);
+    Py_DECREF(held);
     if (!has_room || !read_records(link, PyBUF_WRITABLE, &view))
         return 0;
     char *records = view.buf;

@@ -135,7 +135,7 @@ def samples(tree: FrameTree, frame: Frame) -> SampleColumns:
 
 
 def stamps_of(times: npt.ArrayLike, name: str) -> Stamps:
-    """Moments as a contiguous int64 array, whatever whole numbers they come as.
+    """Moments as a contiguous, aligned int64 array, whatever whole numbers they come as.
 
     Args:
         times: Shape (n,).
@@ -167,7 +167,8 @@ def stamps_of(times: npt.ArrayLike, name: str) -> Stamps:
             "M": f"{name}.astype('datetime64[ns]').astype(np.int64) makes them of dates",
         }.get(kind, "seconds(2.5) makes one of 2.5 seconds")
         raise TypeError(f"{name} are whole nanoseconds (int64), not {given.dtype}: {remedy}")
-    return np.ascontiguousarray(given, dtype=np.int64)
+    # Aligned too: rows of a file's bytes may begin anywhere.
+    return np.require(given, np.int64, ["C", "A"])
 
 
 class Buckets:
