@@ -355,6 +355,26 @@ def test_rows_are_adopted_together_or_not_at_all(place):
     assert len(buffer.samples("turtle1")) == 10_000
 
 
+def test_records_that_span_more_than_is_kept_are_pruned_as_columns_are():
+    rows = [(seconds(stamp), Transform((1.0, 2.0, 3.0))) for stamp in range(1, 101)]
+    columns, borrowed = Buffer(seconds(10)), Buffer(seconds(10))
+
+    together(columns, "world", "a", rows)
+    borrowed.set_records("world", "a", records_of(rows), "me")
+
+    assert borrowed.samples("a").stamps.tolist() == columns.samples("a").stamps.tolist()
+    assert not borrowed.can_transform("world", "a", seconds(5))
+
+
+@pytest.mark.parametrize("rows", [np.ones((4, 8)), np.ones((4, 7), np.int64), np.ones(8, np.int64)])
+def test_records_of_another_shape_or_kind_are_refused(rows):
+    buffer = Buffer()
+
+    with pytest.raises(TypeError, match=r"records are int64 of the shape \(n, 8\)"):
+        buffer.set_records("world", "a", rows)
+    assert buffer.frames() == []
+
+
 def test_many_samples_of_one_stamp_are_compared_with_the_last_of_them_either_way():
     numbers = [*range(40), 39, 20, 0, 1, 0, *range(40)]
     rows = [(5, Transform((float(x), 0.0, 0.0))) for x in numbers]

@@ -327,6 +327,9 @@ class Buffer(Door):
 
         Returns:
             Which rows were taken, and why the others were not; None if all were.
+
+        Raises:
+            TypeError: If the records are no rows of eight whole numbers.
         """
         import numpy as np
 
@@ -386,6 +389,9 @@ class Buffer(Door):
 
         Returns:
             Whether they were taken, all of them. Nothing was done if not.
+
+        Raises:
+            TypeError: As there.
         """
         from tftool.frames.batch import insert
 

@@ -146,21 +146,22 @@ class FrameTree:
         numbers: Each frame's place in that order.
         senders: By name, each frame whose link moves: for their next samples.
         authorities: Every name that a sample was sent under, in the order of their numbers.
+        limit: Nanoseconds for which samples are kept.
         max_name: How many bytes a name may have.
     """
 
     __slots__ = (
         "_authority_numbers",
-        "_limit",
         "authorities",
         "frames",
+        "limit",
         "max_name",
         "numbers",
         "senders",
     )
 
     def __init__(self, limit: Duration, max_name: int) -> None:
-        self._limit = limit
+        self.limit = limit
         self.max_name = max_name
         self.frames: list[Frame] = []
         self.numbers: dict[str, int] = {}
@@ -201,7 +202,7 @@ class FrameTree:
                 link = StaticLink()
                 self.senders.pop(child, None)
             else:
-                link = History(self._limit)
+                link = History(self.limit)
                 self.senders[child] = ("", None, NO_PARENT, link)
             frame.link = link
         self.register(parent)

@@ -200,7 +200,14 @@ def adopt(
     Returns:
         Whether they were taken, all of them. If not, nothing was done: something about them
         is for `insert` to look at row by row.
+
+    Raises:
+        TypeError: If they are no rows of eight whole numbers.
     """
+    if records.dtype != np.int64 or records.ndim != 2 or records.shape[1] != WORDS:
+        raise TypeError(
+            f"records are int64 of the shape (n, {WORDS}), not {records.dtype} of {records.shape}"
+        )
     parent, child, authority = stripped(link[0]), stripped(link[1]), link[2]
     objections = refusals.objections(child, parent, 0, (0.0, 0.0, 0.0), (0.0, 0.0, 0.0, 1.0), "")
     there = tree.numbers.get(child)
@@ -209,6 +216,8 @@ def adopt(
     if objections or not len(records) or not tree.has_room(child, parent, max_frames):
         return False
     if there is not None and tree.frames[there].link is not None:
+        return False
+    if int(records[-1, 0]) - int(records[0, 0]) > tree.limit:
         return False
     lent = words = _lent(records)
     for begin in range(kept, len(records), _BLOCK):
