@@ -16,7 +16,7 @@ needs_scan = pytest.mark.skipif(not is_native(), reason=REASON)
 TOPICS = ["/tf", "/image", "/tf_static"]
 
 
-def database(path, page_size=4096, rows=900):
+def database(path, page_size=4096, rows=900, key="id INTEGER PRIMARY KEY"):
     """A recording with short and long messages, and ids that leave gaps."""
     draw = random.Random(page_size)
     base = sqlite3.connect(path)
@@ -26,7 +26,7 @@ def database(path, page_size=4096, rows=900):
         "serialization_format text, offered_qos_profiles text)"
     )
     base.execute(
-        "CREATE TABLE messages(id INTEGER PRIMARY KEY,topic_id INTEGER NOT NULL,"
+        f"CREATE TABLE messages({key},topic_id INTEGER NOT NULL,"
         "timestamp INTEGER NOT NULL, data BLOB NOT NULL)"
     )
     base.execute("create index timestamp_idx on messages (timestamp asc)")
@@ -110,6 +110,19 @@ def test_leaves_other_tables_and_files_to_sqlite(tmp_path):
     assert list(read_pages(path, 10**6, {1: 0})) == []
     assert list(read_pages(tmp_path / "short.db3", 3, {1: 0})) == []
     assert list(read_pages(tmp_path / "missing.db3", 3, {1: 0})) == []
+
+
+@needs_scan
+@pytest.mark.parametrize("key", ["id INTEGER", "id INTEGER PRIMARY KEY DESC"])
+def test_gives_what_sqlite_gives_where_the_id_is_not_the_rows_own_number(tmp_path, key):
+    path = database(tmp_path / "a.db3", rows=10, key=key)
+    base = sqlite3.connect(path)
+    base.execute("update messages set id = null")
+    base.commit()
+    base.close()
+
+    # Rows are asked for by their id, which none has.
+    assert read(path, [0, 1, 2], sqlite.SCAN) == read(path, [0, 1, 2], None) == []
 
 
 def test_a_schema_with_bytes_that_are_no_text_is_refused(tmp_path):

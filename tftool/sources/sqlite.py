@@ -24,11 +24,12 @@ _MOST_COPIED: Final = 1 << 30
 _MOST_GAPS: Final = 40
 _LEAST_HEAD: Final = 4096
 
+# Names, kinds, and which is the primary key.
 _COLUMNS: Final = [
-    ("id", "INTEGER"),
-    ("topic_id", "INTEGER"),
-    ("timestamp", "INTEGER"),
-    ("data", "BLOB"),
+    ("id", "INTEGER", 1),
+    ("topic_id", "INTEGER", 0),
+    ("timestamp", "INTEGER", 0),
+    ("data", "BLOB", 0),
 ]
 
 # The second where what sqlite says of a damaged file quotes bytes that are no text.
@@ -185,13 +186,15 @@ class Sqlite:
     def _table(self) -> int:
         """The page at which the tree of the messages begins; 0 where the table is another one."""
         try:
-            columns = [tuple(row[1:3]) for row in self._base.execute("pragma table_info(messages)")]
+            told = self._base.execute("pragma table_info(messages)")
+            columns = [(name, kind, key) for _, name, kind, _, _, key in told]
             asked = "select rootpage, sql from sqlite_master where name = 'messages'"
             ((root, text),) = self._base.execute(asked).fetchall()
         except (*_FAULTS, ValueError):
             return 0
-        usual = columns == _COLUMNS and "without rowid" not in str(text).lower()
-        return int(root) if usual else 0
+        # In a table of either kind the primary key is not the row's own number.
+        other = any(words in str(text).lower() for words in ("without rowid", "desc"))
+        return int(root) if columns == _COLUMNS and not other else 0
 
     def expected(self, wanted: Collection[int]) -> int:
         """About how many messages some streams have: to count them takes as long as to read."""
