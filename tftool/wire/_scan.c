@@ -24,6 +24,7 @@
 #define SMALLEST 72              /* Bytes of a transform with empty names: stamp, two lengths, doubles. */
 #define LONGEST_NAME 4096        /* As in `rows`. */
 #define MOST_PAIRS (1 << 17)     /* Pairs of names that are known at once; others are left to the twin. */
+#define MOST_LOOKS 256           /* And those of which so many, made for it, share a place. */
 #define MOST_BYTES (16 << 20)    /* And bytes of all their names. */
 #define RECORD 64                /* Bytes of a record: a stamp, and seven doubles. */
 #define HEAD 31                  /* Bytes of an MCAP message's record before its payload. */
@@ -159,12 +160,15 @@ static int make_room(Pairs *self, uint32_t more) {
     return 1;
 }
 
-/* The number of a pair, which may be new; -1 where there are too many. */
+/* The number of a pair, which may be new; -1 where there are too many, or are made to look alike. */
 static int64_t number_of(Pairs *self, const uint8_t *parent, uint32_t parent_size,
                          const uint8_t *child, uint32_t child_size) {
     const uint32_t hash = hash_of(child, child_size, hash_of(parent, parent_size, parent_size));
     if (self->room) {
-        for (uint32_t slot = hash & self->mask; self->slots[slot]; slot = (slot + 1) & self->mask) {
+        uint32_t slot = hash & self->mask;
+        for (int looks = 0; self->slots[slot]; slot = (slot + 1) & self->mask) {
+            if (++looks > MOST_LOOKS)
+                return -1;
             const uint32_t number = self->slots[slot] - 1;
             if (self->pairs[number].hash == hash
                 && is_pair(self, &self->pairs[number], parent, parent_size, child, child_size))
@@ -738,6 +742,11 @@ static PyMethodDef methods[] = {
 };
 
 static int module_exec(PyObject *module) {
+    const uint16_t one = 1;
+    if (!*(const uint8_t *)&one) {
+        PyErr_SetString(PyExc_ImportError, "recordings are little-endian, and this machine is not");
+        return -1;
+    }
     PyObject *type = PyType_FromSpec(&pairs_spec);
     const int failed = type == NULL || PyModule_AddType(module, (PyTypeObject *)type) < 0
                     || PyModule_AddIntConstant(module, "INTERFACE", INTERFACE) < 0;
