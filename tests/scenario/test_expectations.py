@@ -179,6 +179,7 @@ def test_what_is_true_holds(expectation):
             "map, world; did you mean 'map', 'world'?",
             3,
         ),
+        ("{at: 3 s, roots: [map, maps]}", "at 3 s: roots are map, maps", "map, world", 3),
         ("{at: 3 s, turtles: [bob]}", "at 3 s: turtles are bob", "turtle1", 3),
         (
             "{at: 3 s, pose: bob, value: {x: 1}}",

@@ -7,7 +7,6 @@ the check judges answers and says in words what it expects and what it found.
 from abc import ABC, abstractmethod
 from collections.abc import Collection, Iterable, Mapping
 from dataclasses import dataclass, field
-from difflib import get_close_matches
 from typing import Any
 
 from tftool.errors import LookupException, TransformException
@@ -157,7 +156,9 @@ class RangeForm(Form):
 
 def _nearest(wanted: Iterable[str], known: Collection[str]) -> str:
     """Which names that there are may be meant by those that there are not, one for each."""
-    found = [get_close_matches(name, known, n=1) for name in wanted if name not in known]
+    import difflib  # Only where something is amiss.
+
+    found = [difflib.get_close_matches(name, known, n=1) for name in wanted if name not in known]
     near = [f"'{names[0]}'" for names in found if names]
     return f"; did you mean {', '.join(near)}?" if near else ""
 
@@ -243,7 +244,8 @@ class NamesCheck(AnswerCheck):
     def judge(self, answer: Iterable[str]) -> Judged:
         """Compare an answer."""
         found = frozenset(answer)
-        hint = _nearest(sorted(self.wanted), found)
+        # What was written rightly is not meant by what was not.
+        hint = _nearest(sorted(self.wanted - found), found - self.wanted)
         return Judged(found == self.wanted, f"{listed(sorted(found)) or 'none'}{hint}")
 
     def __str__(self) -> str:
