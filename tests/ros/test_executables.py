@@ -32,6 +32,15 @@ def test_the_demos_executables_have_their_nodes_names(ros_runtime, executable, n
     assert begin(ros_runtime, "turtle_tf2_cpp", executable).name == f"{name}_2"
 
 
+def test_one_of_the_name_of_another_processs_node_says_so(ros_runtime):
+    ros_runtime.world.know_far_nodes(["turtle_tf2_frame_publisher"])
+    begin(ros_runtime, "turtlesim", "turtlesim_node")
+    begin(ros_runtime, "turtle_tf2_py", "turtle_tf2_broadcaster")
+
+    (told,) = [text for text in ros_runtime.log() if "another process" in text]
+    assert "has a node named 'turtle_tf2_frame_publisher'" in told
+
+
 def test_the_square_is_drawn_and_mimicked(ros_runtime):
     for number in (1, 2):
         begin(ros_runtime, "turtlesim", "turtlesim_node", "--ros-args", "-r", f"__ns:=/s{number}")

@@ -18,7 +18,7 @@ from tftool.nodes.static_turtle import static_turtle
 from tftool.nodes.turtlesim import BACKGROUND, Turtlesim
 from tftool.notation import static_arguments
 from tftool.ros.host import importing, user_code
-from tftool.ros.host.names import RosOptions, expand, join
+from tftool.ros.host.names import RosOptions, expand, join, named_twice
 from tftool.ros.host.program import Program
 from tftool.ros.host.workspace import Workspace, missing_package
 from tftool.runtime.node import Node
@@ -376,6 +376,8 @@ def _start_ours(
     parameters = options.parameters_for(name, namespace)
     declared = dict(parameters)
     node = make(Asked(world, full, namespace, arguments, parameters, options))
+    if full in world.far_nodes:
+        node.warn(named_twice(full))
     parameters.pop("use_sim_time", None)
     _warn_of_unused(node, parameters, declared)
     return node

@@ -31,6 +31,14 @@ class Fault(NamedTuple):
     at: int
 
 
+def named_twice(name: str) -> str:
+    """What a node is told whose name a node of another process has already."""
+    return (
+        f"another process of this session has a node named '{name}': both publish and answer. "
+        "End one, or give this one a name of its own: --ros-args -r __node:=…"
+    )
+
+
 @dataclass(frozen=True, slots=True)
 class Remap:
     """One rule `node:old:=new`; without a node it holds for all of them."""

@@ -78,12 +78,7 @@ class NodeSeat:
                 f"Give it a name of its own: --ros-args -r __node:=…",
             )
         elif name in self.world.far_nodes:
-            self.program.say(
-                "WARN",
-                name,
-                f"another process of this session has a node named '{name}': both publish and "
-                "answer. End one, or give this one a name of its own: --ros-args -r __node:=…",
-            )
+            self.program.say("WARN", name, names.named_twice(name))
         if self.program.name == name:
             # The executable and its node share a name, as they often do.
             self.program.name = f"{name} (program)"
