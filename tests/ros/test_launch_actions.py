@@ -189,6 +189,25 @@ def test_parameters_are_given_in_xml_and_yaml_alike(brief, ending):
     assert done.said("launch") == ["additional_env of a Node has no effect here"]
 
 
+def test_a_list_that_a_scope_sets_is_a_list_in_nodes_and_texts(brief):
+    file = brief / "in.launch.xml"
+    file.write_text(
+        '<launch><set_parameter name="read" value="[3, 4]"/>'
+        '<node pkg="mine" exec="brief.py"/><log message="$(param read)"/></launch>'
+    )
+    done = described(
+        brief,
+        "SetParameter('given', [1, 2])",
+        "SetParameter('words', ['a', 'b c'])",
+        f"IncludeLaunchDescription({str(file)!r})",
+        "LogInfo(msg=launch_ros.substitutions.Parameter('given'))",
+        start=brief,
+    )
+
+    assert done.texts("brief") == ["given=[1, 2] read=[3, 4] words=['a', 'b c']"]
+    assert done.said("launch") == ["[3, 4]", "[1, 2]"]
+
+
 def test_values_of_a_given_type_are_of_that_type(brief):
     done = described(
         brief,

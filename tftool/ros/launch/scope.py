@@ -10,7 +10,7 @@ from tftool.ros.host import names
 from tftool.ros.launch import parsing
 from tftool.ros.launch.action import Action
 from tftool.ros.launch.context import LaunchContext
-from tftool.ros.launch.parameters import ParameterFile, evaluate_parameters, normalize_parameters
+from tftool.ros.launch.parameters import ParameterFile, normalize_parameters, read_all
 from tftool.ros.launch.substitutions import Substitution, SubstitutionFailure, perform
 from tftool.ros.launch.utilities import normalize_to_list_of_substitutions
 
@@ -157,8 +157,8 @@ class SetParameter(Action):
 
     def execute(self, context: LaunchContext) -> Any:
         """Set it."""
-        (found,) = evaluate_parameters(context, [self._normalized])
-        _keep(context, _PARAMETERS, *found.items())
+        found = read_all(context, [self._normalized])
+        _keep(context, _PARAMETERS, *((name, value) for _, name, value in found))
 
 
 def _hashable(name: Any) -> Any:
