@@ -246,6 +246,27 @@ def test_components_are_left_out_with_a_line_and_the_rest_is_launched(tmp_path, 
     assert rest == "on"
 
 
+def test_a_container_may_be_a_file_of_no_package(tmp_path):
+    (tmp_path / "box.py").write_text(
+        "import rclpy\nrclpy.init()\nrclpy.create_node('b').get_logger().info('here')\n"
+    )
+    (tmp_path / "box.sh").write_text("#!/bin/sh\n")
+    file = tmp_path / "some.launch.xml"
+    file.write_text(
+        "<launch>"
+        + "".join(
+            f"<node_container exec='{tmp_path / name}' name='c' namespace=''/>"
+            for name in ("box.py", "box.sh")
+        )
+        + "</launch>"
+    )
+    done = described(tmp_path, f"IncludeLaunchDescription({str(file)!r})")
+
+    assert done.texts("c") == ["here"]
+    (left_out,) = done.said("launch")
+    assert left_out.startswith("left out: the container /c: a node is a Python file here, not")
+
+
 @pytest.mark.parametrize(
     "said",
     [

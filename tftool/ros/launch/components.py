@@ -13,7 +13,7 @@ from tftool.interfaces.classes import INTERFACES
 from tftool.ros.host.names import RosOptions
 from tftool.ros.launch.action import Action
 from tftool.ros.launch.context import LaunchContext
-from tftool.ros.launch.nodes import Node
+from tftool.ros.launch.nodes import Node, python_file
 from tftool.ros.launch.parameters import normalize_parameters, read_all
 from tftool.ros.launch.scope import (
     add_node_name,
@@ -139,13 +139,9 @@ class ComposableNodeContainer(Node):
     def execute(self, context: LaunchContext) -> Any:
         """Start it where it is a program in Python, and have its components loaded."""
         self._perform_substitutions(context)
-        try:
-            context.workspace.package(perform(context, self.package))
-        except UsageError:
-            context.launch.warn(
-                f"left out: the container {self.node_name}: '{perform(context, self.package)}' is "
-                "no package of this workspace, and containers are programs in C++"
-            )
+        reason = self._missing(context)
+        if reason:
+            context.launch.warn(f"left out: the container {self.node_name}: {reason}")
         else:
             super().execute(context)
         if not self.composable_node_descriptions:
@@ -154,3 +150,17 @@ class ComposableNodeContainer(Node):
             composable_node_descriptions=self.composable_node_descriptions,
             target_container=self.node_name,
         )
+
+    def _missing(self, context: LaunchContext) -> str:
+        """Why it is no program in Python; "" if it is."""
+        package = None if self.package is None else perform(context, self.package)
+        try:
+            if package is None:
+                python_file(perform(context, self.executable))
+            else:
+                context.workspace.package(package)
+        except UsageError as error:
+            if package is None:
+                return str(error)
+            return f"'{package}' is no package of this workspace, and containers are programs in C++"
+        return ""

@@ -119,7 +119,7 @@ class Node(Startable):
         package = None if self.package is None else perform(context, self.package)
         executable = perform(context, self.executable)
         if package is None:
-            executable = _file(executable)
+            executable = python_file(executable)
         self.handle_exit(context)
         self.say_unused(context, "additional_env", "env", "cwd", "shell")
         label = perform(context, self.exec_name) or Path(executable).name
@@ -139,7 +139,7 @@ class Node(Startable):
             )
 
 
-def _file(executable: str) -> str:
+def python_file(executable: str) -> str:
     """The file a node without a package is, looked for as a shell does.
 
     Raises:
