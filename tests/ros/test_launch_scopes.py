@@ -323,6 +323,36 @@ def test_a_service_runs_beside_other_coroutines(ros_runtime, tmp_path, capfd):
     assert "launched" in captured.err
 
 
+def test_who_cancels_a_services_coroutine_ends_its_launch(ros_runtime, tmp_path, capfd):
+    (tmp_path / "stay.py").write_text(
+        "import rclpy\nrclpy.init()\nrclpy.spin(rclpy.create_node('stay'))\n"
+    )
+    file = tmp_path / "cancels.py"
+    file.write_text(
+        "import asyncio\nimport launch\nimport launch_ros.actions\n"
+        "from launch.actions import LogInfo, TimerAction\n"
+        "service = launch.LaunchService()\n"
+        "service.include_launch_description(launch.LaunchDescription([\n"
+        f"    launch_ros.actions.Node(executable={str(tmp_path / 'stay.py')!r}),\n"
+        "    TimerAction(period=1.0, actions=[LogInfo(msg='too late')])]))\n"
+        "async def briefly():\n"
+        "    try:\n"
+        "        await asyncio.wait_for(service.run_async(), 0.5)\n"
+        "    except asyncio.TimeoutError:\n"
+        "        print('cancelled')\n"
+        "    await asyncio.sleep(2.0)\n"
+        "asyncio.run(briefly())\n"
+    )
+    program = ros_runtime.start(file)
+    ros_runtime.sleep(4.0)
+
+    assert program.status == 0
+    captured = capfd.readouterr()
+    assert captured.out == "cancelled\n"
+    assert "process has finished cleanly" in captured.err
+    assert "too late" not in captured.err
+
+
 def test_a_launch_that_ends_in_the_instant_in_which_a_node_begins_ends_the_node_too(tmp_path):
     (tmp_path / "stay.py").write_text(
         "import rclpy\nrclpy.init()\nrclpy.spin(rclpy.create_node('stay'))\n"

@@ -233,6 +233,10 @@ class Launch(Node):
         event = Shutdown(reason="ctrl-c (SIGINT)", due_to_sigint=True)
         self._guarded(lambda: self.emit(event))
 
+    def shut_down(self, reason: str) -> None:
+        """Have everything it started end, and then end itself."""
+        self._guarded(lambda: self.emit(Shutdown(reason=reason)))
+
     def info(self, text: str) -> None:
         """Say something."""
         self._say("INFO", "launch", text)

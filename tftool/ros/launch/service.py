@@ -55,18 +55,22 @@ class LaunchService:
         return self._launch
 
     async def run_async(self, *, shutdown_when_idle: bool = True) -> int:
-        """The same beside other coroutines."""
+        """The same beside other coroutines; who cancels it ends the launch."""
         launch = self._begin()
-        while not launch.ended.is_set():
-            # The loop is the user's, and its time the world's.
-            await asyncio.sleep(as_seconds(SLICE))  # noqa: TID251
+        try:
+            while not launch.ended.is_set():
+                # The loop is the user's, and its time the world's.
+                await asyncio.sleep(as_seconds(SLICE))  # noqa: TID251
+        except asyncio.CancelledError:
+            self.shutdown()
+            raise
         return int(bool(launch.failed))
 
     def shutdown(self) -> None:
         """End what runs."""
         launch = self._launch
         if launch is not None:
-            program.current().ask(launch.interrupt)
+            program.current().ask(lambda: launch.shut_down("the program asked for it"))
 
 
 def get_logger(name: str | None = None) -> logging.Logger:
