@@ -162,5 +162,7 @@ class ComposableNodeContainer(Node):
         except UsageError as error:
             if package is None:
                 return str(error)
-            return f"'{package}' is no package of this workspace, and containers are programs in C++"
+            return (
+                f"'{package}' is no package of this workspace, and containers are programs in C++"
+            )
         return ""
