@@ -6,6 +6,8 @@ from pathlib import Path
 import pytest
 
 from tests.ros.test_launch import described
+from tests.ros.test_launch_live import launch_live, package
+from tests.ros.tutorial import launch
 from tftool.errors import NodeFailed
 from tftool.ros.host.importing import ros_free
 
@@ -213,6 +215,64 @@ def test_a_container_that_answers_is_asked_to_load_components(tmp_path):
         "loaded P as '/s/c'",
         "P was not loaded: there is no such library",
     ]
+
+
+def container_launch(tmp_path, code, *more):
+    """A launch file whose container is a program of a package, and has a component to load."""
+    package(tmp_path, box=code)
+    file = tmp_path / "own.launch.xml"
+    file.write_text(
+        "<launch><node_container pkg='pkg' exec='box.py' name='c' namespace='s'>"
+        "<composable_node pkg='good' plugin='P' name='one'/></node_container>"
+        "<load_composable_node target='s/c'><composable_node pkg='good' plugin='Q' name='two'/>"
+        f"</load_composable_node>{''.join(more)}</launch>"
+    )
+    return file
+
+
+def test_the_container_that_a_launch_starts_is_waited_for(tmp_path):
+    late = CONTAINER.replace("rclpy.init()", "import time\ntime.sleep(1.5)\nrclpy.init()")
+    done = launch(container_launch(tmp_path, late), seconds=4, start=tmp_path)
+
+    assert done.texts("s.c") == ["P  one [] []", "Q  two [] []"]
+    assert done.said("launch") == ["loaded P as '/one'", "loaded Q as '/two'"]
+
+
+def test_the_container_that_a_launch_starts_is_waited_for_live_too(tmp_path):
+    brief = (
+        CONTAINER.replace(
+            "rclpy.spin(node)",
+            "for _ in range(200):\n    if len(told) < 2:\n"
+            "        rclpy.spin_once(node, timeout_sec=0.05)",
+        )
+        .replace("def load", "told = []\ndef load")
+        .replace("    return", "    told.append(1)\n    return")
+    )
+    done = launch_live(container_launch(tmp_path, brief), tmp_path)
+
+    assert sorted(done.texts("s.c")) == ["P  one [] []", "Q  two [] []"]
+    assert not [text for text in done.said("launch") if "left out" in text]
+
+
+@pytest.mark.parametrize("live", [False, True])
+def test_a_container_that_ends_without_its_service_is_waited_for_no_longer(tmp_path, live):
+    code = "import rclpy\nrclpy.init()\nrclpy.create_node('box')\n"
+    file = container_launch(tmp_path, code)
+    done = launch_live(file, tmp_path) if live else launch(file, seconds=4, start=tmp_path)
+
+    left_out = done.said("launch")
+    assert [text.split(": ")[:2] for text in left_out] == [["left out", "P"], ["left out", "Q"]]
+    assert done.failed == []
+
+
+def test_a_launch_ends_while_it_waits_for_a_container(tmp_path):
+    code = "import rclpy\nrclpy.init()\nrclpy.spin(rclpy.create_node('box'))\n"
+    over = "<timer period='1.0'><shutdown reason='enough'/></timer>"
+    done = launch(container_launch(tmp_path, code, over), seconds=4, start=tmp_path)
+
+    assert done.said("launch") == ["shutting down: enough"]
+    assert done.said("box.py-1")[-1] == "process has finished cleanly"
+    assert done.elapsed == 1
 
 
 COMPONENTS = {

@@ -1,7 +1,8 @@
 """launch_ros's components: nodes in C++ that are loaded into a container's process.
 
 None runs here. A container that answers in the session, of ROS 2's or of one's own, is asked to
-load them; what can be neither started nor asked is left out, with a line that says so.
+load them, and one that the launch itself starts is waited for; what can be neither started nor
+asked is left out, with a line that says so.
 """
 
 from collections.abc import Iterable
@@ -105,14 +106,18 @@ class LoadComposableNodes(Action):
         target = self.target_container
         container = target.node_name if isinstance(target, Node) else perform(context, target)
         service = f"{container.strip('/')}/_container/load_node"
-        if not context.launch.world.has_service(service):
+
+        def go_on(is_there: bool) -> None:
+            if is_there:
+                context.launch.ask(service, requests, partial(self._loaded, context))
+                return
             plugins = ", ".join(request.plugin_name for request in requests)
             context.launch.warn(
                 f"left out: {plugins}: components are libraries in C++, which do not run here, "
                 f"and no container '{container}' answers in this session"
             )
-            return
-        context.launch.ask(service, requests, partial(self._loaded, context))
+
+        context.launch.when_served(service, f"/{container.strip('/')}", go_on)
 
     def _loaded(self, context: LaunchContext, request: Any, answer: Any) -> None:
         if not answer.success:

@@ -245,6 +245,41 @@ class Launch(Node):
         """Say what is odd."""
         self._say("WARNING", "launch", text)
 
+    def when_served(self, service: str, node_name: str, then: Callable[[bool], object]) -> None:
+        """Tell `then` whether a service is there, in the scope of now.
+
+        Args:
+            service: The service's name.
+            node_name: The full name of the node that serves it. While one that this launch has
+                started runs under it, the service is waited for.
+            then: Is told.
+        """
+
+        def is_settled() -> bool:
+            running = (self._actions.get(label) for label in self._running)
+            return self.world.has_service(service) or not any(
+                getattr(action, "node_name", None) == node_name for action in running
+            )
+
+        if is_settled():
+            then(self.world.has_service(service))
+            return
+        kept = self.context.kept()
+
+        async def wait() -> None:
+            changed = asyncio.Event()
+            stop = self.world.watch(changed.set)
+            try:
+                while not is_settled():
+                    await changed.wait()
+                    changed.clear()
+            finally:
+                stop()
+            with self.context.back_to(kept):
+                self._guarded(lambda: then(self.world.has_service(service)))
+
+        self._start_task(wait(), self._timers)
+
     def ask(
         self, service: str, requests: Iterable[Any], done: Callable[[Any, Any], object]
     ) -> None:
