@@ -149,6 +149,24 @@ def test_a_scope_is_kept_among_the_launch_configurations_and_ends_with_them():
 
 
 @pytest.mark.parametrize(
+    "action",
+    [
+        "SetParameter('x', 1)",
+        "SetRemap('a', 'b')",
+        "launch_ros.actions.Node(package='turtlesim', executable='turtlesim_node')",
+    ],
+)
+def test_an_argument_may_not_have_the_name_of_what_a_scope_keeps(tmp_path, action):
+    arguments = [
+        f"DeclareLaunchArgument('{name}', default_value='x')"
+        for name in ("global_params", "ros_remaps")
+    ]
+
+    with pytest.raises(NodeFailed, match="is launch_ros's own name among the launch config"):
+        described(tmp_path, *arguments, action)
+
+
+@pytest.mark.parametrize(
     ("base", "own", "there"),
     [
         (None, None, None),

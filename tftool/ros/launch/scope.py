@@ -6,6 +6,7 @@ As in ROS 2 they are kept among the launch configurations, where a scope begins 
 from collections.abc import Iterable
 from typing import Any
 
+from tftool.errors import UsageError
 from tftool.ros.host import names
 from tftool.ros.launch import parsing
 from tftool.ros.launch.action import Action
@@ -84,14 +85,16 @@ def normalize_remap_rules(remap_rules: Iterable[Any]) -> Iterable[tuple[Any, Any
 
 def remaps_in(context: LaunchContext, own: Iterable[tuple[Any, Any]]) -> list[tuple[str, str]]:
     """The remappings of a node of the scope: the first that fits counts."""
-    kept: Any = context.launch_configurations.get(_REMAPS, [])
-    return [*kept, *((perform(context, old), perform(context, new)) for old, new in own)]
+    return [
+        *_kept(context, _REMAPS),
+        *((perform(context, old), perform(context, new)) for old, new in own),
+    ]
 
 
 def parameters_in(context: LaunchContext) -> list[tuple[str, str, Any]]:
     """What the scope sets: (node, name, value); "" is each node."""
     found: list[tuple[str, str, Any]] = []
-    for kept in context.launch_configurations.get(_PARAMETERS, []):
+    for kept in _kept(context, _PARAMETERS):
         if isinstance(kept, str):
             found += ParameterFile(kept).read(context)
         else:
@@ -109,10 +112,20 @@ def get_node_name_count(context: LaunchContext, node_name: str) -> int:
     return context.node_names[node_name]
 
 
+def _kept(context: LaunchContext, name: str) -> Any:
+    kept: Any = context.launch_configurations.get(name, [])
+    if isinstance(kept, str):
+        raise UsageError(
+            f"'{name}' is launch_ros's own name among the launch configurations, for what holds "
+            "for the nodes of a scope; give the launch argument another"
+        )
+    return kept
+
+
 def _keep(context: LaunchContext, name: str, *more: Any) -> None:
     # Another list: the scope outside keeps its own.
     configurations: dict[str, Any] = context.launch_configurations
-    configurations[name] = [*configurations.get(name, ()), *more]
+    configurations[name] = [*_kept(context, name), *more]
 
 
 class PushRosNamespace(Action):
