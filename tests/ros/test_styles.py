@@ -227,6 +227,22 @@ def test_a_main_is_not_called_where_the_file_has_come_to_rclpy(ros_runtime, tmp_
     assert len(ros_runtime.log("shy")) == more.count("main")
 
 
+def test_a_main_that_the_file_calls_itself_is_called_once(ros_runtime, tmp_path):
+    file, told = tmp_path / "script.py", tmp_path / "told"
+    file.write_text(
+        "import pathlib\n"
+        f"def main():\n    with pathlib.Path({str(told)!r}).open('a') as file:\n"
+        "        file.write('called ')\n"
+        "if __name__ == '__main__':\n    main()\n"
+    )
+
+    program = ros_runtime.start(file)
+    ros_runtime.sleep(1.0)
+
+    assert told.read_text() == "called "
+    assert program.status == 0
+
+
 def test_a_file_that_makes_no_node_says_so(ros_runtime, tmp_path):
     file = tmp_path / "nothing.py"
     file.write_text("from math import pi as main\n")

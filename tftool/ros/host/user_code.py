@@ -3,7 +3,7 @@
 import inspect
 from collections.abc import Callable
 from pathlib import Path
-from types import ModuleType
+from types import CodeType, ModuleType
 from typing import Any
 
 from tftool.errors import InputError, UsageError
@@ -15,8 +15,8 @@ from tftool.ros.host.shims import builtins_for_users
 def file_body(path: Path) -> Callable[[], None]:
     """What runs a node's file as `python3 FILE` would.
 
-    A file that defines `main` and never comes to rclpy is made for a console script, as
-    the tutorial's listings are: its `main` is called.
+    A file that defines `main`, does not call it and never comes to rclpy is made for a console
+    script, as the tutorial's listings are: its `main` is called.
 
     Raises:
         InputError: If the file cannot be read or is no Python; the line is shown.
@@ -37,12 +37,21 @@ def file_body(path: Path) -> Callable[[], None]:
         if owner.context is not None:
             return
         main = module.__dict__.get("main")
-        if inspect.isfunction(main) and main.__module__ == "__main__":
-            _end_with(main())
-        else:
+        if not inspect.isfunction(main) or main.__module__ != "__main__" or _reads(code, "main"):
             owner.warn(f"'{path.name}' has ended without rclpy.init(): it has made no node")
+        else:
+            _end_with(main())
 
     return body
+
+
+def _reads(code: CodeType, name: str) -> bool:
+    """Whether a file's own lines, outside of its functions, read a global name: as to call it."""
+    import dis  # Only for those that have ended without a node.
+
+    return any(
+        step.opname == "LOAD_NAME" and step.argval == name for step in dis.get_instructions(code)
+    )
 
 
 def compile_file(path: Path) -> Any:
