@@ -1,10 +1,7 @@
 """Recordings written anew: what is asked for changes, everything else stays byte for byte."""
 
-import os
 import shutil
-import sqlite3
 import subprocess
-from contextlib import closing
 
 import numpy as np
 import pytest
@@ -15,74 +12,24 @@ pytest.importorskip("zstandard", reason="the extra 'recordings' is not installed
 pytest.importorskip("lz4", reason="the extra 'recordings' is not installed")
 
 from mcap.reader import SeekingReader
-from mcap.stream_reader import StreamReader
 from mcap.writer import CompressionType
-from rosbags.highlevel import AnyReader
 
 from tests.patience import PATIENCE
+from tests.sources.editing.outcomes import NEW_POSE, SENT, START, edges, messages, strictly_read
 from tests.sources.writers import (
     CONTAINERS,
     SECOND,
     Sent,
-    content,
     numbers,
     write_mcap,
     write_rosbag1,
 )
-from tftool.errors import InputError, UsageError
+from tftool.errors import UsageError
 from tftool.frames.sample import TransformStamped
 from tftool.geometry.rigid import Transform
 from tftool.sources.editing.changes import Edits
 from tftool.sources.editing.rewriting import edit
 from tftool.sources.recording import open_recording
-
-SENT = content()
-START = SENT[0].log_time
-NEW_POSE = (1.0, 2.0, 3.0, 0.0, 0.0, 1.0, 0.0)
-
-
-def messages(path):
-    """Every message: log time and payload, by topic."""
-    with open_recording(path) as recording:
-        assert recording.damage == ()
-        return {
-            topic.name: [(raw.log_time, raw.payload) for raw in recording.raw_messages(topic.name)]
-            for topic in recording.topics
-        }
-
-
-def edges(path):
-    """Every transform: stamp and seven numbers, by (parent, child)."""
-    with open_recording(path) as recording:
-        return {
-            (edge.parent, edge.child): [
-                (stamp, *place, *turn)
-                for stamp, place, turn in zip(
-                    edge.stamps.tolist(),
-                    edge.translations.tolist(),
-                    edge.rotations.tolist(),
-                    strict=True,
-                )
-            ]
-            for edge in recording.edges
-        }
-
-
-def strictly_read(path):
-    """How many messages others find who check all CRCs and indexes."""
-    files = sorted(path.iterdir()) if path.is_dir() else [path]
-    for file in files:
-        if file.suffix == ".mcap":
-            with file.open("rb") as stream:
-                list(StreamReader(stream, validate_crcs=True).records)
-            with file.open("rb") as stream:
-                reader = SeekingReader(stream, validate_crcs=True)
-                found = sum(1 for _ in reader.iter_messages())
-                assert reader.get_summary().statistics.message_count == found
-    if path.suffix in (".mcap", ".db3"):
-        return None
-    with AnyReader([path]) as reader:
-        return sum(1 for _ in reader.messages())
 
 
 @pytest.mark.parametrize("name", CONTAINERS)
@@ -189,11 +136,6 @@ for path in sys.argv[1:]:
 
 
 # What is changed
-
-
-@pytest.fixture
-def mcap(tmp_path):
-    return write_mcap(tmp_path / "a.mcap", SENT)
 
 
 def test_links_are_dropped_renamed_prefixed_and_shifted(tmp_path, mcap):
@@ -488,198 +430,3 @@ def test_a_broken_chunk_costs_only_what_lies_behind_the_break_in_it(tmp_path):
     assert len(SENT) - 20 < sum(map(len, after.values())) < len(SENT)
     assert all(set(some) <= set(before[topic]) for topic, some in after.items())
     strictly_read(out)
-
-
-# Refusals
-
-
-def test_the_input_and_what_is_there_are_never_written_to(tmp_path, mcap):
-    link, other = tmp_path / "link.mcap", tmp_path / "other.mcap"
-    os.link(mcap, link)
-    other.write_bytes(b"precious")
-    before = mcap.read_bytes()
-
-    for output in (mcap, link):
-        with pytest.raises(UsageError, match="is the input"):
-            edit([str(mcap)], output, Edits(), force=True)
-    with pytest.raises(UsageError, match="exists"):
-        edit([str(mcap)], other, Edits())
-
-    assert mcap.read_bytes() == before
-    assert other.read_bytes() == b"precious"
-    edit([str(mcap)], other, Edits(), force=True)
-    assert messages(other) == messages(mcap)
-
-
-def test_a_folder_is_replaced_only_if_it_holds_nothing_but_a_recording(tmp_path, mcap):
-    out, mine = tmp_path / "out", tmp_path / "out.old"
-    mine.write_bytes(b"precious")
-    edit([str(mcap)], out, Edits(drop=(("*", "arm"),)))
-
-    edit([str(mcap)], out, Edits(), force=True)
-
-    assert messages(out) == messages(mcap)
-    assert sorted(os.listdir(tmp_path)) == ["a.mcap", "out", "out.old"]
-    (out / "notes.txt").write_bytes(b"precious")
-    with pytest.raises(UsageError, match="more than a recording"):
-        edit([str(mcap)], out, Edits(), force=True)
-    assert (out / "notes.txt").read_bytes() == mine.read_bytes() == b"precious"
-
-
-@pytest.mark.parametrize(
-    ("edits", "told"),
-    [
-        (Edits(drop=(("base_link", "lasr"),)), "did you mean laser"),
-        (Edits(poses={("map", "laser"): NEW_POSE}), "hangs from 'base_link'"),
-        (Edits(rename={"lasr": "x"}), "No frame 'lasr'"),
-        (Edits(rename={"laser": "camera"}), "Two frames would be called 'camera'"),
-        (Edits(reparent={("base_link", "laser"): "moon"}), "No frame 'moon'"),
-        (Edits(start=5, end=3), "--to lies before --from"),
-    ],
-)
-def test_what_is_not_in_the_recording_is_refused_with_what_is(tmp_path, mcap, edits, told):
-    with pytest.raises(UsageError, match=told):
-        edit([str(mcap)], tmp_path / "out.mcap", edits)
-
-    assert sorted(os.listdir(tmp_path)) == ["a.mcap"]
-
-
-@pytest.mark.parametrize("name", ["mcap none", "db3", "ros 1 none"])
-def test_an_interrupt_leaves_nothing_behind(tmp_path, name):
-    path = CONTAINERS[name](tmp_path, SENT)
-    before = sorted(os.listdir(tmp_path))
-
-    def interrupt(_done, _total):
-        raise KeyboardInterrupt
-
-    with pytest.raises(KeyboardInterrupt):
-        edit([str(path)], tmp_path / f"out{path.suffix}", Edits(), progress=interrupt)
-
-    assert sorted(os.listdir(tmp_path)) == before
-
-
-def test_a_full_disk_is_said_and_leaves_nothing_behind(tmp_path, mcap):
-    import resource
-    import signal
-
-    ignored = signal.signal(signal.SIGXFSZ, signal.SIG_IGN)
-    limits = resource.getrlimit(resource.RLIMIT_FSIZE)
-    resource.setrlimit(resource.RLIMIT_FSIZE, (10_000, limits[1]))
-    try:
-        with pytest.raises(InputError, match="cannot be written"):
-            edit([str(mcap)], tmp_path / "out.mcap", Edits())
-    finally:
-        resource.setrlimit(resource.RLIMIT_FSIZE, limits)
-        signal.signal(signal.SIGXFSZ, ignored)
-
-    assert sorted(os.listdir(tmp_path)) == ["a.mcap"]
-
-
-def test_a_dry_run_says_the_same_and_writes_nothing(tmp_path, mcap):
-    edits = Edits(drop=(("*", "arm"),), rename={"odom": "odometry"})
-
-    tried = edit([str(mcap)], tmp_path / "b.mcap", edits, dry_run=True)
-
-    assert sorted(os.listdir(tmp_path)) == ["a.mcap"]
-    done = edit([str(mcap)], tmp_path / "b.mcap", edits)
-    assert (tried.counts, tried.messages, tried.notes) == (done.counts, done.messages, done.notes)
-
-
-def rows(path):
-    """Every row of a database: its number, its topic and its bytes."""
-    with closing(sqlite3.connect(path)) as base:
-        asked = (
-            "select messages.id, name, timestamp, data from messages "
-            "join topics on topics.id = topic_id order by messages.id"
-        )
-        return base.execute(asked).fetchall()
-
-
-@pytest.fixture
-def database(tmp_path):
-    """A sqlite file whose numbers begin late and have gaps, with a table of someone else's."""
-    path = next(CONTAINERS["db3"](tmp_path, SENT).glob("*.db3"))
-    with closing(sqlite3.connect(path)) as base:
-        base.execute("pragma journal_mode = wal")
-        base.execute("update messages set id = -(3 * id + 1000)")
-        base.execute("update messages set id = -id")
-        base.execute("create table notes(text)")
-        base.execute("insert into notes values ('wheels changed')")
-        base.commit()
-    return path
-
-
-def test_a_database_is_copied_and_only_rows_that_change_are_written(database, tmp_path):
-    out = tmp_path / "out.db3"
-
-    edit([str(database)], out, Edits(poses={("base_link", "laser"): NEW_POSE}))
-
-    before, after = rows(database), rows(out)
-    assert [one[:3] for one in after] == [one[:3] for one in before]
-    differ = {one[1] for one, other in zip(before, after, strict=True) if one != other}
-    assert differ == {"/tf_static"}
-    assert edges(out)["base_link", "laser"] == [(0, *NEW_POSE)]
-    with closing(sqlite3.connect(out)) as base:
-        assert base.execute("select text from notes").fetchall() == [("wheels changed",)]
-        assert base.execute("pragma integrity_check").fetchone() == ("ok",)
-    assert sorted(one.name for one in tmp_path.iterdir() if "out" in one.name) == ["out.db3"]
-
-
-def test_what_is_dropped_from_a_database_is_not_in_its_file_any_more(database, tmp_path):
-    out = tmp_path / "out.db3"
-
-    report = edit([str(database)], out, Edits(drop=(("*", "*"),)))
-
-    kept = [one for one in rows(database) if not one[1].startswith("/tf")]
-    assert rows(out) == kept
-    assert 0 < report.messages == len(kept) < len(SENT)
-    gone = [one[3] for one in rows(database) if one[1].startswith("/tf")]
-    assert all(payload in database.read_bytes() for payload in gone)
-    assert not any(payload in out.read_bytes() for payload in gone)
-
-
-def test_a_damaged_database_is_read_row_by_row_and_comes_out_whole(tmp_path):
-    path = next(CONTAINERS["db3"](tmp_path, SENT).glob("*.db3"))
-    raw = bytearray(path.read_bytes())
-    size = int.from_bytes(raw[16:18], "big")
-    number = len(raw) // size // 2
-    raw[number * size : (number + 1) * size] = bytes(size)
-    path.write_bytes(raw)
-    out = tmp_path / "out.db3"
-
-    report = edit([str(path)], out, Edits(prefix="r1/"))
-
-    assert any("cannot be read" in note for note in report.notes)
-    assert 0 < report.messages < len(SENT)
-    with closing(sqlite3.connect(out)) as base:
-        assert base.execute("pragma integrity_check").fetchone() == ("ok",)
-    assert len(rows(out)) == report.messages
-
-
-def test_a_database_of_many_pages_becomes_another_container_message_by_message(tmp_path):
-    """Its pages are read in pieces, and several of those are at hand at once."""
-    path = next(CONTAINERS["db3"](tmp_path, SENT).glob("*.db3"))
-    rows_of_a_page = [
-        (number, bytes([0, 1, 0, 0]) + number.to_bytes(3000)) for number in range(1600)
-    ]
-    with closing(sqlite3.connect(path)) as base:
-        topic = base.execute("select id from topics where name = '/imu'").fetchone()
-        topic = topic or base.execute("select id from topics where name not like '/tf%'").fetchone()
-        base.execute("delete from messages")
-        base.executemany(
-            "insert into messages (topic_id, timestamp, data) values (?, ?, ?)",
-            [(topic[0], START + number, data) for number, data in rows_of_a_page],
-        )
-        base.commit()
-        assert base.execute("pragma page_count").fetchone()[0] > 4 * 256
-    out = tmp_path / "out.mcap"
-
-    edit([str(path)], out, Edits())
-
-    with out.open("rb") as file:
-        read = [
-            (log, one.data)
-            for *_, one in SeekingReader(file).iter_messages()
-            for log in [one.log_time]
-        ]
-    assert read == [(START + number, data) for number, data in rows_of_a_page]
