@@ -8,8 +8,8 @@ from tftool.diagnostics.catalogue import CHECKS
 from tftool.diagnostics.material import Material
 from tftool.diagnostics.model import Model
 from tftool.frames.buffer import Buffer
-from tftool.sources.contract import SIMULATED_BELOW, Edge, Publisher, Stamps, Transforms
-from tftool.stamps import NANOSECONDS
+from tftool.sources.contract import Edge, Publisher, Stamps, Transforms
+from tftool.stamps import NANOSECONDS, SIMULATED_BELOW
 
 Records = npt.NDArray[np.int64]
 Places = npt.NDArray[np.int32]

@@ -19,7 +19,6 @@ from tftool.geometry.rigid import Transform
 from tftool.interfaces.classes import Interfaces
 from tftool.sources.cache import ColumnCache, KeptColumns
 from tftool.sources.contract import (
-    SIMULATED_BELOW,
     Edge,
     Floats,
     Headers,
@@ -47,7 +46,7 @@ from tftool.sources.odometry import implying, joined
 from tftool.sources.reading import Recorded
 from tftool.sources.robot import Robot
 from tftool.sources.rosbag2 import open_found
-from tftool.stamps import Stamp
+from tftool.stamps import SIMULATED_BELOW, Stamp
 from tftool.wire.codec import Codec
 from tftool.wire.layouts import CDR, ROS1
 
