@@ -1,5 +1,6 @@
 """Recorded messages in, transforms out: columns per edge that grow as a file is read."""
 
+import mmap
 from array import array
 from collections import Counter
 from collections.abc import Sequence
@@ -23,6 +24,10 @@ _NEVER: Final = 2**62, 0
 _FEWEST: Final = 16
 _MOST_AHEAD: Final = 16  # times as many rows as have come, at most, are made room for
 _FREELY: Final = 1 << 22  # but so many rows, of all edges, however few have come
+_RECORD: Final = 64  # bytes of a transform's
+_PAGE: Final = 1 << 21  # bytes of a large page of memory
+_LARGE: Final = 1 << 21  # bytes from which on a column lies in such pages
+_HUGE: Final = getattr(mmap, "MADV_HUGEPAGE", None)
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -97,7 +102,10 @@ class _Column:
         first = self.count
         self.count = needed = first + count
         if needed > len(self._rows):
-            self._rows = _longer(self._rows, first, _wanted(needed, share, _FREELY))
+            kind, before = self._rows.dtype, self._rows
+            rows = _wanted(needed, share, _FREELY)
+            self._rows = _room(rows * kind.itemsize).view(kind)
+            self._rows[:first] = before[:first]
         return self._rows[first:needed]
 
     def all(self) -> npt.NDArray[Any]:
@@ -120,11 +128,17 @@ def _wanted(needed: int, share: float, freely: int) -> int:
     return max(likely, needed * 3 // 2, _FEWEST)
 
 
-def _longer(before: npt.NDArray[Any], count: int, rows: int) -> npt.NDArray[Any]:
-    """An array of so many rows that begins with some of another one."""
-    made = np.empty((rows, *before.shape[1:]), dtype=before.dtype)
-    made[:count] = before[:count]
-    return made
+def _room(size: int) -> Bytes:
+    """So many bytes, to be written."""
+    if size < _LARGE or _HUGE is None:
+        return np.empty(size, dtype=np.uint8)
+    # Only whole large pages can be large ones, and a small one costs as much as a hundred
+    # transforms: numpy's own begin and end anywhere.
+    pages = mmap.mmap(-1, size + 2 * _PAGE & -_PAGE, mmap.MAP_PRIVATE | mmap.MAP_ANONYMOUS)
+    pages.madvise(_HUGE)
+    whole = np.frombuffer(pages, dtype=np.uint8)
+    first = -whole.ctypes.data % _PAGE
+    return whole[first : first + size]
 
 
 # What `Growing.state` holds, by place; the native scan has the same.
@@ -176,8 +190,13 @@ class Growing:
             return 0
         # One that came once may never come again.
         rows = _wanted(needed, share, freely if there else 0)
-        self.records = _longer(self.records, there, rows)
-        self.messages = _longer(self.messages, there, rows)
+        # Both in one piece of memory, of which the end alone is not used.
+        split = rows * _RECORD
+        room = _room(split + rows * self.messages.itemsize)
+        records, self.records = self.records, room[:split].view(np.int64).reshape(rows, 8)
+        messages, self.messages = self.messages, room[split:].view(np.int32)
+        self.records[:there] = records[:there]
+        self.messages[:there] = messages[:there]
         self.state[_MOVED] += 1
         return rows - before
 
