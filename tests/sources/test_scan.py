@@ -160,6 +160,21 @@ def test_asks_where_the_transforms_of_a_pair_go_and_for_room():
 
 
 @needs_scan
+def test_refuses_pairs_of_the_other_layout_whose_bytes_lie_otherwise():
+    pairs = SCAN.Pairs()
+    columns = room(4)
+
+    def ask(pair, *_):
+        pairs.aim(0, *columns)
+        pairs.lead(pair, 0, False)
+
+    take(pairs, ros1([(5, "a", "b")]), ask)
+    with pytest.raises(ValueError, match="the other layout"):
+        take(pairs, cdr([(5, "a", "b")]), ask, is_cdr=True)
+    assert columns[2][0] == 1
+
+
+@needs_scan
 def test_refuses_columns_without_room_or_of_another_kind():
     payload = ros1(ROS1_SAMPLE)
     pairs = SCAN.Pairs()

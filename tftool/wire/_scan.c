@@ -54,12 +54,13 @@ static inline int64_t i64_at(const char *words, Py_ssize_t index) {
 
 /* Pairs of frame names --------------------------------------------------- */
 
-/* A pair: both names as they were sent, one behind the other. */
+/* A pair: both names as they were sent, with their lengths and what lies between them. */
 typedef struct {
-    uint32_t hash, place, parent, child; /* Where its bytes begin in `bytes`, and how many each has. */
-    uint32_t next;                       /* The pair that came behind it last. */
-    int32_t target;                      /* Where its transforms go, or one of those below. */
-    int32_t slashed;                     /* Whether a leading slash is left out of a name. */
+    uint32_t hash, place, size; /* Where its bytes begin in `bytes`, and how many it has. */
+    uint32_t parent, child;     /* And how many each name: the first behind its length, the other last. */
+    uint32_t next;              /* The pair that came behind it last. */
+    int32_t target;             /* Where its transforms go, or one of those below. */
+    int32_t slashed;            /* Whether a leading slash is left out of a name. */
 } Pair;
 
 #define UNKNOWN (-2)
@@ -87,6 +88,7 @@ typedef struct {
     uint64_t longest;
     Target *targets;
     Py_ssize_t targeted;
+    int is_cdr; /* Whether the messages are, all of them: what lies between names differs. */
     int busy; /* 1 while a thread scans, which does not hold Python's lock; 2 while it asks. */
 } Pairs;
 
@@ -103,14 +105,8 @@ static uint32_t hash_of(const uint8_t *bytes, uint32_t size, uint64_t hash) {
     return (uint32_t)(hash ^ hash >> 32);
 }
 
-/* Whether names are the same: mostly a few words, for which no function need be called. */
+/* Whether 8 bytes or more are the same: mostly a few words, for which no function need be called. */
 static inline int same(const uint8_t *one, const uint8_t *other, uint32_t size) {
-    if (size < 8) {
-        uint32_t differ = 0;
-        for (uint32_t i = 0; i < size; i++)
-            differ |= one[i] ^ other[i];
-        return differ == 0;
-    }
     for (uint32_t i = 0; i + 8 < size; i += 8) {
         if (u64_at(one + i) != u64_at(other + i))
             return 0;
@@ -122,7 +118,8 @@ static inline int is_pair(const Pairs *self, const Pair *pair, const uint8_t *pa
                           uint32_t parent_size, const uint8_t *child, uint32_t child_size) {
     const uint8_t *bytes = self->bytes + pair->place;
     return pair->parent == parent_size && pair->child == child_size
-        && same(bytes, parent, parent_size) && same(bytes + parent_size, child, child_size);
+        && memcmp(bytes + 4, parent, parent_size) == 0
+        && memcmp(bytes + pair->size - child_size, child, child_size) == 0;
 }
 
 /* Twice as much room in one of the arrays; returns whether there is. */
@@ -160,9 +157,12 @@ static int make_room(Pairs *self, uint32_t more) {
     return 1;
 }
 
-/* The number of a pair, which may be new; -1 where there are too many, or are made to look alike. */
-static int64_t number_of(Pairs *self, const uint8_t *parent, uint32_t parent_size,
-                         const uint8_t *child, uint32_t child_size) {
+/* The number of a pair, which may be new; -1 where there are too many, or are made to look alike.
+
+   bytes   its bytes, `size` of them, as `Pair` has them */
+static int64_t number_of(Pairs *self, const uint8_t *bytes, uint32_t size, uint32_t parent_size,
+                         uint32_t child_size) {
+    const uint8_t *parent = bytes + 4, *child = bytes + size - child_size;
     const uint32_t hash = hash_of(child, child_size, hash_of(parent, parent_size, parent_size));
     if (self->room) {
         uint32_t slot = hash & self->mask;
@@ -175,14 +175,12 @@ static int64_t number_of(Pairs *self, const uint8_t *parent, uint32_t parent_siz
                 return number;
         }
     }
-    if (self->count >= MOST_PAIRS || self->used + parent_size + child_size > MOST_BYTES
-        || !make_room(self, parent_size + child_size))
+    if (self->count >= MOST_PAIRS || self->used + size > MOST_BYTES || !make_room(self, size))
         return -1;
     const uint32_t number = self->count++;
-    self->pairs[number] = (Pair){hash, self->used, parent_size, child_size, number, UNKNOWN, 0};
-    memcpy(self->bytes + self->used, parent, parent_size);
-    memcpy(self->bytes + self->used + parent_size, child, child_size);
-    self->used += parent_size + child_size;
+    self->pairs[number] = (Pair){hash, self->used, size, parent_size, child_size, number, UNKNOWN, 0};
+    memcpy(self->bytes + self->used, bytes, size);
+    self->used += size;
     uint32_t slot = hash & self->mask;
     while (self->slots[slot])
         slot = (slot + 1) & self->mask;
@@ -195,12 +193,17 @@ static int64_t number_of(Pairs *self, const uint8_t *parent, uint32_t parent_siz
 #define ODD (-1)
 #define NO_MEMORY (-2)
 
+/* Where the numbers begin behind names: in CDR on a grid of 8 that starts behind the header. */
+static inline uint64_t numbers_at(uint64_t end, int is_cdr) {
+    return is_cdr ? ((end + 3) & ~7ULL) + 4 : end;
+}
+
 /* Walk through a message: `rows.walk`. Returns how many transforms it has, which `found` tells of,
    or what is wrong.
 
    bytes   it, `size` of them
    last    the pair that came last; is changed */
-static int64_t walk(Pairs *self, const uint8_t *bytes, uint64_t size, int is_cdr, uint32_t *last) {
+static inline int64_t walk(Pairs *self, const uint8_t *bytes, uint64_t size, int is_cdr, uint32_t *last) {
     uint64_t position = is_cdr ? 4 : 0;
     if (size < position + 4 || (is_cdr && (bytes[0] != 0 || bytes[1] != 1)))
         return ODD;
@@ -215,10 +218,21 @@ static int64_t walk(Pairs *self, const uint8_t *bytes, uint64_t size, int is_cdr
     }
     Found *found = self->found;
     for (uint64_t row = 0; row < count; row++) {
-        const uint64_t stamp = is_cdr ? position : position + 4;
-        const uint8_t *names[2];
+        const uint64_t stamp = is_cdr ? position : position + 4, begin = stamp + 8;
+        if (*last < self->count) {
+            /* As a rule what came behind it the last time comes again, to the byte. */
+            const uint32_t number = self->pairs[*last].next;
+            const Pair *pair = &self->pairs[number];
+            position = numbers_at(begin + pair->size, is_cdr);
+            if (position + 56 <= size && same(self->bytes + pair->place, bytes + begin, pair->size)) {
+                found[row] = (Found){number, (uint32_t)stamp, (uint32_t)position};
+                *last = number;
+                position += 56;
+                continue;
+            }
+        }
         uint32_t sizes[2];
-        position = stamp + 8;
+        position = begin;
         for (int k = 0; k < 2; k++) {
             if (is_cdr)
                 position = (position + 3) & ~3ULL;
@@ -227,28 +241,18 @@ static int64_t walk(Pairs *self, const uint8_t *bytes, uint64_t size, int is_cdr
             const uint32_t length = u32_at(bytes + position);
             if (length > LONGEST_NAME || position + 4 + length > size)
                 return ODD;
-            names[k] = bytes + position + 4;
             sizes[k] = length;
             position += 4 + length;
         }
-        if (is_cdr)
-            position = ((position + 3) & ~7ULL) + 4;
+        const uint32_t names = (uint32_t)(position - begin);
+        position = numbers_at(position, is_cdr);
         if (position + 56 > size)
             return ODD;
-        int64_t pair = -1;
-        if (*last < self->count) {
-            /* As a rule what came behind it the last time comes again. */
-            pair = self->pairs[*last].next;
-            if (!is_pair(self, &self->pairs[pair], names[0], sizes[0], names[1], sizes[1]))
-                pair = -1;
-        }
-        if (pair < 0) {
-            pair = number_of(self, names[0], sizes[0], names[1], sizes[1]);
-            if (pair < 0)
-                return ODD;
-            if (*last < self->count)
-                self->pairs[*last].next = (uint32_t)pair;
-        }
+        const int64_t pair = number_of(self, bytes + begin, names, sizes[0], sizes[1]);
+        if (pair < 0)
+            return ODD;
+        if (*last < self->count)
+            self->pairs[*last].next = (uint32_t)pair;
         *last = (uint32_t)pair;
         found[row] = (Found){(uint32_t)pair, (uint32_t)stamp, (uint32_t)position};
         position += 56;
@@ -355,6 +359,11 @@ static PyObject *take(PyObject *object, PyObject *const *arguments, Py_ssize_t c
         PyErr_SetString(PyExc_RuntimeError, "another thread scans with these pairs");
         goto done;
     }
+    if (self->count && self->is_cdr != is_cdr) {
+        PyErr_SetString(PyExc_ValueError, "the pairs are those of messages in the other layout");
+        goto done;
+    }
+    self->is_cdr = is_cdr;
     uint32_t last = UINT32_MAX;
     Py_ssize_t odd_count = 0, odd_room = 0;
     long long left_out = 0;
@@ -363,7 +372,9 @@ static PyObject *take(PyObject *object, PyObject *const *arguments, Py_ssize_t c
     PyThreadState *state = PyEval_SaveThread();
     for (Py_ssize_t k = 0; k < messages && !failed && !is_told; k++) {
         const uint8_t *bytes = buffer + i64_at(views[1].buf, k);
-        const int64_t transforms = walk(self, bytes, (uint64_t)i64_at(views[2].buf, k), is_cdr, &last);
+        const uint64_t length = (uint64_t)i64_at(views[2].buf, k);
+        /* Two of it, each for one layout. */
+        const int64_t transforms = is_cdr ? walk(self, bytes, length, 1, &last) : walk(self, bytes, length, 0, &last);
         int32_t message;
         memcpy(&message, (const char *)views[3].buf + 4 * k, sizeof message);
         for (int64_t row = 0; row < transforms; row++) {
@@ -483,7 +494,8 @@ static PyObject *names(PyObject *object, PyObject *argument) {
     }
     const Pair *pair = &self->pairs[number];
     const char *bytes = (const char *)self->bytes + pair->place;
-    return Py_BuildValue("(y#y#)", bytes, (Py_ssize_t)pair->parent, bytes + pair->parent, (Py_ssize_t)pair->child);
+    return Py_BuildValue("(y#y#)", bytes + 4, (Py_ssize_t)pair->parent, bytes + pair->size - pair->child,
+                         (Py_ssize_t)pair->child);
 }
 
 static void pairs_dealloc(PyObject *object) {

@@ -5,7 +5,10 @@ from collections.abc import Callable
 INTERFACE: int
 
 class Pairs:
-    """Pairs of frame names as they were sent, by number, in the order they first came up."""
+    """Pairs of frame names as they were sent, by number, in the order they first came up.
+
+    All of them come out of messages of one layout.
+    """
 
     def take(
         self,
@@ -36,7 +39,8 @@ class Pairs:
             messages that are odd, uint32: those are for `walk`, and nothing of them is taken.
 
         Raises:
-            ValueError: If a message lies outside of the buffer, or nobody made room.
+            ValueError: If a message lies outside of the buffer, those before were written the other
+                way, or no room was made.
             RuntimeError: If another thread does the same right now.
         """
 
