@@ -4,6 +4,7 @@ import bz2
 import os
 from collections.abc import Callable, Iterable
 from concurrent.futures import Future, ThreadPoolExecutor
+from functools import cache
 from typing import TYPE_CHECKING, Any, Final, TypeAlias
 
 from tftool.errors import InputError, UsageError
@@ -23,6 +24,7 @@ _LARGEST_DAMAGED: Final = 1 << 28  # bytes that are unpacked of a damaged piece:
 
 _LARGEST_AHEAD: Final = 16 << 20
 _MOST_WORKERS: Final = 4
+_LARGEST_KEPT: Final = 31 << 20
 
 Packed: TypeAlias = tuple[str, bytes, int]
 """A piece: how it is packed, its bytes, and how many it says it will be."""
@@ -200,11 +202,18 @@ def zstandard() -> "ModuleType":
     return zstandard
 
 
+@cache
 def _lz4() -> Any:
     try:
         import lz4.frame
     except ImportError:
         raise _missing("lz4") from None
+    import numpy as np
+
+    # It takes new memory for every piece, twice, and to get and clear that takes twice as long as
+    # to unpack. C's allocator of Linux keeps pieces that were freed, and gives them out again, up
+    # to the size of the largest that it had back from the system; this one is never written.
+    np.empty(_LARGEST_KEPT, dtype=np.uint8)
     return lz4.frame
 
 
