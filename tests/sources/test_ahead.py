@@ -33,7 +33,12 @@ def outcome(give):
 def taken(pieces):
     """Of each piece what comes of it, unpacked ahead where that is done on this machine."""
     found = []
-    with Ahead(range(len(pieces)), pieces.__getitem__) as ahead:
+
+    def packed(number):
+        method, data, size = pieces[number]
+        return method, lambda: data, size
+
+    with Ahead(range(len(pieces)), packed) as ahead:
         for number, piece in enumerate(pieces):
             coming = ahead.take(number)
             found.append(outcome(partial(unpack, *piece) if coming is None else coming.result))
@@ -68,3 +73,12 @@ def test_what_is_wrong_is_told_as_without_threads(method):
     assert found == [outcome(partial(unpack, *piece)) for piece in pieces]
     assert found[0] == found[-1] == TEXTS[5]
     assert sum(isinstance(one, str) for one in found) >= 6
+
+
+def test_what_cannot_be_read_is_told_when_it_is_asked_for():
+    def nothing():
+        raise InputError("the file was shortened")
+
+    with Ahead(range(2), lambda _: ("bz2", nothing, 5)) as ahead:
+        coming = [one for one in map(ahead.take, range(2)) if one is not None]
+        assert [outcome(one.result) for one in coming] == ["the file was shortened"] * len(coming)

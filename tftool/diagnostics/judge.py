@@ -13,7 +13,6 @@ from tftool.diagnostics.material import Material
 from tftool.diagnostics.model import Limits, Model, Settings
 from tftool.diagnostics.wording import filled, several
 from tftool.errors import UsageError
-from tftool.near_names import near_names
 
 Run = Callable[[Model, Limits], Iterator[Hit]]
 
@@ -134,7 +133,9 @@ def _named(words: Sequence[str]) -> list[str]:
 
 def unknown(word: str, known: Sequence[str], what: str) -> str:
     """Why a word is refused, with what was probably meant."""
-    near = near_names(word, known)
+    from difflib import get_close_matches
+
+    near = get_close_matches(word, known, 1)
     hint = f"did you mean {near[0]}?" if near else "'tftool doctor --list' shows all."
     return f"There is no {what} '{word}': {hint}"
 

@@ -26,8 +26,8 @@ _LARGEST_AHEAD: Final = 16 << 20
 _MOST_WORKERS: Final = 4
 _LARGEST_KEPT: Final = 31 << 20
 
-Packed: TypeAlias = tuple[str, bytes, int]
-"""A piece: how it is packed, its bytes, and how many it says it will be."""
+Packed: TypeAlias = tuple[str, Callable[[], bytes], int]
+"""A piece: how it is packed, what reads its bytes, and how many it says it will be."""
 
 
 def unpack(method: str, packed: bytes, size: int) -> bytes:
@@ -65,8 +65,9 @@ class _Room:
         self._bytes = bytearray()
         self._zstd: Any = None
 
-    def unpack(self, method: str, packed: bytes, size: int) -> "bytes | memoryview":
+    def unpack(self, method: str, read: Callable[[], bytes], size: int) -> "bytes | memoryview":
         """As the function of that name; what it gives is here as a rule, until the next one."""
+        packed = read()
         if method == "zstd":
             check_size(len(packed), size)
             try:
@@ -91,10 +92,10 @@ class _Room:
 
 
 class Ahead:
-    """Unpacks pieces in threads while those before them are looked at; works in a `with`.
+    """Reads and unpacks pieces in threads while those before them are looked at; works in a `with`.
 
-    What unpacks lets go of Python's lock: on two processors it costs no time of its own. Nothing
-    else is done in a thread.
+    Both let go of Python's lock: on two processors it costs no time of its own. Nothing else is
+    done in a thread.
     """
 
     def __init__(self, keys: Iterable[object], packed: Callable[[Any], Packed | None]) -> None:
@@ -102,7 +103,7 @@ class Ahead:
 
         Args:
             keys: Names of the pieces, in the order in which they will be asked for.
-            packed: Gives a piece; None where it is not to be unpacked ahead. Is called in the
+            packed: Tells of a piece; None where it is not to be unpacked ahead. Is called in the
                 thread that asks, not long before that piece is asked for.
         """
         self._keys = iter(keys)

@@ -4,6 +4,7 @@ import os
 import re
 from collections.abc import Callable, Collection, Iterator
 from dataclasses import dataclass
+from functools import partial
 from pathlib import Path
 from typing import Final, Protocol
 
@@ -215,10 +216,7 @@ def packed_piece(file: File, piece: PackedChunk) -> Packed | None:
     """What of a chunk is unpacked ahead; None of one that is read in another way."""
     if piece.cut or piece.method in ("", "none"):
         return None
-    try:
-        return piece.method, file.at(piece.place, piece.packed), piece.size
-    except InputError:
-        return None
+    return piece.method, partial(file.at, piece.place, piece.packed), piece.size
 
 
 def unpacked_piece(

@@ -1,8 +1,7 @@
 """What rclpy raises."""
 
 from collections.abc import Iterable
-
-from tftool.near_names import did_you_mean
+from difflib import get_close_matches
 
 
 class NotInitializedException(Exception):
@@ -100,7 +99,9 @@ class ParameterNotDeclaredException(ParameterException):
         names = [parameters] if isinstance(parameters, str) else list(parameters)
         text = f"Invalid access to undeclared parameter(s): {names}"
         for name in names:
-            text += did_you_mean(name, known)
+            near = get_close_matches(name, list(known), n=1)
+            if near:
+                text += f"; did you mean '{near[0]}'?"
         super().__init__(text, names)
 
 

@@ -7,7 +7,6 @@ import numpy as np
 
 from tftool.errors import TransformException, UsageError
 from tftool.geometry.rigid import Transform
-from tftool.near_names import near_names
 from tftool.sources.editing.changes import (
     Changer,
     Edits,
@@ -188,7 +187,9 @@ def _no_such_frame(name: str, frames: "set[str]") -> str:
 
 
 def _near(name: str, names: "set[str]") -> str:
-    near = near_names(name, sorted(names), 3)
+    import difflib
+
+    near = difflib.get_close_matches(name, sorted(names), n=3)
     if near:
         return f"did you mean {' or '.join(near)}?".rstrip("?")
     shown = ", ".join(sorted(names)[:8])
