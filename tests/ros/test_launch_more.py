@@ -179,8 +179,40 @@ def test_an_executable_in_a_package_is_found(tmp_path):
     done = described(tmp_path, text.format("tool.py"), start=tmp_path)
 
     assert done.said("launch") == [str(scripts / "tool.py")]
-    with pytest.raises(NodeFailed, match="package 'mine' has no file 'other' to run"):
+    with pytest.raises(NodeFailed, match="package 'mine' has no executable 'other'"):
         described(tmp_path, text.format("other"), start=tmp_path)
+
+
+SAYS_WORDS = (
+    "import sys\nimport rclpy\ndef main():\n    rclpy.init()\n"
+    "    rclpy.create_node('talker').get_logger().info(' '.join(sys.argv[1:]))\n"
+)
+
+
+@pytest.mark.parametrize("executable", ["console", "file.py"])
+@pytest.mark.parametrize("way", ["ExecutableInPackage", "ros2 run"])
+def test_a_package_s_executable_runs_as_a_process_with_its_own_words(tmp_path, executable, way):
+    place = tmp_path / "mine" / "mine"
+    place.mkdir(parents=True)
+    (tmp_path / "mine" / "package.xml").write_text("<package><name>mine</name></package>")
+    (tmp_path / "mine" / "setup.py").write_text(
+        "from setuptools import setup\nsetup(name='mine', entry_points={'console_scripts': "
+        "['console = mine.file:main']})\n"
+    )
+    (place / "__init__.py").touch()
+    (place / "file.py").write_text(SAYS_WORDS)
+    begin = (
+        "'ros2', 'run', 'mine', '{}'"
+        if way == "ros2 run"
+        else "ExecutableInPackage(package='mine', executable='{}')"
+    )
+    done = described(
+        tmp_path,
+        f"ExecuteProcess(cmd=[{begin.format(executable)}, 'a', '--b=c'])",
+        start=tmp_path,
+    )
+
+    assert done.texts("talker") == ["a --b=c"]
 
 
 def test_environments_are_pushed_popped_and_reset(tmp_path):

@@ -42,6 +42,17 @@ class Package:
                     return path
         return None
 
+    def place_of_script(self, name: str) -> Path:
+        """Where a console script would be, were the package installed where its sources are."""
+        return self.path / "lib" / self.name / name
+
+    def executable_at(self, path: Path) -> str | None:
+        """The name of the executable whose file that is, or would be; None if it is none's."""
+        if path.name in self.scripts and path == self.place_of_script(path.name):
+            return path.name
+        is_node = path == self.script_file(path.name) and b"rclpy" in path.read_bytes()
+        return path.name if is_node else None
+
 
 def _is_python(path: Path) -> bool:
     with path.open("rb") as file:

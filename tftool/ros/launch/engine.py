@@ -314,15 +314,6 @@ class Launch(Node):
         """
         label = self._label(executable.label)
         self._actions[label] = action
-        options = executable.options
-        argv = [executable.name, *executable.arguments, "--ros-args"]
-        if options.name:
-            argv += ["-r", f"__node:={options.name}"]
-        if options.namespace:
-            argv += ["-r", f"__ns:=/{options.namespace.strip('/')}"]
-        argv += [
-            word for _, name, value in options.parameters for word in ("-p", f"{name}:={value}")
-        ]
 
         def start() -> None:
             try:
@@ -332,9 +323,9 @@ class Launch(Node):
                     executable.package,
                     executable.name,
                     label=label,
-                    argv=argv,
+                    argv=executable.argv or executable.launched_argv(),
                     arguments=executable.arguments,
-                    options=options,
+                    options=executable.options,
                     on_exit=partial(self._program_ended, action, label),
                 )
             except executables.HasItsOwnCommand as error:

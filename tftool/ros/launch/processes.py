@@ -29,6 +29,7 @@ class Executable:
         arguments: Its own arguments.
         options: ROS 2's.
         label: What it is called in the log, before its number.
+        argv: Its command line, if that is not the one that launch_ros gives a node.
     """
 
     package: str | None
@@ -36,6 +37,19 @@ class Executable:
     arguments: Sequence[str]
     options: RosOptions
     label: str
+    argv: Sequence[str] | None = None
+
+    def launched_argv(self) -> list[str]:
+        """The command line that launch_ros gives a node."""
+        options = self.options
+        argv = [self.name, *self.arguments, "--ros-args"]
+        if options.name:
+            argv += ["-r", f"__node:={options.name}"]
+        if options.namespace:
+            argv += ["-r", f"__ns:=/{options.namespace.strip('/')}"]
+        return argv + [
+            word for _, name, value in options.parameters for word in ("-p", f"{name}:={value}")
+        ]
 
 
 class Startable(Action):
@@ -142,6 +156,10 @@ class ExecuteProcess(Startable):
         shell = is_true(perform(context, self.shell))
         if (ros2 := _ros2_words(words, shell)) is not None:
             return self._execute_ros2(context, ros2)
+        for package in context.workspace.packages.values():
+            # What only tftool can run: to a process of its own rclpy would be missing.
+            if not shell and (found := package.executable_at(Path(words[0]))) is not None:
+                return self._execute_ros2(context, ["run", package.name, found, *words[1:]])
         if shell:
             words = ["/bin/sh", "-c", " ".join(words)]
         command = SystemCommand(words, environment, cwd)
@@ -155,7 +173,7 @@ class ExecuteProcess(Startable):
             options.namespace = options.namespace or context.launch_configurations.get(
                 "ros_namespace"
             )
-            started = Executable(words[1], words[2], arguments, options, words[2])
+            started = Executable(words[1], words[2], arguments, options, words[2], words[2:])
             context.launch.start_node(self, started, self.respawn_after(context))
             return None
         if words[:1] == ["launch"] and len(words) > 1:

@@ -330,14 +330,14 @@ class ExecutableInPackage(Substitution):
         self.executable, self.package = executable, package
 
     def perform(self, context: LaunchContext) -> str:
-        """Its file in the package's sources."""
-        name, package = perform(context, self.executable), perform(context, self.package)
-        found = context.workspace.package(package).script_file(name)
+        """Its file in the package's sources; of a console script, where it would be installed."""
+        name = perform(context, self.executable)
+        package = context.workspace.package(perform(context, self.package))
+        if name in package.scripts:
+            return str(package.place_of_script(name))
+        found = package.script_file(name)
         if found is None:
-            raise SubstitutionFailure(
-                f"package '{package}' has no file '{name}' to run; a console script has none "
-                "before it is installed: start it by Node(package=…, executable=…)"
-            )
+            raise SubstitutionFailure(f"package '{package.name}' has no executable '{name}'")
         return str(found)
 
 
