@@ -9,10 +9,27 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any, Final, Literal
 
+from tftool.stamps import Duration
+
 Role = Literal["publisher", "subscription"]
 
 PUBLISHER: Final = "publisher"
 SUBSCRIPTION: Final = "subscription"
+
+
+@dataclass(frozen=True, slots=True)
+class Timing:
+    """How often a topic's publishers speak up, as they promise or as it is asked of them.
+
+    Attributes:
+        deadline: At most so long between two messages, nanoseconds; None for any time.
+        lease: After how long without a sign of life a publisher counts as dead; None for never.
+        is_manual: Whether a message, or asserting it, is a sign of life, and not just to be there.
+    """
+
+    deadline: Duration | None = None
+    lease: Duration | None = None
+    is_manual: bool = False
 
 
 @dataclass(frozen=True, slots=True)
@@ -24,12 +41,14 @@ class Quality:
         is_reliable: Whether none may be lost on the way.
         is_latched: Whether late subscribers get what was sent before (transient local).
         keeps_all: Whether nothing that waits is dropped, whatever the depth.
+        timing: How often there are messages; None where it is not known.
     """
 
     depth: int = 10
     is_reliable: bool = True
     is_latched: bool = False
     keeps_all: bool = False
+    timing: Timing | None = None
 
 
 USUAL: Final = Quality(depth=7)
@@ -48,7 +67,18 @@ def conflict(offered: Quality, requested: Quality) -> str:
         return "RELIABILITY"
     if requested.is_latched and not offered.is_latched:
         return "DURABILITY"
+    if offered.timing is None or requested.timing is None:
+        return ""
+    if _is_longer(offered.timing.deadline, requested.timing.deadline):
+        return "DEADLINE"
+    is_less = requested.timing.is_manual and not offered.timing.is_manual
+    if is_less or _is_longer(offered.timing.lease, requested.timing.lease):
+        return "LIVELINESS"
     return ""
+
+
+def _is_longer(offered: Duration | None, requested: Duration | None) -> bool:
+    return requested is not None and (offered is None or offered > requested)
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -89,6 +119,7 @@ class Endpoints:
         self._changed = changed
         self._warn = warn
         self._by_topic: dict[str, list[Endpoint]] = {}
+        self._silent: set[Endpoint] = set()
 
     def add(self, endpoint: Endpoint) -> Callable[[], None]:
         """Enter one; call what is returned to take it out again."""
@@ -102,6 +133,7 @@ class Endpoints:
         self._changed()
 
         def remove() -> None:
+            self._silent.discard(endpoint)
             held = self._by_topic.get(endpoint.topic, [])
             if endpoint in held:
                 held.remove(endpoint)
@@ -110,6 +142,16 @@ class Endpoints:
                 self._changed()
 
         return remove
+
+    def set_alive(self, endpoint: Endpoint, alive: bool) -> None:
+        """Note whether a publisher gives the signs of life that it has promised."""
+        if alive is (endpoint in self._silent):
+            (self._silent.discard if alive else self._silent.add)(endpoint)
+            self._changed()
+
+    def is_alive(self, endpoint: Endpoint) -> bool:
+        """Whether it does, as far as is known."""
+        return endpoint not in self._silent
 
     def of(self, topic: str, role: Role) -> list[Endpoint]:
         """The publishers or the subscriptions of a topic."""

@@ -212,7 +212,7 @@ class Node(NodeGraph, NodeParameters):
 
     def __watch(self, made: Any, group: Any, wanted: Any) -> None:
         """Have callbacks told of the other ends of a topic."""
-        if wanted is None or (wanted.matched is None and wanted.incompatible_qos is None):
+        if wanted is None:
             return
         group = group or self._default_callback_group
         made.event_watch = self.__keep(

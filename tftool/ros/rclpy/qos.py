@@ -3,8 +3,8 @@
 from enum import Enum, IntEnum
 from typing import Any
 
-from tftool.ros.rclpy.time import Duration
-from tftool.runtime.endpoints import Quality, conflict
+from tftool.ros.rclpy.time import Duration, Infinite
+from tftool.runtime.endpoints import Quality, Timing, conflict
 
 
 class _Policy(IntEnum):
@@ -155,7 +155,16 @@ def quality_of(profile: QoSProfile, *, offered: bool) -> Quality:
         is_reliable=reliability is not ReliabilityPolicy.BEST_EFFORT and not asks_little,
         is_latched=durability is DurabilityPolicy.TRANSIENT_LOCAL or keeps,
         keeps_all=profile.history is HistoryPolicy.KEEP_ALL,
+        timing=Timing(
+            _limit(profile.deadline),
+            _limit(profile.liveliness_lease_duration),
+            profile.liveliness is LivelinessPolicy.MANUAL_BY_TOPIC,
+        ),
     )
+
+
+def _limit(duration: Duration) -> int | None:
+    return None if duration == Infinite else duration.nanoseconds or None
 
 
 class QoSCompatibility(IntEnum):
@@ -175,17 +184,26 @@ def qos_check_compatible(
     )
     if not policy:
         return QoSCompatibility.OK, ""
-    word = {"RELIABILITY": "reliable", "DURABILITY": "transient local"}[policy]
-    less = {"RELIABILITY": "best effort", "DURABILITY": "volatile"}[policy]
-    return (
-        QoSCompatibility.ERROR,
-        f"ERROR: {less.capitalize()} publisher and {word} subscription;",
-    )
+    return QoSCompatibility.ERROR, f"ERROR: {_UNFIT[policy]};"
+
+
+_UNFIT = {
+    "RELIABILITY": "Best effort publisher and reliable subscription",
+    "DURABILITY": "Volatile publisher and transient local subscription",
+    "DEADLINE": "Publisher's deadline is longer than the subscription's",
+    "LIVELINESS": "Publisher promises less liveliness than the subscription asks for",
+}
 
 
 def profile_from(quality: Quality) -> QoSProfile:
     """The profile of an endpoint somewhere, as far as it is known."""
+    timing = quality.timing or Timing()
     return QoSProfile(
+        deadline=Duration(nanoseconds=timing.deadline or 0),
+        liveliness_lease_duration=Duration(nanoseconds=timing.lease or 0),
+        liveliness=LivelinessPolicy.MANUAL_BY_TOPIC
+        if timing.is_manual
+        else LivelinessPolicy.SYSTEM_DEFAULT,
         depth=quality.depth,
         history=HistoryPolicy.KEEP_ALL if quality.keeps_all else HistoryPolicy.KEEP_LAST,
         reliability=ReliabilityPolicy.RELIABLE

@@ -1,10 +1,12 @@
 """rclpy.event_handler: being told of the other ends of a topic.
 
-Told are those that come and go ("matched"), and those whose quality does not fit
-("incompatible_qos"). Here no message is lost or late on its way, and no publisher is found
-dead, so of the other events there are none.
+Told are those that come and go ("matched"), those whose quality does not fit
+("incompatible_qos"), those that are silent for too long ("deadline"), and those that no longer say
+that they are alive ("liveliness"). Here no message is lost on its way, and one name has one type,
+so of the other events there are none.
 """
 
+import asyncio
 from collections.abc import Callable
 from dataclasses import dataclass
 from enum import IntEnum
@@ -13,6 +15,7 @@ from typing import Any, NamedTuple
 from tftool.ros.rclpy.entities import WorkQueue
 from tftool.ros.rclpy.qos import QoSPolicyKind
 from tftool.ros.rclpy.seat import NodeSeat
+from tftool.runtime.clock import Phase
 from tftool.runtime.endpoints import PUBLISHER, SUBSCRIPTION, Endpoint, conflict
 
 
@@ -102,6 +105,50 @@ class SubscriptionEventCallbacks:
     use_default_callbacks: bool = True
 
 
+class Silence:
+    """Tells when there was no sign of something for too long after the last one."""
+
+    def __init__(self, seat: NodeSeat, limit: int | None, told: Callable[[], object]) -> None:
+        """Wait for the first sign.
+
+        Args:
+            seat: Whose clock it is.
+            limit: How long is too long, nanoseconds; None for never.
+            told: Is called on the loop's thread, once until there is a sign again.
+        """
+        self._seat = seat
+        self._limit = limit
+        self._told = told
+        self._last = 0
+        self._timer: asyncio.Future[None] | None = None
+
+    def end(self) -> None:
+        """There is a sign."""
+        self._last = self._seat.now()
+        if self._timer is None and self._limit is not None:
+            self._wait(self._limit)
+
+    def stop(self) -> None:
+        """Tell no more."""
+        if self._timer is not None:
+            self._timer.cancel()
+
+    def _wait(self, limit: int) -> None:
+        # Not made anew with every sign, of which there may be thousands: looked at when it ends.
+        clock = self._seat.program.clock
+        self._timer = clock.timer(self._last + limit, Phase.WATCH)
+        self._timer.add_done_callback(lambda timer: self._look(timer, limit))
+
+    def _look(self, timer: "asyncio.Future[None]", limit: int) -> None:
+        if timer.cancelled():
+            return
+        self._timer = None
+        if self._seat.now() < self._last + limit:
+            self._wait(limit)
+        else:
+            self._told()
+
+
 class EndpointWatch(WorkQueue):
     """Calls a node's callbacks when other ends of a topic come and go."""
 
@@ -112,7 +159,13 @@ class EndpointWatch(WorkQueue):
         self._wanted = wanted
         self._matched = QoSMatchedInfo()
         self._unfit = QoSIncompatibleInfo()
+        self._missed = QoSCountInfo()
+        self._lost = QoSCountInfo()
+        self._lives = QoSLivelinessChangedInfo()
         self._seen: list[Endpoint] = []
+        timing = own.quality.timing
+        limit = None if timing is None or wanted.deadline is None else timing.deadline
+        self._deadline = Silence(seat, limit, self._miss)
         self._stop = seat.world.watch(self._look, seat.authority)
         self._look()
 
@@ -134,9 +187,11 @@ class EndpointWatch(WorkQueue):
             pair = (own.quality, one.quality) if publishes else (one.quality, own.quality)
             return conflict(*pair)
 
+        if not publishes:
+            self._look_who_lives([one for one in others if not policy(one)])
         fitting = sum(not policy(one) for one in new)
         leaving = sum(not policy(one) for one in gone)
-        if (fitting or leaving) and self._wanted.matched is not None:
+        if fitting or leaving:
             before = self._matched
             self._matched = QoSMatchedInfo(
                 before.total_count + fitting,
@@ -146,16 +201,40 @@ class EndpointWatch(WorkQueue):
             )
             self._tell(self._wanted.matched, self._matched)
         unfit = [policy(one) for one in new if policy(one)]
-        if unfit and self._wanted.incompatible_qos is not None:
+        if unfit:
             total = self._unfit.total_count + len(unfit)
             kind = QoSPolicyKind[unfit[-1]]
             self._unfit = QoSIncompatibleInfo(total, len(unfit), kind)
             self._tell(self._wanted.incompatible_qos, self._unfit)
 
-    def _tell(self, callback: Callable[[Any], object], info: Any) -> None:
-        self.put(lambda: callback(info))
+    def _look_who_lives(self, publishers: list[Endpoint]) -> None:
+        alive = sum(map(self.seat.world.endpoints.is_alive, publishers))
+        dead, before = len(publishers) - alive, self._lives
+        changes = (alive - before.alive_count, dead - before.not_alive_count)
+        if any(changes):
+            self._lives = QoSLivelinessChangedInfo(alive, dead, *changes)
+            self._tell(self._wanted.liveliness, self._lives)
+
+    def message_passed(self) -> None:
+        """A message was sent or has arrived: the next is due within the deadline."""
+        self._deadline.end()
+
+    def _miss(self) -> None:
+        self._missed = QoSCountInfo(self._missed.total_count + 1, 1)
+        self._tell(self._wanted.deadline, self._missed)
+        self._deadline.end()
+
+    def lease_expired(self) -> None:
+        """A publisher has given no sign of life for longer than it had promised."""
+        self._lost = QoSCountInfo(self._lost.total_count + 1, 1)
+        self._tell(self._wanted.liveliness, self._lost)
+
+    def _tell(self, callback: Told, info: Any) -> None:
+        if callback is not None:
+            self.put(lambda: callback(info))
 
     def withdraw(self) -> None:
         """Watch no more."""
         super().withdraw()
         self._stop()
+        self._deadline.stop()

@@ -10,6 +10,7 @@ from tftool.ros.host import values
 from tftool.ros.rclpy.entities import NodeEntity, Work
 from tftool.ros.rclpy.exceptions import InvalidHandle
 from tftool.ros.rclpy.qos import HistoryPolicy, QoSProfile, quality_of
+from tftool.ros.rclpy.qos_events import EndpointWatch, Silence
 from tftool.ros.rclpy.seat import NodeSeat
 from tftool.ros.rclpy.serialization import deserialize_message, serialize_message
 from tftool.runtime.endpoints import PUBLISHER, SUBSCRIPTION, Endpoint, conflict
@@ -40,8 +41,12 @@ class Publisher(NodeEntity):
             quality,
             kept=deque(maxlen=_room(profile)) if latched else None,
         )
+        self._lease: Silence | None = None
+        if quality.timing is not None and quality.timing.is_manual:
+            seat.world.endpoints.set_alive(self._endpoint, False)
+            self._lease = Silence(seat, quality.timing.lease, self._expired)
         self._leave = seat.world.endpoints.add(self._endpoint)
-        self.event_watch: NodeEntity | None = None
+        self.event_watch: EndpointWatch | None = None
 
     @property
     def endpoint(self) -> Endpoint:
@@ -77,6 +82,9 @@ class Publisher(NodeEntity):
         seat.program.ask(lambda: self._send(value))
 
     def _send(self, value: Any) -> None:
+        self._be_alive()
+        if self.event_watch is not None:
+            self.event_watch.message_passed()
         if self._endpoint.kept is not None:
             self._endpoint.kept.append(value)
         self._topic.publish(value, self._endpoint)
@@ -86,7 +94,18 @@ class Publisher(NodeEntity):
         return int(self.seat.program.ask(lambda: self._topic.subscribers))
 
     def assert_liveliness(self) -> None:
-        """Nothing to do."""
+        """Say that it is alive, for those who asked for it to be said by hand."""
+        self.seat.program.ask(self._be_alive)
+
+    def _be_alive(self) -> None:
+        if self._lease is not None:
+            self._lease.end()
+            self.seat.world.endpoints.set_alive(self._endpoint, True)
+
+    def _expired(self) -> None:
+        self.seat.world.endpoints.set_alive(self._endpoint, False)
+        if self.event_watch is not None:
+            self.event_watch.lease_expired()
 
     def wait_for_all_acked(self, timeout: Any = None) -> bool:
         """True: what is sent is with everybody in the world when `publish` returns."""
@@ -96,6 +115,8 @@ class Publisher(NodeEntity):
         """Leave the graph; what was kept for those who come late goes along."""
         super().withdraw()
         self._withdrawn = True
+        if self._lease is not None:
+            self._lease.stop()
         self._leave()
         if self.event_watch is not None:
             self.event_watch.withdraw()
@@ -148,7 +169,7 @@ class Subscription(NodeEntity):
             deliver=self._accept if self._is_fed else None,
         )
         self._leave = seat.world.endpoints.add(self._endpoint)
-        self.event_watch: NodeEntity | None = None
+        self.event_watch: EndpointWatch | None = None
         self._stop = self._topic.subscribe(self._arrived, seat.authority)
         if self._quality.is_latched:
             for value, sender in seat.late(full):
@@ -179,6 +200,8 @@ class Subscription(NodeEntity):
         if sender is None or not conflict(sender.quality, self._quality):
             self._queue.append((self.seat.now(), value))
             self.seat.wake()
+            if self.event_watch is not None:
+                self.event_watch.message_passed()
 
     def ready(self) -> bool:
         """Whether a message waits."""
