@@ -34,7 +34,13 @@ def test_a_calibration_is_one_line_a_link(tftool, runs):
     assert len(told) == 1
     wanted = "laser in base moved 12.5 0 x 0 y 0 z +12.5 mm, roll 0 pitch 0 yaw 0°"
     assert " ".join(told[0].split()) == wanted
-    assert "1 of 2 links differs by more than 1 mm and 0.1°" in result.out
+    assert "1 of 2 links differs by more than 1 mm or 0.1°" in result.out
+
+
+def test_each_measure_alone_makes_a_difference(tftool, runs):
+    told = tftool("diff", *runs, "--rate-percent", "5").out
+
+    assert "by more than 1 mm or 0.1° or 5 % of the rate" in told
 
 
 def test_the_tolerance_decides_the_status(tftool, runs):

@@ -45,6 +45,15 @@ def test_a_link_is_set_in_degrees_and_the_result_is_told(run, capsys):
     assert tuple(found.rotation) == pytest.approx((0, 0, math.sqrt(0.5), math.sqrt(0.5)))
 
 
+def test_what_is_no_recording_is_wrong_usage_as_everywhere(run, tmp_path, capsys):
+    (tmp_path / "arm.urdf").write_text("<robot name='arm'><link name='base'/></robot>")
+
+    assert main(["edit", "arm.urdf", "-o", "b.mcap"]) == 2
+    assert "a recording is needed here" in capsys.readouterr().err
+    assert main(["play", "arm.urdf"]) == 2
+    assert "a recording is needed here" in capsys.readouterr().err
+
+
 def test_a_cut_by_seconds_since_the_start_and_json(run, capsys):
     assert main(["edit", "a.mcap", "-o", "b", "--from", "0.1", "--to", "0.3", "--json"]) == 0
 

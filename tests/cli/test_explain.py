@@ -1,6 +1,9 @@
 import json
+import re
 
 import pytest
+
+from tests.sources.writers import SECOND, Sent, numbers, write_mcap
 
 
 def test_a_lookup_between_two_samples_is_refused_with_the_wait_it_needs(tftool):
@@ -17,6 +20,19 @@ def test_what_answers_is_status_0(tftool):
     assert result.status == 0
     assert result.out.startswith("turtle1 in turtle2 at 1005.000000000: answers\n")
     assert tftool("explain", "turtle2", "turtle1", "turtles").status == 0
+
+
+def test_the_links_of_a_recording_count_from_where_the_moment_asked_for_does(tftool, tmp_path):
+    start = 1_750_000_000 * SECOND + SECOND // 2
+    run = [
+        Sent(start + at, "/tf", ((start + at, "map", "base", numbers(1)),))
+        for at in range(0, 3 * SECOND, SECOND)
+    ]
+
+    told = tftool("explain", "map", "base", write_mcap(tmp_path / "a.mcap", run), "--at", "7").out
+
+    assert re.search(r"held, s since the start +at 7\.000\n", told)
+    assert "0.000 … 2.000, 3" in told
 
 
 def test_programs_get_whole_nanoseconds(tftool):

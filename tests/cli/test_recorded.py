@@ -90,6 +90,15 @@ def test_info_tells_topics_edges_and_publishers(tftool, tmp_path):
     assert "/state_publisher" in text
 
 
+def test_info_counts_in_words_and_shows_no_table_of_nothing(tftool, tmp_path):
+    one = write_mcap(tmp_path / "one.mcap", [Sent(1, "/tf", ((1, "map", "base", numbers(1)),))])
+    none = write_mcap(tmp_path / "none.mcap", [])
+
+    assert "1 message on 1 topic, 1 transform of 1 edge\n" in tftool("info", one).out
+    assert "Frames: 2 in 1 tree with the root map\n" in tftool("info", one).out
+    assert "Topics" not in tftool("info", none).out
+
+
 def test_info_tells_what_is_odd(tftool, tmp_path):
     start = 1_750_000_000 * SECOND
     sent = [

@@ -136,3 +136,5 @@ def test_damage_is_told():
     made = robot()
     made.damage = ("the last chunk is torn",)
     assert found(made, "truncated-recording").evidence == ("the last chunk is torn",)
+    made.damage = ("It was not closed.", "It breaks off.")
+    assert found(made, "truncated-recording").evidence == ("It was not closed. It breaks off.",)

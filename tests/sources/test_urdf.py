@@ -228,6 +228,26 @@ def test_a_mimic_of_nothing_is_noted_and_read():
     assert "'elbow', which is no joint here" in arm.notes[0]
 
 
+def test_limits_that_leave_no_room_are_noted_and_read():
+    arm = parse(ARM.replace('lower="-1', 'lower="9'))
+
+    assert "'shoulder' can be nowhere: its lower limit" in arm.notes[0]
+    assert parse(ARM).notes == ()
+
+
+def test_degrees_where_radians_are_wanted_are_noted_and_read():
+    arm = parse(
+        ARM.replace(
+            "<joint",
+            '<joint name="mount" type="fixed"><parent link="base"/>'
+            '<child link="mounted"/><origin rpy="0 0 90"/></joint><link name="mounted"/><joint',
+            1,
+        )
+    )
+
+    assert "rpy 0 0 90 is more than a whole turn" in arm.notes[0]
+
+
 def test_a_file_is_read_with_its_encoding(tmp_path):
     path = tmp_path / "arm.urdf"
     text = ARM.replace('"1.0"?', '"1.0" encoding="iso-8859-1"?').replace("tool", "groß")
@@ -287,6 +307,17 @@ def test_xacro_that_fails_is_a_sentence(tmp_path):
     path.write_text(ARM.replace('xyz="0 0 1"', 'xyz="0 0 ${nothing}"'))
 
     with pytest.raises(InputError, match="cannot be expanded by xacro"):
+        load_description(path)
+
+
+def test_a_package_that_xacro_does_not_find_is_named_with_the_remedy(tmp_path):
+    pytest.importorskip("xacrodoc", reason="the extra 'xacro' is not installed")
+    path = tmp_path / "arm.urdf"
+    include = '<xacro:include filename="$(find elsewhere)/wheel.xacro"/><link'
+    robot = '<robot xmlns:xacro="http://www.ros.org/wiki/xacro"'
+    path.write_text(ARM.replace("<robot", robot, 1).replace("<link", include, 1))
+
+    with pytest.raises(InputError, match=r"there is no package 'elsewhere': .*ROS_PACKAGE_PATH"):
         load_description(path)
 
 

@@ -352,7 +352,7 @@ def test_a_picture_of_five_thousand_frames_says_what_it_leaves_out():
     assert drawn.left_out == 4000
     assert "leaves out 4000" in drawn.note
     told = words(ElementTree.fromstring(drawn.content))
-    assert "1000 frames shown, 4000 left out: those farthest from their root" in told
+    assert "1,000 frames shown, 4,000 left out: those farthest from their root" in told
     hidden = [int(word[2:]) for word in told if re.fullmatch(r"\+ \d+", word)]
     assert sum(hidden) == 4000
 

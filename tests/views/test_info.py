@@ -16,6 +16,14 @@ def told(width):
     return table(HEADS, ROWS, width, goes=("kind", "from"))
 
 
+def test_numbers_stand_under_each_other_at_their_right_ends():
+    rows = [("a", "7", "static"), ("b", "1,234", "dynamic")]
+
+    told = table(("edge", "count", "kind"), rows, right=("count",))
+
+    assert told == ["  edge  count  kind", "  a         7  static", "  b     1,234  dynamic"]
+
+
 def test_with_room_every_column_stands_there_whole():
     assert told(None) == told(200)
     assert told(None)[1].split()[-1] == ROWS[0][3]

@@ -418,4 +418,4 @@ def late_start(model: Model, limits: Limits) -> Iterator[Hit]:
 def truncated_recording(model: Model, limits: Limits) -> Iterator[Hit]:
     """What could not be read."""
     if model.material.damage:
-        yield Hit(facts={"damage": list(model.material.damage)}, alone=True)
+        yield Hit(facts={"damage": " ".join(model.material.damage)}, alone=True)

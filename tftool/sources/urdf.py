@@ -43,6 +43,7 @@ LARGEST = 64 * 1024 * 1024
 """Bytes a description may have."""
 
 _NUMBER = re.compile(r"[+-]?(\d+\.?\d*|\.\d+)([eE][+-]?\d+)?")
+_NO_PACKAGE = re.compile(r"Package not found: (\S+)")
 _DECLARATION = re.compile(r"\s*<\?xml\b[^<>]*>")
 
 
@@ -170,6 +171,12 @@ def _expanded(path: Path, arguments: Mapping[str, str]) -> str:
         return str(expanded.dom.toprettyxml(indent="  "))
     except Exception as error:  # xacro raises whatever an expression in the file raises.
         said = " ".join(str(error).split()) or type(error).__name__
+        if missing := _NO_PACKAGE.search(said):
+            raise InputError(
+                f"'{path}' cannot be expanded by xacro: there is no package '{missing[1]}': put "
+                "the folder it lies in into the environment variable ROS_PACKAGE_PATH, or source "
+                "its workspace"
+            ) from error
         raise InputError(f"'{path}' cannot be expanded by xacro: {said}") from error
 
 
@@ -344,6 +351,11 @@ class _Reader:
             return Transform()
         xyz = self._numbers(origin, "xyz", 3, "0 0 0")
         roll, pitch, yaw = self._numbers(origin, "rpy", 3, "0 0 0")
+        if max(map(abs, (roll, pitch, yaw))) > math.tau:
+            self.notes.append(
+                f"line {origin.line + 1}: rpy {roll:g} {pitch:g} {yaw:g} is more than a whole "
+                "turn: URDF takes radians, and 90 degrees are 1.5708"
+            )
         return Transform(xyz, quaternion_from_rpy(roll, pitch, yaw))
 
     def _add(self, element: _Element, what: str, held: dict[str, T], new: T | None) -> bool:
@@ -505,9 +517,15 @@ class _Reader:
             if kind in LIMITED_TYPES:
                 self._note(joint, f"{kind} joint '{name}' needs a <limit effort=… velocity=…>")
             return None
+        lower, upper = self._number(element, "lower", "0"), self._number(element, "upper", "0")
+        if kind in LIMITED_TYPES and lower > upper:
+            self.notes.append(
+                f"joint '{name}' can be nowhere: its lower limit, {lower:g}, is above its upper "
+                f"one, {upper:g}"
+            )
         return JointLimit(
-            self._number(element, "lower", "0"),
-            self._number(element, "upper", "0"),
+            lower,
+            upper,
             self._number(element, "effort"),
             self._number(element, "velocity"),
         )

@@ -26,7 +26,11 @@ def lines(found: Differences, *, everything: bool = False) -> str:
     told = found.links if everything else found.changed
     text = [f"A {visible(found.first)}", f"B {visible(found.second)}"]
     if told:
-        text += ["", *table(HEAD, [_row(one, found.start) for one in told]), ""]
+        text += [
+            "",
+            *table(HEAD, [_row(one, found.start) for one in told], right=("mm", "degrees")),
+            "",
+        ]
     text.append(summary(found))
     return "".join(f"{line.rstrip()}\n" for line in text)
 
@@ -35,16 +39,16 @@ def summary(found: Differences) -> str:
     """One sentence: how many links differ, by which measure."""
     count, total = len(found.changed), len(found.links)
     limit = found.tolerance
-    measure = f"{limit.millimetres:g} mm and {limit.degrees:g}°"
+    measures = [f"{limit.millimetres:g} mm", f"{limit.degrees:g}°"]
     if limit.rate_percent is not None:
-        measure += f" and {limit.rate_percent:g} % of the rate"
+        measures.append(f"{limit.rate_percent:g} % of the rate")
     links = "link" if total == 1 else "links"
     if not count:
-        return f"{total} {links}, the same within {measure}."
+        return f"{total} {links}, the same within {' and '.join(measures)}."
     unsure = sum(one.displacement is None and one.is_same for one in found.links)
     beside = f", {unsure} not measured" if unsure else ""
     differ = "differs" if count == 1 else "differ"
-    return f"{count} of {total} {links} {differ} by more than {measure}{beside}."
+    return f"{count} of {total} {links} {differ} by more than {' or '.join(measures)}{beside}."
 
 
 def as_object(found: Differences) -> dict[str, object]:

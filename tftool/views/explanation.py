@@ -113,7 +113,8 @@ class _Links:
         found = self._found
         base = _base(found)
         at = "at the latest" if not found.stamp else f"at {_since(found.stamp, base)}"
-        rows = [tuple(Text(word, "dim") for word in ("link", "kind", "held", at))]
+        held = "held, s since the start" if base else "held"
+        rows = [tuple(Text(word, "dim") for word in ("link", "kind", held, at))]
         for link in found.links:
             style = "bold" if link.edge == found.refusing else ""
             says = Text("answers", "green")
@@ -151,10 +152,10 @@ def _refusal(link: TracedLink) -> str:
 
 
 def _base(found: Explanation) -> Stamp:
-    """What times in the table count from: a whole second near the first data, 0 in simulations."""
+    """What times in the table count from: what --at does, and 0 in simulations."""
     if found.stamp and found.stamp < SIMULATED_BELOW:
         return 0
-    return found.epoch // NANOSECONDS * NANOSECONDS if found.epoch >= SIMULATED_BELOW else 0
+    return found.epoch if found.epoch >= SIMULATED_BELOW else 0
 
 
 def _other_clock(stamp: Stamp, base: Stamp) -> bool:

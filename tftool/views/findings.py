@@ -13,6 +13,7 @@ from tftool.diagnostics.streams import Heard, Stream, Track, rate
 from tftool.diagnostics.wording import filled, span
 from tftool.messages import Judgement, Report
 from tftool.views import judgements
+from tftool.views.counts import count
 from tftool.views.escaping import visible
 
 if TYPE_CHECKING:
@@ -101,10 +102,10 @@ def head(model: Model) -> str:
     if material.end > material.start and material.timed:
         facts.append(f"{(material.end - material.start) / 1e9:.1f} s")
     if material.topics:
-        facts.append(_count(len(material.topics), "topic"))
-    facts.append(_count(len(model.frames), "frame"))
-    facts.append(_count(len(model.trees), "tree"))
-    facts.append(_count(len(material.transforms), "transform"))
+        facts.append(count(len(material.topics), "topic"))
+    facts.append(count(len(model.frames), "frame"))
+    facts.append(count(len(model.trees), "tree"))
+    facts.append(count(len(material.transforms), "transform"))
     return f"{material.name}: {', '.join(facts)}"
 
 
@@ -141,7 +142,7 @@ def summary(diagnosis: Diagnosis) -> str:
     if not counts:
         skipped = f", {len(diagnosis.skipped)} skipped" if diagnosis.skipped else ""
         why = " (--verbose says why)" if skipped else ""
-        return f"nothing found; {_count(diagnosis.ran, 'check')} ran{skipped}{why}"
+        return f"nothing found; {count(diagnosis.ran, 'check')} ran{skipped}{why}"
     first = next(f for f in diagnosis.findings if f.because_of is None)
     worst = min(
         (f for f in diagnosis.findings if f.because_of is None), key=lambda f: f.severity.rank
@@ -158,7 +159,7 @@ def summary(diagnosis: Diagnosis) -> str:
 def counted(diagnosis: Diagnosis) -> str:
     """The findings by severity: "1 error, 2 warnings"; empty where there are none."""
     numbers = [(severity.value, diagnosis.count(severity)) for severity in Severity]
-    return ", ".join(_count(number, word) for word, number in numbers if number)
+    return ", ".join(count(number, word) for word, number in numbers if number)
 
 
 def brief(diagnosis: Diagnosis) -> str:
@@ -181,10 +182,6 @@ def _folded(diagnosis: Diagnosis) -> dict[str, list[str]]:
         cause: [name if number == 1 else f"{name} ({number})" for name, number in of.items()]
         for cause, of in counts.items()
     }
-
-
-def _count(number: int, word: str) -> str:
-    return f"{number:,} {word}" if number == 1 else f"{number:,} {word}s"
 
 
 def compared(rows: "Sequence[tuple[str, Diagnosis | str]]") -> "Table":

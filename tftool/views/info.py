@@ -7,13 +7,14 @@ from typing import Any
 from rich.cells import cell_len
 from rich.text import Text
 
-from tftool.sources.contract import SIMULATED_BELOW
+from tftool.sources.contract import SIMULATED_BELOW, RecordedTopic
 from tftool.sources.described import DescribedFrames
 from tftool.sources.recording import Recording
 from tftool.sources.robot import Robot
 from tftool.sources.summary import EdgeFacts, TreeFacts, edge_facts, oddities, trees
 from tftool.stamps import NANOSECONDS, Duration, Stamp
 from tftool.views.columns import TableColumn, fit
+from tftool.views.counts import count
 from tftool.views.escaping import visible
 from tftool.views.fixed_width import middle_cut
 
@@ -31,14 +32,14 @@ def as_text(recording: Recording, width: int | None = None) -> str:
     source = recording.source
     edges = edge_facts(recording.transforms)
     topics = recording.topics
-    count = sum(topic.count for topic in topics)
+    messages = sum(topic.count for topic in topics)
     span = source.end - source.start
     lines = [
         f"{visible(recording.name)}: {recording.source.kind}, {_size(source.size)}",
-        f"{count} messages on {len(topics)} topics, "
-        f"{len(recording.transforms)} transforms of {len(edges)} edges",
+        f"{count(messages, 'message')} on {count(len(topics), 'topic')}, "
+        f"{count(len(recording.transforms), 'transform')} of {count(len(edges), 'edge')}",
     ]
-    if count:
+    if messages:
         lines.append(
             f"Received from {_moment(source.start)} to {_moment(source.end)}: {_seconds(span)}"
         )
@@ -47,24 +48,15 @@ def as_text(recording: Recording, width: int | None = None) -> str:
             f"Stamps   from {_moment(recording.start)} to {_moment(recording.end)}: "
             f"{_seconds(recording.end - recording.start)}"
         )
-    lines += ["", "Topics"]
-    lines += table(
-        ("name", "type", "messages", "rate", "publishers"),
-        [
-            (
-                visible(topic.name),
-                visible(topic.type),
-                str(topic.count),
-                f"{(topic.count - 1) * NANOSECONDS / span:.1f} Hz"
-                if topic.count > 1 and span
-                else "-",
-                _few(sorted({one.node for one in recording.publishers if one.topic == topic.name})),
-            )
-            for topic in topics
-        ],
-        width,
-        goes=("publishers", "type"),
-    )
+    if topics:
+        lines += ["", "Topics"]
+        lines += table(
+            ("name", "type", "messages", "rate", "publishers"),
+            [_topic(recording, topic) for topic in topics],
+            width,
+            goes=("publishers", "type"),
+            right=("messages", "rate"),
+        )
     if edges:
         lines += ["", f"Frames: {_forest(trees(recording.transforms))}"]
         lines += table(
@@ -72,6 +64,7 @@ def as_text(recording: Recording, width: int | None = None) -> str:
             list(map(_row, edges)),
             width,
             goes=("kind", "transforms", "from", "received after its stamp"),
+            right=("transforms", "rate"),
         )
     if recording.robot is not None:
         lines += ["", f"Robot: {_robot(recording, recording.robot)}"]
@@ -81,12 +74,23 @@ def as_text(recording: Recording, width: int | None = None) -> str:
     return "\n".join(lines) + "\n"
 
 
+def _topic(recording: Recording, topic: RecordedTopic) -> tuple[str, ...]:
+    span = recording.source.end - recording.source.start
+    return (
+        visible(topic.name),
+        visible(topic.type),
+        f"{topic.count:,}",
+        f"{(topic.count - 1) * NANOSECONDS / span:.1f} Hz" if topic.count > 1 and span else "-",
+        _few(sorted({one.node for one in recording.publishers if one.topic == topic.name})),
+    )
+
+
 def _robot(recording: Recording, robot: Robot) -> str:
     moving = sum(joint.moves for joint in robot.joints.values())
     found = recording.described or DescribedFrames()
     text = (
-        f"'{visible(robot.name)}' is described: {len(robot.links)} links, "
-        f"{len(robot.joints)} joints of which {moving} move"
+        f"'{visible(robot.name)}' is described: {count(len(robot.links), 'link')}, "
+        f"{count(len(robot.joints), 'joint')} of which {moving} move"
     )
     if found.still or found.moving:
         text += (
@@ -172,7 +176,7 @@ def _row(edge: EdgeFacts) -> tuple[str, ...]:
     return (
         f"{visible(edge.child)} in {visible(edge.parent)}",
         "static" if edge.static else "dynamic",
-        str(edge.count),
+        f"{edge.count:,}",
         "-" if edge.rate is None else f"{edge.rate:.1f} Hz",
         offset,
         _few(edge.publishers),
@@ -181,13 +185,14 @@ def _row(edge: EdgeFacts) -> tuple[str, ...]:
 
 def _forest(forest: Sequence[TreeFacts]) -> str:
     total = sum(tree.frames for tree in forest)
-    words = [f"{tree.frames} below {visible(tree.root)}" for tree in forest[:4]]
+    words = [f"{tree.frames} with the root {visible(tree.root)}" for tree in forest[:4]]
     more = f" and {len(forest) - 4} trees more" if len(forest) > 4 else ""
-    kind = "tree" if len(forest) == 1 else "trees"
-    return f"{total} in {len(forest)} {kind}, {', '.join(words)}{more}"
+    if len(forest) == 1:
+        return f"{total} in 1 tree with the root {visible(forest[0].root)}"
+    return f"{total} in {len(forest)} trees: {', '.join(words)}{more}"
 
 
-_WIDEST = 80
+_WIDEST = 120
 _NARROW = (32, 16)
 """What a column that may go is cut to first, and then."""
 
@@ -198,6 +203,7 @@ def table(
     width: int | None = None,
     *,
     goes: tuple[str, ...] = (),
+    right: tuple[str, ...] = (),
 ) -> list[str]:
     """Lines of columns, as wide as what is in them within reason; the last one is not padded.
 
@@ -206,11 +212,15 @@ def table(
         rows: What stands in them.
         width: Cells a line may take; None for as many as it needs.
         goes: Columns that shrink, then are left out where there is no room, in that order.
+        right: Columns of numbers, which stand at the right end.
     """
     widths = [min(_WIDEST, max(map(len, column))) for column in zip(heads, *rows, strict=True)]
     lines = [
         "  "
-        + "  ".join(cell.ljust(width) for cell, width in zip(row, widths, strict=True)).rstrip()
+        + "  ".join(
+            cell.rjust(width) if head in right else cell.ljust(width)
+            for head, cell, width in zip(heads, row, widths, strict=True)
+        ).rstrip()
         for row in (heads, *rows)
     ]
     if width is None or max(map(cell_len, lines)) <= width:
@@ -219,6 +229,7 @@ def table(
         TableColumn(
             head,
             [(row[at], "") for row in rows],
+            stands_right=head in right,
             caps=_NARROW if head in goes else (),
             goes=goes.index(head) + 1 if head in goes else 0,
         )
@@ -285,4 +296,4 @@ def as_lines(rows: Sequence[Mapping[str, Any]]) -> str:
             )
         )
     heads = ("recording", "kind", "length", "messages", "transforms", "frames in trees", "")
-    return "\n".join(table(heads, lines)) + "\n"
+    return "\n".join(table(heads, lines, right=heads[2:6])) + "\n"

@@ -5,6 +5,7 @@ from typing import TYPE_CHECKING, Any
 from xml.etree import ElementTree
 
 from tftool.messages import Judgement, Report
+from tftool.views.counts import count
 from tftool.views.escaping import visible
 
 if TYPE_CHECKING:
@@ -38,7 +39,7 @@ def render(reports: Sequence[Report]) -> "Table":
 def _told(report: Report) -> str:
     if report.judgements:
         held = sum(judgement.ok for judgement in report.judgements)
-        return f"{held} of {_count(len(report.judgements), 'expectation')} held"
+        return f"{held} of {count(len(report.judgements), 'expectation')} held"
     if report.failure:
         return _lines(report.failure)[0].rstrip(":")
     return "nothing is expected"
@@ -74,8 +75,8 @@ def summary(reports: Sequence[Report]) -> str:
     bad = [report for report in reports if not report.ok]
     judgements = [judgement for report in reports for judgement in report.judgements]
     held = sum(judgement.ok for judgement in judgements)
-    scenarios = _count(len(reports), "scenario")
-    whole = f"{held} of {_count(len(judgements), 'expectation')} held"
+    scenarios = count(len(reports), "scenario")
+    whole = f"{held} of {count(len(judgements), 'expectation')} held"
     if bad:
         names = ", ".join(visible(report.name) for report in bad)
         return f"{scenarios}, {len(bad)} failed ({names}): {whole}"
@@ -166,7 +167,3 @@ def _found(judgement: Judgement) -> str:
 
 def _lines(text: str) -> list[str]:
     return [visible(line) for line in text.split("\n")]
-
-
-def _count(number: int, word: str) -> str:
-    return f"{number} {word}" if number == 1 else f"{number} {word}s"

@@ -12,6 +12,7 @@ from typing import Literal
 
 from tftool.frames.sample import Snapshot
 from tftool.stamps import Duration
+from tftool.views.counts import count
 from tftool.views.escaping import distinct, visible
 from tftool.views.font import fit, width
 from tftool.views.forest import Forest, grow
@@ -376,11 +377,11 @@ class _Sheet:
         if not frames:
             return ["No tf data received"]
         trees = len(self.forest.roots)
-        notes = [f"{_count(frames, 'frame')} in {_count(trees, 'tree')}"]
+        notes = [f"{count(frames, 'frame')} in {count(trees, 'tree')}"]
         if self.forest.left_out:
             notes.append(
-                f"{_count(frames - self.forest.left_out, 'frame')} shown, "
-                f"{self.forest.left_out} left out: those farthest from their root"
+                f"{count(frames - self.forest.left_out, 'frame')} shown, "
+                f"{self.forest.left_out:,} left out: those farthest from their root"
             )
         for name in self.forest.loops:
             parent = self.forest.info[name].parent or ""
@@ -408,7 +409,3 @@ class _Sheet:
         for number, note in enumerate(notes):
             self.texts.append(Text(MARGIN, MARGIN + 46.0 + 14.0 * number, note, FACT_SIZE, "fact"))
         return max([240.0, *(width(note, FACT_SIZE) for note in notes)])
-
-
-def _count(number: int, word: str) -> str:
-    return f"{number} {word}" if number == 1 else f"{number} {word}s"

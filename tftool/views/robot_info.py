@@ -4,6 +4,7 @@ from typing import Any
 
 from tftool.sources.robot import Robot
 from tftool.sources.robot_description import RobotJoint
+from tftool.views.counts import count
 from tftool.views.escaping import visible
 from tftool.views.info import table
 
@@ -19,7 +20,7 @@ def as_text(name: str, robot: Robot) -> str:
     moving = sum(joint.moves for joint in joints.values())
     lines = [
         f"{visible(name)}: description of robot '{visible(robot.name)}'",
-        f"{_count(len(links), 'link')}, {_count(len(joints), 'joint')} of which {moving} move",
+        f"{count(len(links), 'link')}, {count(len(joints), 'joint')} of which {moving} move",
         f"Root: {visible(robot.root)}",
         _mass(robot),
     ]
@@ -77,15 +78,11 @@ def as_object(name: str, robot: Robot) -> dict[str, Any]:
     }
 
 
-def _count(number: int, noun: str) -> str:
-    return f"{number} {noun}" + ("" if number == 1 else "s")
-
-
 def _mass(robot: Robot) -> str:
     masses = [link.mass for link in robot.links.values() if link.mass is not None]
     if not masses:
         return "Mass: not given"
-    return f"Mass: {sum(masses):.4g} kg in {_count(len(masses), 'link')}"
+    return f"Mass: {sum(masses):.4g} kg in {count(len(masses), 'link')}"
 
 
 def _limits(joint: RobotJoint) -> str:

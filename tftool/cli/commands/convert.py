@@ -100,7 +100,10 @@ def convert(
     else:
         notice(f"Read as {', then '.join(one.form for one in read_all)}.")
         if view.at_a_pole(pose):
-            notice("Pitch is a quarter turn: roll and yaw share one axis, and yaw is given as 0.")
+            notice(
+                "Pitch is a quarter turn, or almost: roll and yaw turn about one axis there, and "
+                "only both together say how far."
+            )
         sys.stdout.write(
             view.lines(
                 pose,

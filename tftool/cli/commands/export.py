@@ -182,6 +182,7 @@ def _refuse_misfits(
 def _tell(done: "Exported") -> None:
     """Say on stderr what was written, and what was left out."""
     from tftool.cli.notices import notice
+    from tftool.views.counts import count
     from tftool.views.escaping import visible
 
     for one in done.trajectories:
@@ -193,12 +194,12 @@ def _tell(done: "Exported") -> None:
                     f"have no pose and are left out. The first: {reason}"
                 )
             )
-    what = "poses" if done.format.is_trajectory else "links"
+    what = "pose" if done.format.is_trajectory else "link"
     if done.format is Format.mcap:
-        what = "transforms"
+        what = "transform"
     moments = {one.moments for one in done.trajectories}
     when = f", {moments.pop()}" if len(moments) == 1 else ""
     names = " and ".join(str(path) for path in done.paths)
-    notice(visible(f"Wrote {done.count} {what} to {names}{when}."))
+    notice(visible(f"Wrote {count(done.count, what)} to {names}{when}."))
     if done.format is Format.kitti:
         notice("KITTI's own frames look along z: these are written as they are.")

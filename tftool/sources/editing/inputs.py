@@ -6,7 +6,7 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
-from tftool.errors import InputError
+from tftool.errors import InputError, UsageError
 from tftool.sources.editing.mcap_tape import McapTape
 from tftool.sources.editing.rosbag1_tape import Rosbag1Tape
 from tftool.sources.editing.sqlite_tape import SqliteTape
@@ -82,10 +82,11 @@ def open_input(name: str) -> EditedInput:
 
     Raises:
         InputError: If there is none, or it cannot be read.
+        UsageError: If the name is that of something else.
     """
     found = find(name)
     if not found.kind.is_recording:
-        raise InputError(f"'{name}' is a {found.kind.value}, not a recording.")
+        raise UsageError(f"'{name}' is a {found.kind.value}: a recording is needed here.")
     opened = EditedInput(name)
     try:
         if found.kind is Kind.ROSBAG2:

@@ -178,7 +178,7 @@ def _no_such_link(link: LinkName, links: "set[LinkName]") -> str:
     if others:
         hint = f"'{child}' hangs from '{others[0]}': {others[0]}:{child}"
     else:
-        hint = _near(child, {c for _, c in links})
+        hint = _near(f"{parent}:{child}", {f"{one}:{below}" for one, below in links})
     return f"No link {parent}:{child} was recorded; {hint}."
 
 
