@@ -12,6 +12,7 @@ from dataclasses import dataclass
 from itertools import islice
 from typing import Any
 
+from tftool.near_names import near_names
 from tftool.stamps import Duration, Stamp
 
 
@@ -263,10 +264,8 @@ class LookupException(TransformException):
         if self.frame is None:
             return ""
         # Only for a person who reads it: a wait that is refused ten thousand times is not slowed.
-        import difflib
-
         known = self._names()
-        near = difflib.get_close_matches(self.frame, known, n=3, cutoff=0.6)
+        near = near_names(self.frame, known, 3)
         if near:
             names = " or ".join(f"'{name}'" for name in near)
             return f"No transform of '{self.frame}' has come yet; did you mean {names}?"

@@ -21,6 +21,9 @@ LAST_STAMP: Stamp = 2**63 - 1
 NANOSECONDS = 1_000_000_000
 """Nanoseconds in a second."""
 
+SIMULATED_BELOW: Stamp = 10**8 * NANOSECONDS
+"""Stamps below this count from a simulation's start, others from 1970."""
+
 CACHE_TIME: Duration = 10 * NANOSECONDS
 """How far back a buffer remembers unless it is told otherwise; tf2's own figure."""
 

@@ -2,6 +2,7 @@ import errno
 import gc
 import io
 import os
+import re
 import signal
 import subprocess
 import sys
@@ -216,6 +217,29 @@ def test_help_of_every_command_opens_with_its_words_and_keeps_its_examples(tftoo
     assert result.out.startswith(f"Usage: tftool {command}")
     assert f"\n  tftool {command}" in result.out
     assert "\b" not in result.out
+    # Times are nanoseconds inside, ranges have types: neither is what one types.
+    assert not re.search(r"default: \d{8}|<int range>", result.out)
+    examples = [row for row in result.out.split("\n\n") if row.startswith(f"  tftool {command}")]
+    assert len(examples) == 1
+
+
+@pytest.mark.parametrize(("encoding", "branch"), [("ascii", "`-- odom"), ("utf-8", "└── odom")])
+def test_an_encoding_without_tftools_signs_gets_plain_ones(encoding, branch):
+    tree = start("tree", "robot", env={"PYTHONIOENCODING": encoding})
+
+    out, err = tree.communicate(timeout=PATIENCE)
+
+    assert (tree.returncode, err) == (0, "")
+    assert f"\n{branch} " in out
+
+
+def test_a_name_that_an_encoding_lacks_is_an_escape():
+    asked = start("echo", "ä", "map", "robot", "--at", "1", env={"PYTHONIOENCODING": "ascii"})
+
+    _, err = asked.communicate(timeout=PATIENCE)
+
+    assert asked.returncode == 4
+    assert r'"\xe4" passed to lookupTransform' in err
 
 
 def imported_by(lines, heavy, file):

@@ -522,3 +522,19 @@ def test_a_name_that_is_no_string_is_refused_by_name(buffer, name):
             buffer.set_transform(TransformStamped(1, parent, child, Transform()), "test")
 
     assert buffer.frames() == []
+
+
+def test_the_parents_of_a_frame_are_those_of_the_samples_it_remembers():
+    buffer = Buffer(cache_time=seconds(10))
+    for second, parent in ((1, "a"), (2, "b"), (3, "b")):
+        buffer.set_transform(TransformStamped(seconds(second), parent, "c", Transform()))
+
+    assert buffer.parents("c") == {"a", "b"}
+    assert buffer.parents("a") == buffer.parents("unheard") == set()
+
+    for second in (13, 14):
+        buffer.set_transform(TransformStamped(seconds(second), "b", "c", Transform()))
+    buffer.set_transform_static(TransformStamped(0, "w", "s", Transform()))
+
+    assert buffer.parents("c") == {"b"}
+    assert buffer.parents("s") == {"w"}

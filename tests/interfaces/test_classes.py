@@ -241,3 +241,15 @@ def test_a_constants_comment_may_hold_quotes():
     known.add("pkg", {("msg", "Said"): 'uint8 SEVEN=7 # so called "seven"\n'})
 
     assert known.find("pkg", "msg", "Said").SEVEN == 7
+
+
+@pytest.mark.parametrize("name", ["Int16", "Float32MultiArray", "MultiArrayLayout", "Char"])
+def test_example_interfaces_have_what_std_msgs_has(name):
+    ours = INTERFACES.message(f"example_interfaces/{name}")
+    theirs = INTERFACES.message(f"std_msgs/{name}")
+
+    assert ours is not theirs
+    assert ours.get_fields_and_field_types() == {
+        field: kind.replace("std_msgs", "example_interfaces")
+        for field, kind in theirs.get_fields_and_field_types().items()
+    }

@@ -91,3 +91,64 @@ def test_a_loop_that_waits_for_ever_ends_with_the_run(tmp_path):
     file.write_text("import asyncio\nasyncio.get_event_loop().run_forever()\n")
 
     assert main(["run", "--simulated", "--for", "3", str(file)]) == 0
+
+
+ASKING = """
+import asyncio
+import threading
+
+import rclpy
+from example_interfaces.srv import AddTwoInts
+from rclpy.executors import SingleThreadedExecutor
+from rclpy.task import Future
+
+rclpy.init()
+node = rclpy.create_node('asks')
+client = node.create_client(AddTwoInts, 'add')
+node.create_service(AddTwoInts, 'add', lambda request, response: response)
+given_up = Future()
+
+
+async def within(callback_ran):
+    # A coroutine of the executor's, while a task of asyncio spins it.
+    await client.call_async(AddTwoInts.Request())
+    callback_ran.append('within')
+
+
+async def spinning():
+    while rclpy.ok():
+        node.executor.spin_once(timeout_sec=0)
+        await asyncio.sleep(0.01)
+
+
+async def work():
+    spinner = asyncio.create_task(spinning())
+    ran = []
+    node.executor.create_task(within, ran)
+    answers = await asyncio.gather(
+        client.call_async(AddTwoInts.Request()), client.call_async(AddTwoInts.Request())
+    )
+    await asyncio.sleep(0.1)
+    threading.Timer(0.5, given_up.cancel).start()
+    print(len(answers), ran, await given_up)
+    try:
+        await asyncio.wait_for(Future(), 0.5)
+    except asyncio.TimeoutError:
+        print('waited in vain')
+    spinner.cancel()
+
+
+node.executor = SingleThreadedExecutor()
+node.executor.add_node(node)
+asyncio.run(work())
+"""
+
+
+def test_a_task_of_asyncio_waits_for_what_rclpy_answers(ros_runtime, tmp_path, capfd):
+    file = tmp_path / "asks.py"
+    file.write_text(ASKING)
+    program = ros_runtime.start(file)
+    ros_runtime.sleep(5)
+
+    assert capfd.readouterr().out.splitlines() == ["2 ['within'] None", "waited in vain"]
+    assert program.status == 0

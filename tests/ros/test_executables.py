@@ -265,6 +265,7 @@ def test_a_nodes_file_imports_its_own_package_by_name(ros_runtime, tmp_path):
     (package / "speaker.py").write_text(
         "import rclpy\n"
         "from own_package.words import WORD\n"
+        "from .words import WORD as BY_A_DOT\n"
         "rclpy.init()\n"
         "rclpy.create_node('speaker').get_logger().info(WORD)\n"
     )

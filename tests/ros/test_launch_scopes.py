@@ -283,6 +283,17 @@ def test_a_container_that_ends_without_its_service_is_waited_for_no_longer(tmp_p
     assert done.failed == []
 
 
+def test_a_container_that_dies_while_it_loads_is_told(tmp_path):
+    dies = CONTAINER.replace("    return response", "    raise SystemExit(3)")
+    done = launch(container_launch(tmp_path, dies), seconds=4, start=tmp_path)
+
+    assert sorted(done.said("launch")) == [
+        "P was not loaded: the node that served 's/c/_container/load_node' has left",
+        "Q was not loaded: the node that served 's/c/_container/load_node' has left",
+    ]
+    assert done.elapsed < 4
+
+
 def test_a_launch_ends_while_it_waits_for_a_container(tmp_path):
     code = "import rclpy\nrclpy.init()\nrclpy.spin(rclpy.create_node('box'))\n"
     over = "<timer period='1.0'><shutdown reason='enough'/></timer>"
@@ -399,6 +410,70 @@ def test_a_service_runs_beside_other_coroutines(ros_runtime, tmp_path, capfd):
     captured = capfd.readouterr()
     assert captured.out == "beside False\nended 0\n"
     assert "launched" in captured.err
+
+
+SHUT_DOWN = """
+import asyncio
+import threading
+import launch
+from launch.actions import LogInfo, OpaqueFunction, TimerAction
+
+service = launch.LaunchService()
+print('before', service.shutdown())
+
+
+def from_a_thread():
+    print('thread', service.shutdown())
+
+
+def inside(context):
+    print('inside', asyncio.iscoroutine(told := service.shutdown()))
+    told.close()
+
+
+def begin(*actions):
+    global service
+    service = launch.LaunchService()
+    late = TimerAction(period=9.0, actions=[LogInfo(msg='too late')])
+    service.include_launch_description(launch.LaunchDescription([late, *actions]))
+
+
+async def beside():
+    running = asyncio.create_task(service.run_async())
+    await asyncio.sleep(0.5)
+    await asyncio.create_task(service.shutdown())
+    print('ended', await running, service.shutdown())
+
+
+begin(OpaqueFunction(function=inside))
+print('run', service.run())
+begin()
+asyncio.run(beside())
+begin()
+threading.Timer(0.5, from_a_thread).start()
+print('run', service.run())
+"""
+
+
+def test_a_services_shutdown_is_awaited_in_its_loop_and_done_elsewhere(
+    ros_runtime, tmp_path, capfd
+):
+    file = tmp_path / "ends.py"
+    file.write_text(SHUT_DOWN)
+    program = ros_runtime.start(file)
+    ros_runtime.sleep(5.0)
+
+    captured = capfd.readouterr()
+    assert captured.out.splitlines() == [
+        "before None",
+        "inside True",
+        "run 0",
+        "ended 0 None",
+        "thread None",
+        "run 0",
+    ]
+    assert "too late" not in captured.err
+    assert program.status == 0
 
 
 def test_who_cancels_a_services_coroutine_ends_its_launch(ros_runtime, tmp_path, capfd):

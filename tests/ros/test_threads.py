@@ -122,3 +122,30 @@ def test_a_pool_may_ask_and_log_but_not_wait_on_simulated_time(node, ros_runtime
             pool.submit(node.wait_for_node, "probe", 1.0).result()
 
     assert ros_runtime.log("probe") == ["from the pool"]
+
+
+def test_a_timer_of_threading_waits_in_the_worlds_time(ros_runtime, tmp_path):
+    file = tmp_path / "later.py"
+    file.write_text(
+        """
+import threading
+
+import rclpy
+
+rclpy.init()
+node = rclpy.create_node('later')
+say = node.get_logger().info
+threading.Timer(2.0, say, args=['two'], kwargs={}).start()
+given_up = threading.Timer(1.0, say, args=('one',))
+given_up.start()
+given_up.cancel()
+given_up.join()
+say(f'begun {given_up.finished.is_set()}')
+rclpy.spin(node)
+"""
+    )
+    ros_runtime.start(file)
+    ros_runtime.sleep(1.9)
+    assert ros_runtime.log("later") == ["begun True"]
+    ros_runtime.sleep(0.2)
+    assert ros_runtime.log("later") == ["begun True", "two"]

@@ -17,7 +17,7 @@ SETUP = """
 from setuptools import setup
 name = 'from_' + 'setup'
 scripts = [f'{name}_node = mod:main']
-setup(name=name, entry_points={'console_scripts': scripts + ['other = mod.sub:run [extra]']})
+setup(name=name, entry_points={'console_scripts': scripts + ['other = mod.sub: run [extra]']})
 """
 CFG = """
 [metadata]

@@ -4,7 +4,6 @@ import asyncio
 
 import pytest
 from rich.cells import cell_len
-from textual._xterm_parser import XTermParser
 
 from tests.nodes.vectors import VECTORS
 from tests.screens.visiting import screen, settled, shown, told, visit
@@ -12,6 +11,7 @@ from tftool.errors import UsageError
 from tftool.frames.sample import TransformStamped
 from tftool.geometry.rigid import Transform
 from tftool.nodes.idle_drawing import IdleDrawing
+from tftool.screens.keyboard import events
 from tftool.screens.panel import Panel
 from tftool.screens.setting import Setting, setting_from
 from tftool.screens.terminal import TurtleApp
@@ -267,7 +267,7 @@ def test_what_a_terminal_sends_for_a_key_drives(danced, case):
 
     async def steps(app, pilot):
         # As the terminal's driver does it, from the bytes on.
-        for event in XTermParser().feed(sent):
+        for event in events(sent):
             app.post_message(event)
         await settled(pilot)
 

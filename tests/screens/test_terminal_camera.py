@@ -1,8 +1,7 @@
 """What of the picture the screen of the turtles shows."""
 
-from textual._xterm_parser import XTermParser
-
 from tests.screens.visiting import screen, settled, shown, visit
+from tftool.screens.keyboard import events
 
 
 def test_the_picture_is_drawn_in_the_frame_that_is_chosen(danced):
@@ -47,7 +46,7 @@ def test_the_picture_is_moved(danced):
 def mouse(app, *sent):
     """Hand over what a terminal sends for its mouse: SGR codes, from the bytes on."""
     for code in sent:
-        for event in XTermParser().feed(f"\x1b[<{code}"):
+        for event in events(f"\x1b[<{code}"):
             app.post_message(event)
 
 

@@ -2,6 +2,7 @@
 
 import re
 import shutil
+import signal
 
 import pytest
 
@@ -82,6 +83,19 @@ def test_the_demo_shows_turtle2_reaching_turtle1_and_obeys_the_keys(terminal, wi
 
     demo.press("q")
     demo.ended(0)
+
+
+def test_a_demo_that_was_stopped_is_drawn_as_a_whole_when_it_goes_on(terminal):
+    demo = terminal(80, 24, *DEMO)
+    demo.shows("╭─ Tree")
+
+    demo.press("C-z")
+    demo.until(lambda _: demo.facts()[0] == "0", "the terminal as it was")
+    demo.signal(signal.SIGCONT)
+
+    demo.until(
+        lambda text: "╭─ Tree" in text and "q quit" in text, "the borders and the keys again"
+    )
 
 
 def test_two_trees_that_are_joined_are_drawn_where_the_echo_says(terminal, tmp_path):

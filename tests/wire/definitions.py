@@ -16,10 +16,27 @@ MESSAGES = {
         "float32 x\nfloat32 y\nfloat32 theta\nfloat32 linear_velocity\nfloat32 angular_velocity"
     ),
     "turtlesim/msg/Color": "uint8 r\nuint8 g\nuint8 b",
-    "example_interfaces/msg/String": "string data",
-    "example_interfaces/msg/Int64": "int64 data",
-    "example_interfaces/msg/Float64": "float64 data",
-    "example_interfaces/msg/Bool": "bool data",
+}
+NUMBERS = [f"{sign}int{bits}" for sign in ("", "u") for bits in (8, 16, 32, 64)]
+PLAIN = {kind.replace("uint", "UInt").replace("int", "Int"): kind for kind in NUMBERS} | {
+    "Float32": "float32",
+    "Float64": "float64",
+    "Byte": "byte",
+}
+DATA = PLAIN | {"Bool": "bool", "Char": "uint8", "String": "string"}
+MESSAGES |= {f"example_interfaces/msg/{name}": f"{kind} data" for name, kind in DATA.items()}
+MESSAGES |= {
+    f"example_interfaces/msg/{name}MultiArray": (
+        f"example_interfaces/MultiArrayLayout layout\n{kind}[] data"
+    )
+    for name, kind in PLAIN.items()
+}
+MESSAGES |= {
+    "example_interfaces/msg/Empty": "",
+    "example_interfaces/msg/MultiArrayDimension": "string label\nuint32 size\nuint32 stride",
+    "example_interfaces/msg/MultiArrayLayout": (
+        "example_interfaces/MultiArrayDimension[] dim\nuint32 data_offset"
+    ),
 }
 MESSAGES |= {
     f"turtlesim_msgs/msg/{name}": MESSAGES[f"turtlesim/msg/{name}"] for name in ("Pose", "Color")

@@ -256,13 +256,38 @@ def _complete(argv: list[str]) -> int:
 
 def _prepare_output() -> None:
     """See to it that there is a stdout and a stderr, and that they take any text."""
+    import codecs
+
+    codecs.register_error(_WRITTEN_PLAINLY, _written_plainly)
     for name in ("stdout", "stderr"):
         stream = getattr(sys, name)
         if stream is None:  # closed by what started us
             setattr(sys, name, open(os.devnull, "w", encoding="utf-8"))  # noqa: SIM115
         elif hasattr(stream, "reconfigure"):
-            # A name that the terminal cannot show is shown as an escape, not as an error.
-            stream.reconfigure(errors="backslashreplace")
+            stream.reconfigure(errors=_WRITTEN_PLAINLY)
+
+
+_WRITTEN_PLAINLY = "tftool.plain"
+_PLAIN = {
+    **dict(zip("─━│┃├└┤●▸×−·↑↓█░²", "--|||`|*>x-|^v#:2", strict=True)),
+    "→": "->",
+    "←": "<-",
+    "…": "...",
+    "°": "deg",
+    "π": "pi",
+    "±": "+-",
+}
+"""What tftool's own signs are on a terminal, or in a file, whose encoding lacks them."""
+
+
+def _written_plainly(error: UnicodeError) -> tuple[str | bytes, int]:
+    """Write what an encoding lacks: signs of tftool in plain ones, parts of names as escapes."""
+    if not isinstance(error, UnicodeEncodeError):
+        raise error
+    char = error.object[error.start]
+    if char in _PLAIN:
+        return _PLAIN[char], error.start + 1
+    return char.encode("ascii", "backslashreplace").decode(), error.start + 1
 
 
 DESCRIPTORS = 32

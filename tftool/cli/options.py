@@ -225,23 +225,23 @@ def seconds_option(
     *names: str,
     check: Callable[[float | None], float | None] = positive,
     panel: str | None = WHEN,
-    show_default: bool = True,
 ) -> Any:
     """An option that takes seconds and gives nanoseconds.
+
+    The help does not say its default, which would be in nanoseconds: the words do.
 
     Args:
         words: What the help says of it.
         names: What it is called; by its parameter where none is given.
         check: What number it may be.
         panel: The heading it is listed under; None for that of all others.
-        show_default: Whether the help says the default, which it does in nanoseconds.
     """
     return typer.Option(
         *names,
         metavar="SECONDS",
         parser=duration(check),
         rich_help_panel=panel,
-        show_default=show_default,
+        show_default=False,
         help=words,
     )
 
@@ -349,7 +349,8 @@ Ascii = Annotated[
 ]
 
 Light = Annotated[
-    bool, typer.Option("--light", help="For a terminal with a light ground; m changes it.")
+    bool,
+    typer.Option("--light", help="For a terminal with a light ground; on a screen m changes it."),
 ]
 
 Rows = Annotated[

@@ -3,7 +3,6 @@
 import asyncio
 import re
 from dataclasses import dataclass
-from difflib import get_close_matches
 
 from tftool.cli.notices import notice
 from tftool.errors import (
@@ -14,6 +13,7 @@ from tftool.errors import (
 )
 from tftool.frames.buffer import Buffer
 from tftool.frames.sample import TransformStamped
+from tftool.near_names import near_names
 from tftool.runtime.clock import pace_of
 from tftool.runtime.world import World
 from tftool.stamps import LATEST, Duration, Stamp, as_seconds, seconds
@@ -208,7 +208,7 @@ class Waiter:
         if not missing or not frames:
             return
         self._hinted = True
-        near = get_close_matches(missing[0], frames, 1)
+        near = near_names(missing[0], frames)
         named = ", ".join(visible(frame) for frame in frames[:MOST_NAMED])
         more = f" and {len(frames) - MOST_NAMED} more" if len(frames) > MOST_NAMED else ""
         meant = f" Did you mean {visible(near[0])}?" if near else ""

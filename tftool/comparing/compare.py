@@ -14,8 +14,8 @@ from tftool.frames.buffer import Buffer
 from tftool.geometry import batch
 from tftool.geometry.conversions import rpy_from_quaternion
 from tftool.geometry.rigid import Transform
-from tftool.sources.contract import SIMULATED_BELOW, Progress
-from tftool.stamps import Duration, Stamp
+from tftool.sources.contract import Progress
+from tftool.stamps import SIMULATED_BELOW, Duration, Stamp
 
 Stamps: TypeAlias = npt.NDArray[np.int64]
 

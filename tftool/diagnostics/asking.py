@@ -4,10 +4,10 @@ from collections.abc import Sequence
 from dataclasses import replace
 from pathlib import Path
 
+from tftool.diagnostics.buffered import of_buffer
 from tftool.diagnostics.explanation import Explanation, traced
 from tftool.diagnostics.findings import Finding
 from tftool.diagnostics.judge import judge
-from tftool.diagnostics.marking import of_buffer
 from tftool.diagnostics.material import Material
 from tftool.diagnostics.model import Model, Settings
 from tftool.diagnostics.recorded import described_by

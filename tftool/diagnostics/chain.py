@@ -4,7 +4,6 @@ A description publishes nothing and holds at all times; what a lookup in it lack
 position of a joint that nothing but a publisher can tell.
 """
 
-import difflib
 import shlex
 from collections.abc import Mapping
 from dataclasses import dataclass
@@ -13,6 +12,7 @@ from tftool.diagnostics.climbing import climbed, up_to_join
 from tftool.diagnostics.shape import static_publisher
 from tftool.diagnostics.wording import several
 from tftool.errors import TransformException
+from tftool.near_names import near_names
 from tftool.sources.robot import Robot
 from tftool.sources.robot_description import RobotJoint
 
@@ -129,7 +129,7 @@ def _unknown(robot: Robot, names: list[str]) -> Told:
             continue
         bare = name.lstrip("/")
         why.append(f"'{name}' is no link of robot '{robot.name}'")
-        near = difflib.get_close_matches(name[:100], list(robot.links), n=3)
+        near = near_names(name, robot.links, 3)
         if bare != name and bare in robot.links:
             remedies.append((f"leave out ROS 1's leading slash: {bare}", ""))
         elif near:

@@ -9,8 +9,8 @@ from tftool.diagnostics.findings import Confidence, Hit, Severity
 from tftool.diagnostics.model import Limits, Model
 from tftool.diagnostics.streams import Heard, Track, unsorted_share
 from tftool.diagnostics.wording import several
-from tftool.sources.contract import SIMULATED_BELOW, Stamps
-from tftool.stamps import NANOSECONDS, seconds
+from tftool.sources.contract import Stamps
+from tftool.stamps import NANOSECONDS, SIMULATED_BELOW, seconds
 
 
 def clock_mixture(model: Model, limits: Limits) -> Iterator[Hit]:

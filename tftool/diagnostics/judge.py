@@ -13,6 +13,7 @@ from tftool.diagnostics.material import Material
 from tftool.diagnostics.model import Limits, Model, Settings
 from tftool.diagnostics.wording import filled, several
 from tftool.errors import UsageError
+from tftool.near_names import near_names
 
 Run = Callable[[Model, Limits], Iterator[Hit]]
 
@@ -133,9 +134,7 @@ def _named(words: Sequence[str]) -> list[str]:
 
 def unknown(word: str, known: Sequence[str], what: str) -> str:
     """Why a word is refused, with what was probably meant."""
-    from difflib import get_close_matches
-
-    near = get_close_matches(word, known, 1)
+    near = near_names(word, known)
     hint = f"did you mean {near[0]}?" if near else "'tftool doctor --list' shows all."
     return f"There is no {what} '{word}': {hint}"
 

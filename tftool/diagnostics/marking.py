@@ -1,99 +1,33 @@
-"""What a buffer holds, as a diagnosis looks at it, and the marks of frames that come of it."""
+"""The marks of frames that something is wrong with.
 
-import numpy as np
-import numpy.typing as npt
+Of a buffer in which nothing can be wrong this is told without numpy and the checks, whose import
+takes as long as all else that shows a tree.
+"""
 
-from tftool.diagnostics import clocks, publishers
 from tftool.diagnostics.catalogue import CHECKS
-from tftool.diagnostics.material import Material
-from tftool.diagnostics.model import Model
 from tftool.frames.buffer import Buffer
-from tftool.sources.contract import SIMULATED_BELOW, Edge, Publisher, Stamps, Transforms
-from tftool.stamps import NANOSECONDS
-
-Records = npt.NDArray[np.int64]
-Places = npt.NDArray[np.int32]
-
-
-def of_buffer(buffer: Buffer, name: str = "buffer") -> Material:
-    """What a buffer holds, in columns; everything in it counts as arrived at its stamp."""
-    parts: dict[tuple[str, str, bool], list[tuple[Records, Places]]] = {}
-    logs: list[Stamps] = []
-    senders: list[npt.NDArray[np.int32]] = []
-    known: dict[Publisher, int] = {}
-    count = 0
-    for child in buffer.frames():
-        held = buffer.samples(child)
-        topic = "/tf_static" if held.is_static else "/tf"
-        records = np.empty((len(held.stamps), 8), dtype=np.int64)
-        records[:, 0] = held.stamps
-        records.view(np.float64)[:, 1:] = held.poses
-        places = np.arange(count, count + len(records), dtype=np.int32)
-        count += len(records)
-        logs.append(records[:, 0])
-        for one in _runs(held.parents):
-            key = (str(held.parents[one[0]]), child, held.is_static)
-            parts.setdefault(key, []).append((records[one], places[one]))
-        sender = np.zeros(len(records), dtype=np.int32)
-        for one in _runs(held.authorities):
-            publisher = Publisher(topic, str(held.authorities[one[0]]))
-            sender[one] = known.setdefault(publisher, len(known))
-        senders.append(sender)
-    log_times = np.concatenate(logs) if logs else np.zeros(0, dtype=np.int64)
-    moving = log_times[log_times != 0]
-    edges = tuple(
-        Edge(*key, 0, np.concatenate([r for r, _ in of]), np.concatenate([p for _, p in of]))
-        for key, of in parts.items()
-    )
-    sent_by = np.concatenate(senders) if senders else np.zeros(0, dtype=np.int32)
-    transforms = Transforms(edges, log_times, sent_by, tuple(known))
-    return Material(
-        name=name,
-        kind="buffer",
-        transforms=transforms,
-        publishers=tuple(known),
-        start=int(moving.min()) if len(moving) else 0,
-        end=int(moving.max()) if len(moving) else 0,
-        timed=False,
-        recorded=False,
-    )
-
-
-def _runs(names: npt.NDArray[np.object_]) -> list[Places]:
-    """The places of each name among many; quick where there is one."""
-    if not len(names) or bool((names == names[0]).all()):
-        return [np.arange(len(names), dtype=np.int32)] if len(names) else []
-    found: dict[str, list[int]] = {}
-    for place, name in enumerate(names.tolist()):
-        found.setdefault(name, []).append(place)
-    return [np.array(places, dtype=np.int32) for places in found.values()]
+from tftool.stamps import NANOSECONDS, SIMULATED_BELOW
 
 
 def marks(buffer: Buffer) -> dict[str, tuple[str, ...]]:
     """The frames of a buffer that something is wrong with, and the ids of the checks.
 
-    A frame is marked `edge-stopped` where its newest sample is further behind the newest of
-    all, on the same clock, than ten of its periods and a second.
+    A frame is marked `two-parents`, `clock-mixture` or `edge-stopped`.
     """
-    model = Model(of_buffer(buffer))
-    found: dict[str, list[str]] = {}
-    for hits in (publishers.two_parents, clocks.clock_mixture):
-        name = hits.__name__.replace("_", "-")
-        for hit in hits(model, CHECKS[name].limits):
-            for _, child in hit.edges:
-                found.setdefault(child, []).append(name)
-    limits = CHECKS["edge-stopped"].limits
-    newest: dict[bool, int] = {}
-    # A localiser dates its transforms ahead: what it is ahead of is not old.
-    usual = [track for track in model.dynamic if not track.is_localisation]
-    for track in usual:
-        last = int(track.stamps.max())
-        newest[last < SIMULATED_BELOW] = max(newest.get(last < SIMULATED_BELOW, 0), last)
-    for track in model.parents.values():
-        if track.static or len(track.stamps) < 2:
-            continue
-        last = int(track.stamps.max())
-        least = max(limits["periods"] * track.period, limits["seconds"] * NANOSECONDS)
-        if newest.get(last < SIMULATED_BELOW, last) - last > least:
-            found.setdefault(track.child, []).append("edge-stopped")
-    return {child: tuple(dict.fromkeys(ids)) for child, ids in found.items()}
+    if _is_calm(buffer):
+        return {}
+    from tftool.diagnostics.buffered import marked
+
+    return marked(buffer)
+
+
+def _is_calm(buffer: Buffer) -> bool:
+    """Whether no check can hit: one parent each, one clock for all, and no link is late."""
+    moving = [info for info in buffer.snapshot(0).frames if info.samples and not info.is_static]
+    if not moving:
+        return True
+    newest = [info.newest for info in moving]
+    first = min(info.oldest for info in moving)
+    late = max(newest) - min(newest) > CHECKS["edge-stopped"].limits["seconds"] * NANOSECONDS
+    one_clock = (first < SIMULATED_BELOW) == (max(newest) < SIMULATED_BELOW)
+    return one_clock and not late and all(len(buffer.parents(info.frame)) == 1 for info in moving)

@@ -13,12 +13,11 @@ from tftool.diagnostics.climbing import climbed, up_to_join
 from tftool.diagnostics.material import Material
 from tftool.diagnostics.streams import Heard, Stream, Track, last_part
 from tftool.sources.contract import (
-    SIMULATED_BELOW,
     Stamps,
 )
 from tftool.sources.robot_description import RobotJoint
 from tftool.sources.timeline import through_clock
-from tftool.stamps import CACHE_TIME, Duration, Stamp, seconds
+from tftool.stamps import CACHE_TIME, SIMULATED_BELOW, Duration, Stamp, seconds
 
 Limits = Mapping[str, float]
 """The thresholds of one check, by name."""

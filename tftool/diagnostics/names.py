@@ -3,12 +3,12 @@
 import re
 from collections import defaultdict
 from collections.abc import Iterable, Iterator
-from difflib import get_close_matches
 
 from tftool.diagnostics.findings import Confidence, Fix, Hit, Severity
 from tftool.diagnostics.model import Limits, Model
 from tftool.diagnostics.shape import base_of, quoted, static_publisher
 from tftool.diagnostics.streams import Heard, last_part
+from tftool.near_names import near_names
 
 _FAMILY = re.compile(
     r"\d+|(?<![a-z])(?:left|right|front|rear|back|upper|lower|top|bottom|fl|fr|rl|rr|[lrxyz])(?![a-z])"
@@ -35,7 +35,7 @@ def unknown_frame(model: Model, limits: Limits) -> Iterator[Hit]:
             by_name[heard.frame].append(heard)
     for name, heards in by_name.items():
         count = sum(len(heard.stamps) for heard in heards)
-        near = get_close_matches(last_part(name), sorted(model.frames), 3, 0.6)
+        near = near_names(last_part(name), sorted(model.frames), 3)
         alike = _fitting(model, heards[0].type)
         hint = f"; in tf, {' and '.join(alike)} fits and no message uses it" if alike else ""
         if near and not alike:
@@ -68,7 +68,7 @@ def _slashed(heard: Heard, model: Model) -> Iterable[str]:
 def alike_frames(model: Model, name: str) -> list[str]:
     """Frames that were probably meant by one that tf does not know."""
     kinds = [heard.type for heard in model.heard if heard.frame == name]
-    near = get_close_matches(last_part(name), sorted(model.frames), 3, 0.6)
+    near = near_names(last_part(name), sorted(model.frames), 3)
     return list(dict.fromkeys((*(f for kind in kinds for f in _fitting(model, kind)), *near)))
 
 

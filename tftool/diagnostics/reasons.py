@@ -13,8 +13,7 @@ from tftool.diagnostics.shape import missing_join, static_publisher
 from tftool.diagnostics.streams import NEVER, Heard, Track
 from tftool.diagnostics.tracing import LinkVerdict, LookupTrace, TracedLink
 from tftool.diagnostics.wording import dated, moment, span
-from tftool.sources.contract import SIMULATED_BELOW
-from tftool.stamps import NANOSECONDS, Duration, Stamp
+from tftool.stamps import NANOSECONDS, SIMULATED_BELOW, Duration, Stamp
 
 USUAL_WAIT = 0.1
 """Seconds that most consumers wait for a transform."""

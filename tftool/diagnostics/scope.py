@@ -1,7 +1,6 @@
 """What of a recording is looked at: which topics, which time, beside which description."""
 
 from dataclasses import dataclass, replace
-from difflib import get_close_matches
 from typing import Protocol
 
 import numpy as np
@@ -9,6 +8,7 @@ import numpy as np
 from tftool.diagnostics.material import Material
 from tftool.diagnostics.recorded import Described, read
 from tftool.errors import InputError
+from tftool.near_names import near_names
 from tftool.sources.contract import Edge, Headers, Source, Transforms
 from tftool.stamps import Stamp
 
@@ -76,7 +76,7 @@ def _with_statics(source: Source, names: tuple[str, ...]) -> list[str]:
     found = []
     for name in names:
         if name not in known:
-            near = get_close_matches(name, sorted(known), 1) or sorted(known)[:5]
+            near = near_names(name, sorted(known)) or sorted(known)[:5]
             hint = f"; there is {', '.join(near)}" if near else ""
             raise InputError(f"'{source.name}' has no transforms on '{name}'{hint}.")
         found += [one for one in (name, f"{name}_static") if one in known]

@@ -9,13 +9,12 @@ import numpy.typing as npt
 
 from tftool.geometry.batch import Floats, angles_between, unit
 from tftool.sources.contract import (
-    SIMULATED_BELOW,
     Edge,
     Headers,
     Stamps,
     Transforms,
 )
-from tftool.stamps import NANOSECONDS
+from tftool.stamps import NANOSECONDS, SIMULATED_BELOW
 
 Mask = npt.NDArray[np.bool_]
 

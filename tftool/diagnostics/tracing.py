@@ -14,6 +14,7 @@ from tftool.errors import InputError
 from tftool.frames.buffer import Buffer
 from tftool.frames.sample import TransformStamped
 from tftool.geometry.rigid import Transform
+from tftool.near_names import near_names
 from tftool.sources.contract import Stamps
 from tftool.stamps import LATEST, Duration, Stamp
 
@@ -107,10 +108,8 @@ def message_of(model: Model, topic: str, near: Stamp | None) -> tuple[Heard, Sta
     """
     heards = [heard for heard in model.heard if heard.topic == topic and len(heard.stamps)]
     if not heards:
-        from difflib import get_close_matches
-
         known = sorted({heard.topic for heard in model.heard})
-        hint = get_close_matches(topic, known, 1) or known[:5]
+        hint = near_names(topic, known) or known[:5]
         told = f" There are {', '.join(hint)}." if hint else ""
         raise InputError(f"No message with a header was recorded on '{topic}'.{told}")
     if near is None:

@@ -6,7 +6,7 @@ from datetime import UTC, datetime, timedelta
 from typing import Any
 
 from tftool.diagnostics.findings import Fact
-from tftool.sources.contract import SIMULATED_BELOW
+from tftool.stamps import SIMULATED_BELOW
 
 MOST_NAMED = 5
 """How many of a list are written out."""

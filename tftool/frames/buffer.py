@@ -831,6 +831,13 @@ class Buffer(Door):
         above = -1 if link is None else link.parent_at(time)
         return None if above < 0 else self._tree.frames[above].name
 
+    def parents(self, frame: str) -> set[str]:
+        """Every parent that a remembered sample of a frame names; none of a root."""
+        tree.require_text(frame)
+        number = self._tree.numbers.get(frame)
+        above = () if number is None else self._tree.parents(number)
+        return {self._tree.frames[one].name for one in above}
+
     def rivals(self, frame: str) -> tuple[str, ...]:
         """Who sends a frame's transforms in turns with others; empty where only one does.
 

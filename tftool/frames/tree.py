@@ -308,12 +308,12 @@ class FrameTree:
                 return False
         reached: dict[int, None] = dict.fromkeys((*walk.above, walk.top))
         # Where the target was met on the way up, nothing above it was looked at.
-        if not walk.down or not any(self._parents(number)[1:] for number in reached):
+        if not walk.down or not any(self.parents(number)[1:] for number in reached):
             return True
         # Every frame that may ever be passed above.
         waiting = list(reached)
         while waiting:
-            for parent in self._parents(waiting.pop()):
+            for parent in self.parents(waiting.pop()):
                 if parent not in reached:
                     reached[parent] = None
                     waiting.append(parent)
@@ -321,7 +321,7 @@ class FrameTree:
             return False
         return not self._may_circle(reached)
 
-    def _parents(self, number: int) -> list[int]:
+    def parents(self, number: int) -> list[int]:
         """Every parent that the remembered samples of a frame have."""
         link = self.frames[number].link
         if link is None:
@@ -332,7 +332,7 @@ class FrameTree:
 
     def _may_circle(self, numbers: Iterable[int]) -> bool:
         """Whether some ways up among these frames, at whatever moments, form a circle."""
-        above = {number: self._parents(number) for number in numbers}
+        above = {number: self.parents(number) for number in numbers}
         while above:
             # Those that only lead to frames that lead nowhere any more.
             ends = [number for number, up in above.items() if not any(p in above for p in up)]

@@ -178,10 +178,6 @@ composition_interfaces/srv/LoadNode = string package_name; string plugin_name; s
 composition_interfaces/srv/UnloadNode = uint64 unique_id; ---; bool success; string error_message
 composition_interfaces/srv/ListNodes = ---; string[] full_node_names; uint64[] unique_ids
 
-example_interfaces/msg/String = string data
-example_interfaces/msg/Int64 = int64 data
-example_interfaces/msg/Float64 = float64 data
-example_interfaces/msg/Bool = bool data
 example_interfaces/srv/AddTwoInts = int64 a; int64 b; ---; int64 sum
 example_interfaces/srv/SetBool = bool data; ---; bool success; string message
 example_interfaces/srv/Trigger = ---; bool success; string message
@@ -231,6 +227,9 @@ def table() -> dict[str, dict[tuple[str, str], str]]:
             package, kind, interface = name.strip().split("/")
             definition = fields.strip().replace("; ", "\n").replace(";", "\n")
             packages.setdefault(package, {})[kind, interface] = definition
+    for key, definition in packages["std_msgs"].items():
+        if key[1] not in ("Header", "ColorRGBA"):
+            packages["example_interfaces"][key] = definition
     for new, old in _SAME.items():
         packages[new] = packages[old]
     return packages

@@ -5,12 +5,12 @@ import re
 import shlex
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
-from difflib import get_close_matches
 from typing import Literal
 
 from tftool.errors import UsageError
 from tftool.geometry.conversions import quaternion_from_rpy
 from tftool.geometry.rigid import Transform
+from tftool.near_names import near_names
 
 TRANSLATION = ("x", "y", "z")
 QUATERNION = ("qx", "qy", "qz", "qw")
@@ -216,7 +216,7 @@ def _about_extra(words: list[str]) -> str:
         if equals and option in OPTIONS:
             return f"Write {option} {value} instead of {word}."
         if word.startswith("--"):
-            near = get_close_matches(option, OPTIONS, 1)
+            near = near_names(option, OPTIONS)
             return f"There is no {option}." + (f" Did you mean {near[0]}?" if near else "")
     return (
         f"Without options it takes 8 words, x y z yaw pitch roll PARENT CHILD, or 9, "

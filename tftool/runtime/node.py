@@ -106,7 +106,7 @@ class Node(Resident):
                     slipped = True
                     self.warn(
                         f"is {as_seconds(missed * period):.1f} s behind its own timer: "
-                        "the computer is too busy; what it misses it leaves out"
+                        "the computer was too busy, or stopped it; what it missed it leaves out"
                     )
             yield due
             due += period

@@ -1,10 +1,10 @@
 """Named settings of a node that can change while it runs."""
 
 from collections.abc import Callable, Mapping
-from difflib import get_close_matches
 from types import MappingProxyType
 
 from tftool.errors import UsageError
+from tftool.near_names import did_you_mean
 
 Value = bool | int | float | str
 
@@ -57,6 +57,5 @@ class Parameters:
     def _check(self, name: str) -> None:
         if name in self._values:
             return
-        near = get_close_matches(name, self._values, n=1)
-        hint = f"; did you mean '{near[0]}'?" if near else ""
+        hint = did_you_mean(name, self._values)
         raise UsageError(f"node '{self._owner}' has no parameter '{name}'{hint}")

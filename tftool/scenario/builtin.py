@@ -1,9 +1,9 @@
 """The scenarios that come with tftool: their names and files."""
 
-import difflib
 from pathlib import Path
 
 from tftool.errors import InputError
+from tftool.near_names import near_names
 from tftool.views.escaping import visible
 
 _PACKAGE = Path(__file__).resolve().parents[1]
@@ -61,7 +61,7 @@ def is_like_a_name(word: str) -> bool:
 
 def unknown(word: str) -> str:
     """The sentence about a word that names neither a built-in scenario nor a file."""
-    near = difflib.get_close_matches(word[:100].lower(), names(), n=1)
+    near = near_names(word, names())
     hint = f"did you mean '{near[0]}'?" if near else f"there are {', '.join(names())}."
     shown = visible(word)
     shown = f"{shown[:60]}…" if len(shown) > 60 else shown

@@ -11,6 +11,7 @@ from typing import Any
 
 from tftool.errors import LookupException, TransformException
 from tftool.geometry.planar import wrap
+from tftool.near_names import near_names
 from tftool.scenario import values
 from tftool.scenario.document import TextPlace
 from tftool.scenario.reading import Key, Reading, listed
@@ -28,7 +29,7 @@ class Judged:
     found: str
 
 
-def did_you_mean(error: TransformException) -> str:
+def _meant(error: TransformException) -> str:
     """Which frame's name is near the one that is unknown; empty without one."""
     remedy = error.remedy if isinstance(error, LookupException) else ""
     return remedy if "did you mean" in remedy else ""
@@ -44,7 +45,7 @@ class AnswerCheck(ABC):
     def refused(self, error: TransformException) -> Judged:
         """Judge that there is no answer."""
         # Some of tf2's sentences end in a full stop and a blank, others in neither.
-        hint = did_you_mean(error)
+        hint = _meant(error)
         said = f"{str(error).rstrip(' .')}. {hint}" if hint else str(error)
         return Judged(False, f"{type(error).__name__}: {said}")
 
@@ -156,9 +157,7 @@ class RangeForm(Form):
 
 def _nearest(wanted: Iterable[str], known: Collection[str]) -> str:
     """Which names that there are may be meant by those that there are not, one for each."""
-    import difflib  # Only where something is amiss.
-
-    found = [difflib.get_close_matches(name, known, n=1) for name in wanted if name not in known]
+    found = [near_names(name, known) for name in wanted if name not in known]
     near = [f"'{names[0]}'" for names in found if names]
     return f"; did you mean {', '.join(near)}?" if near else ""
 

@@ -9,9 +9,9 @@ import sys
 from collections.abc import Callable, Sequence
 from contextlib import nullcontext, redirect_stdout
 from dataclasses import dataclass, replace
-from difflib import get_close_matches
 
 from tftool.errors import InputError, NodeFailed, UsageError
+from tftool.near_names import did_you_mean
 from tftool.ros.host import hosting
 from tftool.ros.host.program import Program
 from tftool.ros.host.workspace import Workspace
@@ -96,8 +96,7 @@ class Exercise:
         names = [] if self.launch else [entry.name for entry in scenario.nodes]
         for one in self.programs:
             if one.node and one.node not in names:
-                near = get_close_matches(one.node, names, n=1)
-                hint = f"; did you mean '{near[0]}'?" if near else ""
+                hint = did_you_mean(one.node, names)
                 there = ", ".join(names) or "none left to take the place of"
                 raise UsageError(
                     f"scenario '{visible(scenario.name)}' has no node "

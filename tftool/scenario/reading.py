@@ -6,13 +6,13 @@ the next, so that one pass finds all mistakes. The readers of single values are
 in `values`.
 """
 
-import difflib
 import re
 from collections.abc import Callable, Iterable, Mapping
 from dataclasses import MISSING, dataclass, field, fields
 from typing import Any, TypeAlias, TypeVar
 
 from tftool.errors import Mistake
+from tftool.near_names import did_you_mean, near_names
 from tftool.scenario import document
 from tftool.scenario.document import Document, Node, Scalar, TextPlace
 from tftool.views.escaping import visible
@@ -161,7 +161,7 @@ class Reading:
         for name, (key, _) in entries.items():
             if name not in known:
                 whole = False
-                meant.add(nearest(name, known))
+                meant.update(near_names(name, known))
                 near = suggest(name, known, always=True)
                 self.note(key, f"{what} has no key {quoted(name)}{near}")
         found: dict[str, Any] = {}
@@ -212,21 +212,12 @@ def attribute_names(kind: type) -> dict[str, str]:
     return {one.metadata.get("key", one.name): one.name for one in fields(kind)}
 
 
-def nearest(word: str, known: Iterable[str]) -> str:
-    """The known word that looks most like another; empty when none does."""
-    by_lower = {choice.lower(): choice for choice in known}
-    near = difflib.get_close_matches(word[:100].lower(), by_lower, n=1, cutoff=0.6)
-    return by_lower[near[0]] if near else ""
-
-
 def suggest(word: str, known: Iterable[str], *, always: bool = False) -> str:
     """The rest of a sentence about an unknown word: the nearest known one, or what there is."""
     choices = list(known)
-    near = nearest(word, choices)
-    if near:
-        return f"; did you mean '{near}'?"
-    if not always:
-        return ""
+    meant = did_you_mean(word, choices)
+    if meant or not always:
+        return meant
     return f"; it may have {listed(choices)}" if choices else "; it has none"
 
 

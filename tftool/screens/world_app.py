@@ -66,6 +66,8 @@ class WorldApp(App[None]):
         # textual makes new tasks start eagerly where Python can; the nodes of the world on
         # this loop are to run in the order they always run in.
         asyncio.get_running_loop().set_task_factory(None)
+        # Between Ctrl-Z and fg the shell wrote over the picture; textual sends only what changed.
+        self.app_resume_signal.subscribe(self, lambda _: self.refresh(layout=True))
         self.call_after_refresh(self.ready.set)
 
     def guarded(self, work: Callable[[], None]) -> None:

@@ -17,8 +17,9 @@ from tftool.errors import UsageError
 from tftool.frames.batch.arrays import TransformArray
 from tftool.geometry import batch
 from tftool.sinks import digits
-from tftool.sources.contract import SIMULATED_BELOW, Progress
+from tftool.sources.contract import Progress
 from tftool.sources.writing.target import Target, commit_together, failed
+from tftool.stamps import SIMULATED_BELOW
 from tftool.trajectories.sampling import Trajectory
 
 CSV_COLUMNS: Final = ("stamp_ns", "x_m", "y_m", "z_m", "qx", "qy", "qz", "qw")

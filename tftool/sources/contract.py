@@ -13,7 +13,7 @@ from typing import Protocol, TypeAlias
 import numpy as np
 import numpy.typing as npt
 
-from tftool.stamps import NANOSECONDS, Stamp
+from tftool.stamps import Stamp
 
 Stamps: TypeAlias = npt.NDArray[np.int64]
 """Nanoseconds, shape (n,)."""
@@ -23,9 +23,6 @@ Floats: TypeAlias = npt.NDArray[np.float64]
 
 Indexes: TypeAlias = npt.NDArray[np.int32]
 """Places in another column or list, shape (n,)."""
-
-SIMULATED_BELOW = 10**8 * NANOSECONDS
-"""Stamps below this count from a simulation's start, others from 1970."""
 
 
 @dataclass(frozen=True, slots=True)

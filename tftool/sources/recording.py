@@ -17,9 +17,9 @@ from tftool.frames.sample import TransformStamped
 from tftool.frames.tree import stripped
 from tftool.geometry.rigid import Transform
 from tftool.interfaces.classes import Interfaces
+from tftool.near_names import near_names
 from tftool.sources.cache import ColumnCache, KeptColumns
 from tftool.sources.contract import (
-    SIMULATED_BELOW,
     Edge,
     Floats,
     Headers,
@@ -47,7 +47,7 @@ from tftool.sources.odometry import implying, joined
 from tftool.sources.reading import Recorded
 from tftool.sources.robot import Robot
 from tftool.sources.rosbag2 import open_found
-from tftool.stamps import Stamp
+from tftool.stamps import SIMULATED_BELOW, Stamp
 from tftool.wire.codec import Codec
 from tftool.wire.layouts import CDR, ROS1
 
@@ -371,10 +371,8 @@ class Recording:
         for topic in self.topics:
             if topic.name == name:
                 return topic
-        import difflib
-
         known = [topic.name for topic in self.topics]
-        near = difflib.get_close_matches(name, known, n=3)
+        near = near_names(name, known, 3)
         hint = f"did you mean {' or '.join(near)}?" if near else f"there are {len(known)} topics."
         raise InputError(f"No topic '{name}' was recorded; {hint}")
 

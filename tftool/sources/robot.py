@@ -1,6 +1,5 @@
 """A robot from its description: joint positions to frames, as robot_state_publisher gives them."""
 
-import difflib
 import math
 from collections.abc import Callable, Collection, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
@@ -16,6 +15,7 @@ from tftool.frames.sample import TransformStamped
 from tftool.geometry import batch
 from tftool.geometry.conversions import quaternion_from_axis_angle
 from tftool.geometry.rigid import Transform
+from tftool.near_names import did_you_mean
 from tftool.sources.joint_states import JointStates
 from tftool.sources.robot_description import RobotDescription, RobotJoint, RobotLink
 from tftool.sources.urdf import load_description
@@ -287,8 +287,7 @@ class Robot:
     def _check_joint(self, name: str) -> None:
         joint = self.joints.get(name)
         if joint is None:
-            near = difflib.get_close_matches(name[:100], list(self.joints), n=1)
-            hint = f"; did you mean '{near[0]}'?" if near else ""
+            hint = did_you_mean(name, self.joints)
             raise UsageError(f"robot '{self.name}' has no joint '{name[:100]}'{hint}")
         if not joint.moves:
             raise UsageError(f"joint '{name}' is {joint.type}: it takes no position")

@@ -4,9 +4,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from tftool.sources.contract import SIMULATED_BELOW, Edge, Transforms
+from tftool.sources.contract import Edge, Transforms
 from tftool.sources.recording import Recording
-from tftool.stamps import Duration, Stamp
+from tftool.stamps import SIMULATED_BELOW, Duration, Stamp
 
 
 @dataclass(frozen=True, slots=True)

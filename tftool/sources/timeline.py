@@ -8,14 +8,13 @@ import numpy as np
 from tftool.frames.sample import TransformStamped
 from tftool.geometry.rigid import Quaternion, Transform, Vector3
 from tftool.sources.contract import (
-    SIMULATED_BELOW,
     Edge,
     Indexes,
     Source,
     Stamps,
     Transforms,
 )
-from tftool.stamps import Stamp
+from tftool.stamps import SIMULATED_BELOW, Stamp
 
 _NOTHING: Final = np.zeros(0, dtype=np.int64)
 

@@ -7,7 +7,6 @@ not finite, an axis of no length on a joint that moves.
 """
 
 import contextlib
-import difflib
 import math
 import re
 from collections.abc import Iterable, Iterator, Mapping
@@ -19,6 +18,7 @@ from xml.parsers import expat
 from tftool.errors import DescriptionError, InputError, Mistake, UsageError
 from tftool.geometry.conversions import quaternion_from_rpy
 from tftool.geometry.rigid import Transform, Vector3
+from tftool.near_names import did_you_mean, near_names
 from tftool.sources.robot_description import (
     JOINT_TYPES,
     LIMITED_TYPES,
@@ -474,7 +474,7 @@ class _Reader:
             name = self._word(element, "name")
             kind = self._word(element, "type")
             if kind not in JOINT_TYPES:
-                near = difflib.get_close_matches(kind, JOINT_TYPES, n=1)
+                near = near_names(kind, JOINT_TYPES)
                 hint = (
                     f"did you mean '{near[0]}'?" if near else f"it is one of {_list(JOINT_TYPES)}"
                 )
@@ -586,8 +586,7 @@ class _Reader:
     def _unknown_link(
         self, place: _Element, joint: RobotJoint, tag: str, link: str, links: Iterable[str]
     ) -> None:
-        near = difflib.get_close_matches(link[:100], list(links), n=1)
-        hint = f"; did you mean '{near[0]}'?" if near else ""
+        hint = did_you_mean(link, links)
         self._note(
             _end(place, tag),
             f"joint '{joint.name}' names the {tag} '{link[:100]}', which is no link here{hint}",

@@ -5,8 +5,7 @@ from typing import TYPE_CHECKING, Any
 from tftool.diagnostics.explanation import Explanation
 from tftool.diagnostics.tracing import LinkVerdict, TracedLink
 from tftool.diagnostics.wording import dated, span
-from tftool.sources.contract import SIMULATED_BELOW
-from tftool.stamps import NANOSECONDS, Stamp
+from tftool.stamps import NANOSECONDS, SIMULATED_BELOW, Stamp
 from tftool.views.escaping import visible
 
 if TYPE_CHECKING:

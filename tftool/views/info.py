@@ -7,12 +7,12 @@ from typing import Any
 from rich.cells import cell_len
 from rich.text import Text
 
-from tftool.sources.contract import SIMULATED_BELOW, RecordedTopic
+from tftool.sources.contract import RecordedTopic
 from tftool.sources.described import DescribedFrames
 from tftool.sources.recording import Recording
 from tftool.sources.robot import Robot
 from tftool.sources.summary import EdgeFacts, TreeFacts, edge_facts, oddities, trees
-from tftool.stamps import NANOSECONDS, Duration, Stamp
+from tftool.stamps import NANOSECONDS, SIMULATED_BELOW, Duration, Stamp
 from tftool.views.columns import TableColumn, fit
 from tftool.views.counts import count
 from tftool.views.escaping import visible

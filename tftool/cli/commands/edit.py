@@ -150,7 +150,6 @@ def edit(
         Duration,
         seconds_option(
             "Write a folder of files that last so long, each with all statics at its head.",
-            show_default=False,
             panel=OUTPUT,
         ),
     ] = 0,
@@ -171,9 +170,7 @@ def edit(
     it is whole, and was read again and compared.
 
     tftool edit run.mcap -o fixed.mcap --set base_link:laser=0.2,0,0.15,0,0,90deg
-
     tftool edit cut_off.mcap -o whole.mcap
-
     tftool edit a.bag b.bag -o both --from 10 --to 60
     """
     from tftool.cli.interrupting import interruptible

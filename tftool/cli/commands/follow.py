@@ -37,13 +37,12 @@ def follow(
     ] = None,
     period: Annotated[
         Duration,
-        seconds_option("Time between two commands; 1 if not said.", show_default=False, panel=None),
+        seconds_option("Time between two commands; 1 if not said.", panel=None),
     ] = seconds(1),
     delay: Annotated[
         Duration,
         seconds_option(
             "Go where the leader was so long ago: time travel.",
-            show_default=False,
             check=not_negative,
             panel=None,
         ),

@@ -71,7 +71,7 @@ def plot(
     stamps_of: StampsOf = None,
     window: Annotated[
         Duration,
-        seconds_option("How far back a live plot reaches."),
+        seconds_option("How far back a live plot reaches; 20 if not said."),
     ] = seconds(20),
     lasting: RunFor = None,
     ascii_only: Ascii = False,

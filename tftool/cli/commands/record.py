@@ -21,6 +21,7 @@ from tftool.cli.options import (
     seconds_option,
 )
 from tftool.errors import UsageError
+from tftool.near_names import near_names
 from tftool.stamps import Duration, seconds
 
 if TYPE_CHECKING:
@@ -207,12 +208,10 @@ def _size(text: str | None) -> int:
 
 
 def _check_finding(name: str) -> None:
-    import difflib
-
     from tftool.diagnostics.catalogue import CHECKS
 
     if name not in CHECKS:
-        near = difflib.get_close_matches(name, CHECKS, n=3)
+        near = near_names(name, CHECKS, 3)
         hint = (
             f"did you mean {' or '.join(near)}?" if near else "'tftool doctor --list' names them."
         )

@@ -8,6 +8,7 @@ import typer
 from tftool.cli.app import ExitStatus
 from tftool.cli.options import Ascii, Light, RunFor, within
 from tftool.errors import UsageError
+from tftool.near_names import did_you_mean
 from tftool.stamps import Duration
 
 if TYPE_CHECKING:
@@ -114,10 +115,7 @@ def robot(
 
 
 def _no_link(described: "Robot", link: str) -> str:
-    import difflib
-
-    near = difflib.get_close_matches(link, list(described.links), n=1)
-    hint = f"; did you mean '{near[0]}'?" if near else ""
+    hint = did_you_mean(link, described.links)
     return f"robot '{described.name}' has no link '{link}'{hint}"
 
 

@@ -25,7 +25,6 @@ def session(
             "How long to listen for rates; 1 if not said.",
             "--for",
             panel=None,
-            show_default=False,
         ),
     ] = seconds(1),
     verbose: Annotated[

@@ -33,7 +33,10 @@ def view(
     port: Annotated[
         int,
         typer.Option(
-            min=0, max=65535, help="Where to serve the page; the next free one if it is taken."
+            metavar="PORT",
+            min=0,
+            max=65535,
+            help="Where to serve the page; the next free one if it is taken.",
         ),
     ] = 8765,
     open_browser: Annotated[

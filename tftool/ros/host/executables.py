@@ -2,7 +2,6 @@
 
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
-from difflib import get_close_matches
 from math import isfinite
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -10,6 +9,7 @@ from typing import TYPE_CHECKING, Any
 from tftool.errors import UsageError
 from tftool.frames.sample import TransformStamped
 from tftool.messages import Color
+from tftool.near_names import did_you_mean
 from tftool.nodes.broadcasters import Broadcaster, DynamicCarrot, FixedCarrot, StaticBroadcaster
 from tftool.nodes.follower import Follower
 from tftool.nodes.points import MessageBroadcaster, PointDrawer
@@ -299,8 +299,7 @@ def check(workspace: Workspace, package: str, executable: str) -> None:
     known += found.scripts if found is not None else []
     if not known and found is None:
         raise UsageError(missing_package(package, workspace, OUR_PACKAGES))
-    near = get_close_matches(executable, known, n=1)
-    hint = f"; did you mean '{near[0]}'?" if near else ""
+    hint = did_you_mean(executable, known)
     raise UsageError(
         f"package '{package}' has no executable '{executable}'{hint} "
         f"(it has {', '.join(sorted(known)) or 'none'})"
@@ -386,6 +385,5 @@ def _start_ours(
 def _warn_of_unused(node: Node, unused: Mapping[str, Any], given: Mapping[str, Any]) -> None:
     known = [*node.parameters.values(), *(set(given) - set(unused)), "turtlename", "target_frame"]
     for name in unused:
-        near = get_close_matches(name, known, n=1)
-        hint = f"; did you mean '{near[0]}'?" if near else ""
+        hint = did_you_mean(name, known)
         node.warn(f"parameter '{name}' was given, but the node declares none of that name{hint}")

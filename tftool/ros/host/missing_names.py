@@ -1,9 +1,9 @@
 """What is said of a name or a module of ROS 2 that we do not answer to."""
 
 from collections.abc import Sequence
-from difflib import get_close_matches
 
 from tftool.interfaces.classes import INTERFACES
+from tftool.near_names import near_names
 from tftool.ros.host import import_table
 
 FEW = 12
@@ -29,7 +29,7 @@ def missing_name(module: str, name: str, known: Sequence[str]) -> str:
         known: The names it has.
     """
     # Only what may be a slip: another name of ROS 2's is none.
-    near = get_close_matches(name, known, n=1, cutoff=0.8)
+    near = near_names(name, known, alike=0.8)
     package = module.partition(".")[0]
     elsewhere = sorted(
         one
@@ -50,7 +50,7 @@ def missing_module(name: str) -> str:
     """What to say of a module below one of ROS 2's packages that we answer to."""
     package = name.partition(".")[0]
     known = sorted(one for one in import_table.table() if one.startswith(f"{package}."))
-    near = get_close_matches(name, known, n=1, cutoff=0.8)
+    near = near_names(name, known, alike=0.8)
     hint = f"; did you mean '{near[0]}'?" if near else f"{_listed(package, known)}."
     return f"{name} is not covered{hint} {_sentence(WHERE_TO_LOOK)}"
 
@@ -60,7 +60,7 @@ def missing_package(name: str) -> str:
     packages = sorted(
         {one.partition(".")[0] for one in import_table.table()} | set(INTERFACES.packages())
     )
-    near = get_close_matches(name, packages, n=1, cutoff=0.8)
+    near = near_names(name, packages, alike=0.8)
     if near:
         return f"did you mean '{near[0]}'?"
     if name.endswith(("_msgs", "_srvs", "_interfaces", "_actions")):

@@ -6,12 +6,12 @@ World topics are full names without the leading slash.
 import re
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
-from difflib import get_close_matches
 from functools import cache
 from pathlib import Path
 from typing import Any, NamedTuple
 
 from tftool.errors import InputError, UsageError
+from tftool.near_names import did_you_mean, near_names
 
 _STRANGE = re.compile(r"[^A-Za-z0-9_]")
 _STRANGE_IN_TOPIC = re.compile(r"[^A-Za-z0-9_/~{}]")
@@ -214,7 +214,7 @@ def parse(argv: Sequence[str]) -> tuple[RosOptions, list[str]]:
         if word == "--ros-args":
             inside = True
         elif not inside:
-            if get_close_matches(word, ["--ros-args"], n=1, cutoff=0.85):
+            if near_names(word, ["--ros-args"], alike=0.85):
                 raise UsageError(f"'{word}' is unknown; did you mean '--ros-args'?")
             own.append(word)
         elif word == "--":
@@ -249,8 +249,7 @@ def _take(options: RosOptions, word: str, words: Iterable[str]) -> None:
         if ":=" in word:  # the old form: a bare rule after --ros-args
             add_remap(options, word)
             return
-        near = get_close_matches(word, _OPTIONS, n=1)
-        hint = f"; did you mean '{near[0]}'?" if near else ""
+        hint = did_you_mean(word, _OPTIONS)
         raise UsageError(f"'{word}' is no option after --ros-args{hint}")
     value = next(iter(words), None)
     if value is None:

@@ -208,7 +208,7 @@ def _scripts(listed: Any) -> dict[str, str]:
     for line in lines:
         if isinstance(line, str) and "=" in line:
             name, _, target = line.partition("=")
-            found[name.strip()] = target.split("[")[0].strip()
+            found[name.strip()] = "".join(target.split("[")[0].split())
     return found
 
 

@@ -2,12 +2,12 @@
 
 import argparse
 from collections.abc import Mapping, Sequence
-from difflib import get_close_matches
 from typing import Any, NoReturn
 
 from tftool.errors import InputError, UsageError
 from tftool.interfaces.classes import INTERFACES, Message
 from tftool.interfaces.schema import FLOATS
+from tftool.near_names import did_you_mean
 
 
 class _Parser(argparse.ArgumentParser):
@@ -101,8 +101,7 @@ def interface(name: str, kind: str) -> Any:
     if not own or own not in INTERFACES.names(package, kind):
         known = [f"{one}/{kind}/{n}" for one in INTERFACES.packages()
                  for n in INTERFACES.names(one, kind)]  # fmt: skip
-        near = get_close_matches(f"{package}/{kind}/{own}", known, n=1)
-        hint = f"; did you mean '{near[0]}'?" if near else ""
+        hint = did_you_mean(f"{package}/{kind}/{own}", known)
         raise UsageError(f"there is no interface '{name}' of kind {kind}{hint}")
     try:
         return INTERFACES.find(package, kind, own)
@@ -142,8 +141,7 @@ def fill(message: Any, values: Any, where: str = "") -> None:
         path = f"{where}.{name}" if where else str(name)
         field = fields.get(name)
         if field is None:
-            near = get_close_matches(str(name), known, n=1)
-            hint = f"; did you mean '{near[0]}'?" if near else ""
+            hint = did_you_mean(str(name), known)
             names = ", ".join(known) or "none"
             raise UsageError(
                 f"{type(message).__name__} has no field '{path}' (it has {names}){hint}"

@@ -13,6 +13,7 @@ import queue
 import sys
 import threading
 import time
+from collections.abc import Callable, Iterable, Mapping
 from functools import cache
 from types import ModuleType
 from typing import Any
@@ -112,6 +113,34 @@ class UserThread(threading.Thread):
         return super().is_alive() if self._fiber is None else not self._fiber.ended
 
 
+class UserTimer(UserThread):
+    """A thread of a user's program that calls a function after so many of the world's seconds."""
+
+    def __init__(
+        self,
+        interval: float,
+        function: Callable[..., Any],
+        args: Iterable[Any] | None = None,
+        kwargs: Mapping[str, Any] | None = None,
+    ) -> None:
+        super().__init__()
+        self.interval = interval
+        self.function = function
+        self.args = args or ()
+        self.kwargs = kwargs or {}
+        self.finished = locks.UserEvent()
+
+    def cancel(self) -> None:
+        """Call it no more."""
+        self.finished.set()
+
+    def run(self) -> None:
+        """Wait, and call it."""
+        if not self.finished.wait(self.interval):
+            self.function(*self.args, **self.kwargs)
+        self.finished.set()
+
+
 @cache
 def _shims() -> dict[str, ModuleType]:
     return {
@@ -131,6 +160,7 @@ def _shims() -> dict[str, ModuleType]:
             threading,
             {
                 "Thread": UserThread,
+                "Timer": UserTimer,
                 "Event": locks.UserEvent,
                 "Lock": locks.UserLock,
                 "RLock": locks.UserRLock,

@@ -25,11 +25,13 @@ def file_body(path: Path) -> Callable[[], None]:
 
     def body() -> None:
         folder = path.resolve().parent
-        if (folder / "__init__.py").is_file():
-            # A node's file in its package imports that package by name, as when installed.
-            importing.look_in(folder.parent)
-        importing.look_in(folder)
         module = ModuleType("__main__")
+        if (folder / "__init__.py").is_file():
+            # A node's file in its package imports that package by name, and what stands beside
+            # it by a dot, as when installed.
+            importing.look_in(folder.parent)
+            module.__package__ = folder.name
+        importing.look_in(folder)
         module.__file__ = str(path)
         module.__dict__["__builtins__"] = builtins_for_users()
         exec(code, module.__dict__)

@@ -2,12 +2,12 @@
 
 import sys
 from collections.abc import Iterator
-from difflib import get_close_matches
 from itertools import chain
 from pathlib import Path
 
 from tftool.errors import InputError, UsageError
 from tftool.interfaces.classes import INTERFACES
+from tftool.near_names import near_names
 from tftool.ros.host.package_files import MARKS, Package, read_package, read_text
 from tftool.ros.host.share_folder import ShareFolder
 
@@ -139,7 +139,7 @@ class Workspace:
 def missing_package(name: str, workspace: Workspace, ours: tuple[str, ...] = ()) -> str:
     """A sentence: there is no such package, and which there are."""
     known = [*workspace.packages, *ours]
-    near = get_close_matches(name, known, n=1)
+    near = near_names(name, known)
     hint = f"did you mean '{near[0]}'?" if near else f"there are {', '.join(sorted(known))}"
     where = f"below {workspace.start} or in the src it belongs to"
     skipped = "".join(f"\n{one}" for one in workspace.skipped)

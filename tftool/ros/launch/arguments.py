@@ -2,11 +2,11 @@
 
 import re
 from collections.abc import Iterable, Mapping, Sequence
-from difflib import get_close_matches
 from pathlib import Path
 from typing import Any
 
 from tftool.errors import TftoolError, UsageError
+from tftool.near_names import near_names
 from tftool.ros.launch.composition import IncludeLaunchDescription
 from tftool.ros.launch.context import LaunchContext
 from tftool.ros.launch.description import LaunchDescription, LaunchDescriptionEntity
@@ -63,7 +63,7 @@ def refuse_unknown(
     names = [one.name for one in known]
     for name in given:
         if name not in names and not _mentions(path, name):
-            near = get_close_matches(name, names, n=1)
+            near = near_names(name, names)
             if near:
                 raise UsageError(
                     f"{path.name} declares no argument '{name}'; did you mean '{near[0]}:=…'?"

@@ -9,7 +9,7 @@ from collections.abc import Iterable
 from functools import partial
 from typing import Any
 
-from tftool.errors import UsageError
+from tftool.errors import TftoolError, UsageError
 from tftool.interfaces.classes import INTERFACES
 from tftool.ros.host.names import RosOptions
 from tftool.ros.launch.action import Action
@@ -120,8 +120,9 @@ class LoadComposableNodes(Action):
         context.launch.when_served(service, f"/{container.strip('/')}", go_on)
 
     def _loaded(self, context: LaunchContext, request: Any, answer: Any) -> None:
-        if not answer.success:
-            context.launch.warn(f"{request.plugin_name} was not loaded: {answer.error_message}")
+        if isinstance(answer, TftoolError) or not answer.success:
+            reason = answer if isinstance(answer, TftoolError) else answer.error_message
+            context.launch.warn(f"{request.plugin_name} was not loaded: {reason}")
             return
         add_node_name(context, answer.full_node_name)
         context.launch.info(f"loaded {request.plugin_name} as '{answer.full_node_name}'")

@@ -2,7 +2,6 @@
 
 from collections.abc import Iterable
 from dataclasses import dataclass, field
-from difflib import get_close_matches
 from pathlib import Path
 from typing import Any
 from xml.parsers import expat
@@ -11,6 +10,7 @@ import yaml
 
 from tftool import yaml_guard
 from tftool.errors import InputError
+from tftool.near_names import did_you_mean
 
 DEEPEST = 100
 """How many levels of elements, or of `$(…)`, may lie in each other."""
@@ -84,8 +84,7 @@ class Element:
 
     def refusal(self, what: str, word: str, known: Iterable[str]) -> InputError:
         """What is wrong here, and the nearest word that is known."""
-        near = get_close_matches(word, list(known), n=1)
-        hint = f"; did you mean '{near[0]}'?" if near else ""
+        hint = did_you_mean(word, known)
         return InputError(f"{self.where}: {what}{hint}")
 
 

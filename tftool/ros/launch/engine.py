@@ -283,11 +283,20 @@ class Launch(Node):
     def ask(
         self, service: str, requests: Iterable[Any], done: Callable[[Any, Any], object]
     ) -> None:
-        """Ask a service for one thing after the other; `done` is given each, and its answer."""
+        """Ask a service for one thing after the other.
+
+        Args:
+            service: The service's name.
+            requests: What to ask for.
+            done: Is given each request with its answer, or with the error why there is none.
+        """
 
         async def work() -> None:
             for request in requests:
-                answer = await self.world.call(service, request)
+                try:
+                    answer = await self.world.call(service, request)
+                except TftoolError as error:
+                    answer = error
                 self._guarded(partial(done, request, answer))
 
         self._start_task(work(), self._watches)

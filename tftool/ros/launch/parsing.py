@@ -1,10 +1,10 @@
 """Texts of XML and YAML launch files: `$(var name)`, `$(find-pkg-share pkg)`, nested at will."""
 
 from collections.abc import Callable, Iterable
-from difflib import get_close_matches
 from typing import Any
 
 from tftool.errors import InputError
+from tftool.near_names import near_names
 from tftool.ros.launch import logic, substitutions
 from tftool.ros.launch.elements import DEEPEST
 from tftool.ros.launch.substitutions import TextSubstitution
@@ -88,7 +88,7 @@ def _substitution(text: str, start: int, where: str) -> tuple[Any, int]:
     name = words[0][0].text
     make = SUBSTITUTIONS.get(name)
     if make is None:
-        near = get_close_matches(name, SUBSTITUTIONS, n=1)
+        near = near_names(name, SUBSTITUTIONS)
         hint = f"; did you mean '$({near[0]} …)'?" if near else ""
         raise InputError(f"{where}: '$({name} …)' is not known{hint}")
     try:

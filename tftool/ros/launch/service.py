@@ -3,6 +3,7 @@
 import asyncio
 import logging
 import sys
+from collections.abc import Coroutine
 from typing import Any
 
 from tftool.ros.host import program
@@ -22,6 +23,8 @@ class LaunchService:
         self.context = LaunchContext(argv=argv)
         self._entities: list[Any] = []
         self._launch: Launch | None = None
+        self._owner: program.Program | None = None
+        self._loops: set[asyncio.AbstractEventLoop] = set()
 
     def include_launch_description(self, launch_description: LaunchDescription) -> None:
         """Carry a description out too, once it runs."""
@@ -38,7 +41,7 @@ class LaunchService:
         return int(bool(launch.failed))
 
     def _begin(self) -> Launch:
-        owner = program.current()
+        self._owner = owner = program.current()
 
         def say(level: str, who: str, text: str) -> None:
             sys.stderr.write(f"[{level}] [{who}]: {text}\n" if level else f"[{who}] {text}\n")
@@ -49,6 +52,7 @@ class LaunchService:
             made = Launch(
                 owner.world, description, context=self.context, say=say, name=name, contained=True
             )
+            self._loops = {asyncio.get_running_loop()}
             return [made]
 
         (self._launch,) = owner.ask(start)
@@ -57,20 +61,46 @@ class LaunchService:
     async def run_async(self, *, shutdown_when_idle: bool = True) -> int:
         """The same beside other coroutines; who cancels it ends the launch."""
         launch = self._begin()
+        self._loops.add(asyncio.get_running_loop())
         try:
             while not launch.ended.is_set():
                 # The loop is the user's, and its time the world's.
                 await asyncio.sleep(as_seconds(SLICE))  # noqa: TID251
         except asyncio.CancelledError:
-            self.shutdown()
+            self._end(launch)
             raise
         return int(bool(launch.failed))
 
-    def shutdown(self) -> None:
-        """End what runs."""
+    def shutdown(self, force_sync: bool = False) -> Coroutine[Any, Any, None] | None:
+        """End what runs, if anything does.
+
+        Args:
+            force_sync: Whether there is to be nothing to await.
+
+        Returns:
+            In a loop that the launch runs in, what ROS 2 has one await; None elsewhere.
+        """
         launch = self._launch
-        if launch is not None:
-            program.current().ask(lambda: launch.shut_down("the program asked for it"))
+        if launch is None or launch.ended.is_set():
+            return None
+        self._end(launch)
+        return None if force_sync or _loop() not in self._loops else _nothing()
+
+    def _end(self, launch: Launch) -> None:
+        # A launch file's own functions run on the loop's thread, which is no program's.
+        if self._owner is not None:
+            self._owner.ask(lambda: launch.shut_down("the program asked for it"))
+
+
+def _loop() -> asyncio.AbstractEventLoop | None:
+    try:
+        return asyncio.get_running_loop()
+    except RuntimeError:
+        return None
+
+
+async def _nothing() -> None:
+    """What is asked of a launch is asked at once."""
 
 
 def get_logger(name: str | None = None) -> logging.Logger:

@@ -4,11 +4,11 @@ import math
 import os
 import shutil
 from collections.abc import Iterable, Sequence
-from difflib import get_close_matches
 from pathlib import Path
 from typing import Any, Final
 
 from tftool.errors import UsageError
+from tftool.near_names import did_you_mean
 from tftool.ros.launch import commands, packages
 from tftool.ros.launch.context import LaunchContext
 
@@ -113,8 +113,7 @@ class LaunchConfiguration(Substitution):
             return context.launch_configurations[name]
         if self.default is not None:
             return perform(context, self.default)
-        near = get_close_matches(name, context.launch_configurations, n=1)
-        hint = f"; did you mean '{near[0]}'?" if near else ""
+        hint = did_you_mean(name, context.launch_configurations)
         raise SubstitutionFailure(
             f"launch configuration '{name}' does not exist: declare it with "
             f"DeclareLaunchArgument, or pass {name}:=…{hint}"

@@ -1,7 +1,8 @@
 """What rclpy raises."""
 
 from collections.abc import Iterable
-from difflib import get_close_matches
+
+from tftool.near_names import did_you_mean
 
 
 class NotInitializedException(Exception):
@@ -99,9 +100,7 @@ class ParameterNotDeclaredException(ParameterException):
         names = [parameters] if isinstance(parameters, str) else list(parameters)
         text = f"Invalid access to undeclared parameter(s): {names}"
         for name in names:
-            near = get_close_matches(name, list(known), n=1)
-            if near:
-                text += f"; did you mean '{near[0]}'?"
+            text += did_you_mean(name, known)
         super().__init__(text, names)
 
 

@@ -1,9 +1,27 @@
 """rclpy's futures, and the tasks that coroutines run in."""
 
+import asyncio
+import contextlib
 import inspect
 import threading
 from collections.abc import Callable, Coroutine, Generator
 from typing import Any
+
+
+class _Stepping(threading.local):
+    """Which task of asyncio an executor's task is carried on by, in each thread."""
+
+    beneath: "asyncio.Task[Any] | None" = None
+
+
+_STEPPING = _Stepping()
+
+
+def _asyncio_task() -> "asyncio.Task[Any] | None":
+    try:
+        return asyncio.current_task()
+    except RuntimeError:
+        return None
 
 
 class Future:
@@ -21,9 +39,33 @@ class Future:
         self._mutex = threading.Lock()
 
     def __await__(self) -> Generator[Any, None, Any]:
+        task = _asyncio_task()
+        # Of two that wait, the inner one is asked: asyncio's own task or an executor's.
+        in_asyncio = task is not None and task is not _STEPPING.beneath
         while not self._done and not self._cancelled:
-            yield self
+            if in_asyncio:
+                yield from self._over_there(asyncio.get_running_loop())
+            else:
+                yield self
         return self.result()
+
+    def _over_there(self, loop: asyncio.AbstractEventLoop) -> Generator[Any, None, None]:
+        """Wait as a task of asyncio does, in its loop."""
+        over = loop.create_future()
+
+        def settle() -> None:
+            if not over.done():
+                over.set_result(None)
+
+        def tell(_: Any) -> None:
+            with contextlib.suppress(RuntimeError):  # The loop has closed: it waits no more.
+                loop.call_soon_threadsafe(settle)
+
+        self.add_done_callback(tell)
+        try:
+            yield from over
+        finally:
+            self.remove_done_callback(tell)
 
     def done(self) -> bool:
         """Whether the answer is there."""
@@ -127,6 +169,7 @@ class Task(Future):
         """Run on until it waits or ends; what it waits for, if it does."""
         if self._done or self._cancelled:
             return None
+        beneath, _STEPPING.beneath = _STEPPING.beneath, _asyncio_task()
         try:
             if self._coroutine is None and self._handler is not None:
                 value = self._handler()
@@ -140,6 +183,8 @@ class Task(Future):
             self.set_result(ended.value)
         except Exception as error:
             self.set_exception(error)
+        finally:
+            _STEPPING.beneath = beneath
         return None
 
     def cancel(self) -> None:

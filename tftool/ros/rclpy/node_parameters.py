@@ -3,11 +3,11 @@
 import math
 import warnings
 from collections.abc import Callable, Iterable, Mapping, Sequence
-from difflib import get_close_matches
 from typing import Any
 
 from tftool.interfaces.classes import INTERFACES
 from tftool.interfaces.parameters import list_result, value_of
+from tftool.near_names import did_you_mean
 from tftool.ros.rclpy.exceptions import (
     InvalidParameterTypeException,
     InvalidParameterValueException,
@@ -426,9 +426,8 @@ def unused_parameters(node: NodeParameters) -> list[str]:
     """A sentence for each parameter that was given and never declared."""
     return [
         f"parameter '{name}' was given, but the node declares none of that name"
-        + (f"; did you mean '{near[0]}'?" if near else "")
+        + did_you_mean(name, node._parameters)
         for name in node._unused_parameters
-        for near in [get_close_matches(name, node._parameters, n=1)]
     ]
 
 

@@ -2,10 +2,10 @@
 
 from typing import Any, Final
 
+from tftool.diagnostics.buffered import of_buffer
 from tftool.diagnostics.catalogue import CHECKS
 from tftool.diagnostics.coverage import holes
 from tftool.diagnostics.judge import judge
-from tftool.diagnostics.marking import of_buffer
 from tftool.diagnostics.model import Settings
 from tftool.frames.buffer import Buffer
 from tftool.screens.browser.protocol import since

@@ -7,6 +7,7 @@ import numpy as np
 
 from tftool.errors import TransformException, UsageError
 from tftool.geometry.rigid import Transform
+from tftool.near_names import near_names
 from tftool.sources.editing.changes import (
     Changer,
     Edits,
@@ -187,9 +188,7 @@ def _no_such_frame(name: str, frames: "set[str]") -> str:
 
 
 def _near(name: str, names: "set[str]") -> str:
-    import difflib
-
-    near = difflib.get_close_matches(name, sorted(names), n=3)
+    near = near_names(name, sorted(names), 3)
     if near:
         return f"did you mean {' or '.join(near)}?".rstrip("?")
     shown = ", ".join(sorted(names)[:8])

@@ -1,0 +1,53 @@
+"""Bytes on the keyboard that are no text."""
+
+import sys
+
+from textual.driver import Driver
+
+from tftool.screens.keyboard import events, tolerant
+
+
+class Broken:
+    """A driver that reads once what is no UTF-8, and then nothing more."""
+
+    def __init__(self):
+        self.told = []
+        self.rounds = 0
+
+    def run_input_thread(self):
+        self.rounds += 1
+        if self.rounds == 1:
+            b"a\xff\x1b[A".decode()
+
+    def process_message(self, message):
+        self.told.append(message.key)
+
+
+def test_what_is_typed_beside_bytes_that_are_no_text_is_kept():
+    driver = tolerant(Broken)()
+
+    driver.run_input_thread()
+
+    assert (driver.told, driver.rounds) == (["a", "up"], 2)
+
+
+def test_the_keys_are_read_on_where_textual_has_moved_its_parser(monkeypatch):
+    monkeypatch.setitem(sys.modules, "textual._xterm_parser", None)
+    driver = tolerant(Broken)()
+
+    driver.run_input_thread()
+
+    assert (driver.told, driver.rounds) == ([], 2)
+
+
+def test_textual_has_its_parser_where_the_keyboard_looks_for_it():
+    found = [event.key for event in events("q")]
+
+    assert found == ["q"], "Textual moved XTermParser: say so in tftool/screens/keyboard.py"
+
+
+def test_a_driver_that_decodes_nothing_stays_as_it_is():
+    class Plain(Driver):
+        pass
+
+    assert tolerant(Plain) is Plain

@@ -1,0 +1,28 @@
+"""What somebody who wrote an unknown name may have meant."""
+
+from collections.abc import Iterable
+
+LONGEST = 100
+"""Characters of a word that are compared: what is looked for takes their square."""
+
+
+def near_names(word: str, known: Iterable[str], most: int = 1, *, alike: float = 0.6) -> list[str]:
+    """The known names that look most like a word, whatever their case; the likest first.
+
+    Args:
+        word: What was written.
+        known: The names that there are; of those that differ in case alone, one is found.
+        most: How many are given at most.
+        alike: How much a name has to look like the word, from 0 to 1.
+    """
+    from difflib import get_close_matches  # only where something is amiss
+
+    by_lower = {name.lower(): name for name in known}
+    found = get_close_matches(word[:LONGEST].lower(), by_lower, n=most, cutoff=alike)
+    return [by_lower[name] for name in found]
+
+
+def did_you_mean(word: str, known: Iterable[str], *, alike: float = 0.6) -> str:
+    """The end of a sentence about an unknown name: the likest one; empty where none is like it."""
+    near = near_names(word, known, alike=alike)
+    return f"; did you mean '{near[0]}'?" if near else ""
