@@ -18,11 +18,10 @@ import sys
 import threading
 from collections.abc import Callable
 from dataclasses import dataclass
-from pathlib import Path
 from types import FrameType, TracebackType
 from typing import Any, TypeVar
 
-from tftool.errors import TftoolError
+from tftool.errors import TftoolError, is_users_file
 
 T = TypeVar("T")
 
@@ -42,8 +41,6 @@ LAST_REQUESTS = 1000
 """How much an interrupted fiber may ask for without waiting, such as to publish; then its
 requests raise as its waits do."""
 
-_OURS = str(Path(__file__).resolve().parents[2])
-_LIBRARY = str(Path(threading.__file__).resolve().parent)
 
 _local = threading.local()
 
@@ -81,7 +78,7 @@ def user_line(frame: FrameType | None) -> CodeLine | None:
     """The innermost line of a stack that is neither ours nor Python's own."""
     while frame is not None:
         file = frame.f_code.co_filename
-        if _is_users(file):
+        if is_users_file(file):
             return _place(file, frame.f_lineno, frame.f_code.co_name)
         frame = frame.f_back
     return None
@@ -92,16 +89,10 @@ def user_line_of_error(trace: TracebackType | None) -> CodeLine | None:
     found = None
     while trace is not None:
         code = trace.tb_frame.f_code
-        if _is_users(code.co_filename):
+        if is_users_file(code.co_filename):
             found = _place(code.co_filename, trace.tb_lineno, code.co_name)
         trace = trace.tb_next
     return found
-
-
-def _is_users(file: str) -> bool:
-    if file.startswith((_OURS, "<frozen")):
-        return False
-    return "site-packages" in file or not file.startswith(_LIBRARY)
 
 
 def _place(file: str, line: int, function: str) -> CodeLine:
