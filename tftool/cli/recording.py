@@ -10,11 +10,11 @@ from typing import TYPE_CHECKING, Final
 
 from tftool.cli.notices import notice
 from tftool.diagnostics.hearing import Hearing
-from tftool.errors import MalformedMessage, UsageError
+from tftool.errors import MalformedMessage
 from tftool.nodes.recorder import Recorder
 from tftool.runtime.clock import Clock, Phase
 from tftool.runtime.world import World
-from tftool.sources.writing.compression import compressor
+from tftool.sources.writing.compression import best_compression
 from tftool.sources.writing.rolling import Kept, RollingRecording
 from tftool.stamps import Duration, Stamp, as_seconds, seconds
 from tftool.views.escaping import visible
@@ -136,15 +136,6 @@ def recorded(world: World, path: Path, *, force: bool = False) -> Iterator[Rolli
     finally:
         recorder.close()
         rolling.close()
-
-
-def best_compression() -> str:
-    """Zstd where it is installed."""
-    try:
-        compressor("zstd")
-    except UsageError:
-        return "none"
-    return "zstd"
 
 
 def heard(messages: list[Kept]) -> Hearing:

@@ -102,9 +102,10 @@ def record(
     """
     from tftool.cli.hosting import NO_SESSION, open_session
     from tftool.cli.interrupting import interruptible
-    from tftool.cli.recording import RecordingRun, best_compression, tell
+    from tftool.cli.recording import RecordingRun, tell
     from tftool.nodes.recorder import Recorder
     from tftool.runtime.clock import pace_of
+    from tftool.sources.writing.compression import best_compression
     from tftool.sources.writing.rolling import RecordLimits, RollingRecording
     from tftool.views.escaping import visible
 

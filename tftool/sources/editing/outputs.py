@@ -7,14 +7,14 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, Final
 
-from tftool.errors import InputError, TftoolError, UsageError
+from tftool.errors import InputError, TftoolError
 from tftool.interfaces.schema import full_name
 from tftool.sources.container import TRANSIENT_LOCAL, offers_of
 from tftool.sources.editing.mcap_tape import McapChunk, McapTape
 from tftool.sources.editing.rosbag1_tape import Rosbag1Chunk, Rosbag1Tape
 from tftool.sources.editing.tape import Block, Taken, Tape
 from tftool.sources.writing.channel import Channel
-from tftool.sources.writing.compression import compressor
+from tftool.sources.writing.compression import best_compression, compressor
 from tftool.sources.writing.converting import Conversion, as_ros1, as_ros2
 from tftool.sources.writing.definitions import known_hash, ros2_definition
 from tftool.sources.writing.mcap import CHUNK_SIZE, McapWriter
@@ -115,7 +115,7 @@ class EditedFile:
                 self.path,
                 profile=style.get("profile", profile),
                 library=library,
-                compression=style.get("compression") or _best(),
+                compression=style.get("compression") or best_compression(),
                 chunk_size=size if chunked else 0,
                 with_crc=style.get("with_crc", True),
             )
@@ -308,15 +308,6 @@ def digest(before: int, message: Taken, container: str) -> int:
         message.log_time, message.publish_time if kept else 0, message.sequence if kept else 0
     )
     return zlib.crc32(message.payload, zlib.crc32(head, before))
-
-
-def _best() -> str:
-    """The compression of a new MCAP file: zstd where it is installed."""
-    try:
-        compressor("zstd")
-    except UsageError:
-        return "none"
-    return "zstd"
 
 
 def _with(channel: Channel, *, kind: str) -> Channel:

@@ -40,3 +40,12 @@ def compressor(method: str) -> Callable[[bytes], bytes]:
             f"To compress with {method} needs an extra: pip install 'tftool-tf2[recordings]'"
         ) from None
     raise UsageError(f"'{method}' is no compression known here: none, zstd, lz4 and bz2 are.")
+
+
+def best_compression() -> str:
+    """The compression of a new MCAP file: zstd where it is installed."""
+    try:
+        compressor("zstd")
+    except UsageError:
+        return "none"
+    return "zstd"
