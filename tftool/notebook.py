@@ -12,6 +12,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any, Final
 
 from tftool.views.escaping import visible
+from tftool.views.short_numbers import short_size
 
 if TYPE_CHECKING:
     from tftool.diagnostics.findings import Finding
@@ -104,7 +105,7 @@ class PageView:
     height: int
 
     def __repr__(self) -> str:
-        return f"<PageView, {len(self.html) / 1e6:.1f} MB; .save('view.html') writes it to a file>"
+        return f"<PageView, {short_size(len(self.html))}; .save('view.html') writes it to a file>"
 
     def _repr_html_(self) -> str:
         # In a frame of its own, it reaches nothing of the notebook.

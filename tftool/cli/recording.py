@@ -18,6 +18,7 @@ from tftool.sources.writing.compression import best_compression
 from tftool.sources.writing.rolling import Kept, RollingRecording
 from tftool.stamps import Duration, Stamp, as_seconds, seconds
 from tftool.views.escaping import visible
+from tftool.views.short_numbers import short_size
 from tftool.wire.transforms import decode_transforms
 
 if TYPE_CHECKING:
@@ -107,7 +108,7 @@ class RecordingRun:
         text = (
             f"{visible(rolling.path.name)}  {as_seconds(now - self._start):.1f} s  "
             f"{self._rate:.0f} transforms/s  {rolling.transforms} transforms  "
-            f"{size_in_words(rolling.size)}  {len(self.recorder.topics)} topics"
+            f"{short_size(rolling.size)}  {len(self.recorder.topics)} topics"
         )
         width = shutil.get_terminal_size().columns - 1
         sys.stderr.write(_ERASE + text[:width])
@@ -150,14 +151,6 @@ def heard(messages: list[Kept]) -> Hearing:
             is_static = channel.topic.endswith("tf_static")
             hearing.hear(log_time, transforms, node or channel.topic, is_static=is_static)
     return hearing
-
-
-def size_in_words(size: int) -> str:
-    """Bytes as people say them."""
-    for unit, many in (("GB", 1e9), ("MB", 1e6), ("KB", 1e3)):
-        if size >= many:
-            return f"{size / many:.1f} {unit}"
-    return f"{size} bytes"
 
 
 def tell(rolling: RollingRecording, recorder: Recorder) -> None:

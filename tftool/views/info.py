@@ -17,9 +17,9 @@ from tftool.views.columns import TableColumn, fit
 from tftool.views.counts import count
 from tftool.views.escaping import visible
 from tftool.views.fixed_width import middle_cut
+from tftool.views.short_numbers import short_size
 
 _EPOCH = datetime(1970, 1, 1, tzinfo=UTC)
-_UNITS = ("bytes", "KB", "MB", "GB", "TB")
 
 
 def as_text(recording: Recording, width: int | None = None) -> str:
@@ -35,7 +35,7 @@ def as_text(recording: Recording, width: int | None = None) -> str:
     messages = sum(topic.count for topic in topics)
     span = source.end - source.start
     lines = [
-        f"{visible(recording.name)}: {recording.source.kind}, {_size(source.size)}",
+        f"{visible(recording.name)}: {recording.source.kind}, {short_size(source.size)}",
         f"{count(messages, 'message')} on {count(len(topics), 'topic')}, "
         f"{count(len(recording.transforms), 'transform')} of {count(len(edges), 'edge')}",
     ]
@@ -265,15 +265,6 @@ def _moment(stamp: Stamp) -> str:
         return (_EPOCH + timedelta(microseconds=stamp // 1000)).strftime("%Y-%m-%d %H:%M:%S.%f UTC")
     except OverflowError:
         return f"{stamp / 1e9:.3f} s"
-
-
-def _size(count: int) -> str:
-    size = float(count)
-    for unit in _UNITS:
-        if size < 1000 or unit == _UNITS[-1]:
-            break
-        size /= 1000
-    return f"{count} bytes" if unit == "bytes" else f"{size:.1f} {unit}"
 
 
 def as_lines(rows: Sequence[Mapping[str, Any]]) -> str:

@@ -1,4 +1,4 @@
-"""Durations and rates in few cells, for tables that are looked at and not calculated with."""
+"""Durations, rates and sizes in few cells, for tables that are looked at and not calculated with."""
 
 from tftool.stamps import Duration, as_seconds
 
@@ -22,3 +22,11 @@ def short_rate(rate: float) -> str:
     if rate < 0.995:
         return f"{rate:.2f} Hz"
     return f"{rate:.1f} Hz" if rate < 999.95 else f"{rate:.0f} Hz"
+
+
+def short_size(size: int) -> str:
+    """Write bytes as "17 bytes", "1.2 KB", "4.7 MB" or "2.0 GB"."""
+    for unit, many in (("TB", 1e12), ("GB", 1e9), ("MB", 1e6), ("KB", 1e3)):
+        if size >= many:
+            return f"{size / many:.1f} {unit}"
+    return f"{size} bytes"

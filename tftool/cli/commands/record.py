@@ -185,13 +185,13 @@ def _ended_by_hangup() -> "Iterator[None]":
 
 
 def _summed_up(rolling: "RollingRecording") -> str:
-    from tftool.cli.recording import size_in_words
     from tftool.views.escaping import visible
+    from tftool.views.short_numbers import short_size
 
     many = f" in {len(rolling.files)} files" if len(rolling.files) > 1 else ""
     return (
         f"{visible(str(rolling.path))}: {rolling.messages} messages, {rolling.transforms} "
-        f"transforms, {size_in_words(rolling.size)}{many}"
+        f"transforms, {short_size(rolling.size)}{many}"
     )
 
 

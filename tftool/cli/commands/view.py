@@ -149,6 +149,7 @@ def _write(
     from tftool.screens.browser.tracks import IN_A_FILE, recorded_tracks
     from tftool.sinks.trajectory_files import whole_file
     from tftool.views.escaping import visible
+    from tftool.views.short_numbers import short_size
 
     if output.suffix.lower() not in (".html", ".htm"):
         raise UsageError(f"'{output}' does not say that it is a page: end it in .html.")
@@ -183,7 +184,7 @@ def _write(
     if shown is not None:
         _tell_missing(shown)
     size = len(page.content)
-    notice(visible(f"Wrote {output}, {size / 1e6:.1f} MB: it opens in any browser, from disk."))
+    notice(visible(f"Wrote {output}, {short_size(size)}: it opens in any browser, from disk."))
     if page.is_rounded:
         notice(
             "Its numbers are rounded to a micrometre, and to 1e-7 in quaternions, because all "
