@@ -13,7 +13,7 @@ from itertools import islice
 from typing import Any
 
 from tftool.near_names import near_names
-from tftool.stamps import Duration, Stamp
+from tftool.stamps import Duration, Stamp, as_seconds
 
 
 class TftoolError(Exception):
@@ -373,7 +373,7 @@ class ExtrapolationException(TransformException):
 
     def _by(self) -> str:
         # Rounded to microseconds, as in the message, the two moments often read alike.
-        return f"{self.missed / 1e9:.3f} s" if self.missed >= 500_000 else f"{self.missed} ns"
+        return f"{as_seconds(self.missed):.3f} s" if self.missed >= 500_000 else f"{self.missed} ns"
 
 
 class BackwardExtrapolationException(ExtrapolationException):

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Protocol
 
 from tftool.cli.rows import ColumnKind, Row
 from tftool.errors import TftoolError, UsageError
+from tftool.stamps import as_seconds
 
 if TYPE_CHECKING:
     from tftool.diagnostics.model import Settings
@@ -201,7 +202,7 @@ class Inventory:
                 "bytes": held.size,
                 "start": held.start,
                 "end": held.end,
-                "seconds": (held.end - held.start) / 1e9,
+                "seconds": as_seconds(held.end - held.start),
                 "messages": sum(topic.count for topic in held.topics),
                 "topics": [topic.name for topic in held.topics],
                 "transforms": len(transforms),

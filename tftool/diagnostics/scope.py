@@ -10,7 +10,7 @@ from tftool.diagnostics.recorded import Described, read
 from tftool.errors import InputError
 from tftool.near_names import near_names
 from tftool.sources.contract import Edge, Headers, Source, Transforms
-from tftool.stamps import Stamp
+from tftool.stamps import Stamp, as_seconds
 
 
 class Moment(Protocol):
@@ -65,7 +65,7 @@ class Scope:
         begin = material.start if self.begin is None else self.begin.stamp(material.start)
         end = material.end if self.end is None else self.end.stamp(material.start)
         if begin > material.end or end < material.start or begin >= end:
-            length = (material.end - material.start) / 1e9
+            length = as_seconds(material.end - material.start)
             raise InputError(f"'{source.name}' has nothing in that time: it lasts {length:.3f} s.")
         return within(material, max(begin, material.start), min(end, material.end))
 

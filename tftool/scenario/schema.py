@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 from tftool.errors import Mistake
 from tftool.scenario.checks import AnswerCheck
 from tftool.scenario.doctoring import NO_RULES, DoctorRules
-from tftool.stamps import Duration
+from tftool.stamps import Duration, as_seconds
 
 if TYPE_CHECKING:
     from tftool.scenario.actions import Action
@@ -125,4 +125,4 @@ class Scenario:
 
 
 def _clock(duration: Duration) -> str:
-    return f"{duration / 1e9:g} s"
+    return f"{as_seconds(duration):g} s"

@@ -12,6 +12,7 @@ from tftool.diagnostics.model import Model
 from tftool.diagnostics.streams import Heard, Stream, Track, rate
 from tftool.diagnostics.wording import filled, span
 from tftool.messages import Judgement, Report
+from tftool.stamps import as_seconds
 from tftool.views import judgements
 from tftool.views.counts import count
 from tftool.views.escaping import visible
@@ -100,7 +101,7 @@ def head(model: Model) -> str:
     material = model.material
     facts = [material.kind]
     if material.end > material.start and material.timed:
-        facts.append(f"{(material.end - material.start) / 1e9:.1f} s")
+        facts.append(f"{as_seconds(material.end - material.start):.1f} s")
     if material.topics:
         facts.append(count(len(material.topics), "topic"))
     facts.append(count(len(model.frames), "frame"))

@@ -12,7 +12,7 @@ from tftool.sources.described import DescribedFrames
 from tftool.sources.recording import Recording
 from tftool.sources.robot import Robot
 from tftool.sources.summary import EdgeFacts, TreeFacts, edge_facts, oddities, trees
-from tftool.stamps import NANOSECONDS, SIMULATED_BELOW, Duration, Stamp
+from tftool.stamps import NANOSECONDS, SIMULATED_BELOW, Duration, Stamp, as_seconds
 from tftool.views.columns import TableColumn, fit
 from tftool.views.counts import count
 from tftool.views.escaping import visible
@@ -251,20 +251,20 @@ def _few(names: Sequence[str]) -> str:
 def _offset(duration: Duration) -> str:
     if abs(duration) < NANOSECONDS:
         return f"{duration / 1e6:.1f} ms"
-    return f"{duration / 1e9:.3f} s"
+    return f"{as_seconds(duration):.3f} s"
 
 
 def _seconds(duration: Duration) -> str:
-    return f"{duration / 1e9:.3f} s"
+    return f"{as_seconds(duration):.3f} s"
 
 
 def _moment(stamp: Stamp) -> str:
     if stamp < SIMULATED_BELOW:
-        return f"{stamp / 1e9:.3f} s"
+        return f"{as_seconds(stamp):.3f} s"
     try:
         return (_EPOCH + timedelta(microseconds=stamp // 1000)).strftime("%Y-%m-%d %H:%M:%S.%f UTC")
     except OverflowError:
-        return f"{stamp / 1e9:.3f} s"
+        return f"{as_seconds(stamp):.3f} s"
 
 
 def as_lines(rows: Sequence[Mapping[str, Any]]) -> str:

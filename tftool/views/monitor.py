@@ -131,7 +131,7 @@ def table(
     names = [(visible(name), _late(now, one, False)) for name, one in by_name]
     broadcasters = _rows("broadcaster", names, measured, width, more)
 
-    words = wrap_words(_title((now - began) / 1e9, chain), width)
+    words = wrap_words(_title(as_seconds(now - began), chain), width)
     title = [Text(middle_cut(line, width, more=more), style="bold") for line in words]
     room = height - len(title) - 2
     least = min(len(broadcasters), max(3, room // 3))

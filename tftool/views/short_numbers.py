@@ -1,4 +1,4 @@
-"""Durations, rates and sizes in few cells, for tables that are looked at and not calculated with."""
+"""Durations, rates and sizes in few cells, for people and not for arithmetic."""
 
 from tftool.stamps import Duration, as_seconds
 
