@@ -1,6 +1,5 @@
 """The `tftool` command: one Typer app, and the one place where errors become exit statuses."""
 
-import errno
 import gc
 import os
 import sys
@@ -216,10 +215,12 @@ def main(argv: "Sequence[str] | None" = None, providers: "Providers | None" = No
             gc.disable()
             _leave_on_signals()
             argv = sys.argv[1:]
-        _prepare_output()
+        from tftool.cli import streams  # an interrupt in an import would be a traceback before
+
+        streams.prepare()
         if "_TFTOOL_COMPLETE" in os.environ:
             return _complete(list(argv))
-        _require_descriptors()
+        streams.require_descriptors()
         status = _run(list(argv), providers)
         sys.stdout.flush()
     except KeyboardInterrupt as interrupt:
@@ -230,7 +231,7 @@ def main(argv: "Sequence[str] | None" = None, providers: "Providers | None" = No
     except BrokenPipeError:
         # The reader has seen enough (`| head -1`): that is no failure. What is still
         # buffered would be written at exit, so it goes nowhere.
-        _forget_output()
+        streams.forget_output()
         status = ExitStatus.DONE
     except OSError as error:
         if isinstance(error, TimeoutError) and error.errno is None:
@@ -238,7 +239,7 @@ def main(argv: "Sequence[str] | None" = None, providers: "Providers | None" = No
             _complain("tftool", f"{error or 'Something did not answer in time'}.")
             return ExitStatus.FAILED
         # Who opens a file answers for it; what is left is mostly stdout on a full disk.
-        _forget_output()
+        streams.forget_output()
         what = error.filename or "the output cannot be written"
         _complain("tftool", f"{what}: {error.strerror or error}.")
         status = ExitStatus.UNREADABLE
@@ -252,78 +253,6 @@ def _complete(argv: list[str]) -> int:
     completion.complete(argv, os.environ[completion.VARIABLE])
     sys.stdout.flush()
     return ExitStatus.DONE
-
-
-def _prepare_output() -> None:
-    """See to it that there is a stdout and a stderr, and that they take any text."""
-    import codecs
-
-    codecs.register_error(_WRITTEN_PLAINLY, _written_plainly)
-    for name in ("stdout", "stderr"):
-        stream = getattr(sys, name)
-        if stream is None:  # closed by what started us
-            setattr(sys, name, open(os.devnull, "w", encoding="utf-8"))  # noqa: SIM115
-        elif hasattr(stream, "reconfigure"):
-            stream.reconfigure(errors=_WRITTEN_PLAINLY)
-
-
-_WRITTEN_PLAINLY = "tftool.plain"
-_PLAIN = {
-    **dict(zip("─━│┃├└┤●▸×−·↑↓█░²", "--|||`|*>x-|^v#:2", strict=True)),
-    "→": "->",
-    "←": "<-",
-    "…": "...",
-    "°": "deg",
-    "π": "pi",
-    "±": "+-",
-}
-"""What tftool's own signs are on a terminal, or in a file, whose encoding lacks them."""
-
-
-def _written_plainly(error: UnicodeError) -> tuple[str | bytes, int]:
-    """Write what an encoding lacks: signs of tftool in plain ones, parts of names as escapes."""
-    if not isinstance(error, UnicodeEncodeError):
-        raise error
-    char = error.object[error.start]
-    if char in _PLAIN:
-        return _PLAIN[char], error.start + 1
-    return char.encode("ascii", "backslashreplace").decode(), error.start + 1
-
-
-DESCRIPTORS = 32
-"""Files and sockets that a command may come to need at once."""
-
-
-def _require_descriptors() -> None:
-    """See that enough files and sockets can be opened; libraries panic where one cannot.
-
-    Raises:
-        OSError: If not; it says what to do.
-    """
-    probes: list[int] = []
-    try:
-        while len(probes) < DESCRIPTORS:
-            probes.append(os.dup(2))
-    except OSError as error:
-        if error.errno == errno.EBADF:  # no stderr, so nothing to try it with
-            return
-        raise OSError(
-            error.errno,
-            f"tftool needs {DESCRIPTORS} files and sockets, and may open only {len(probes)} more; "
-            "ulimit -n 256 raises that",
-            "too few file descriptors",
-        ) from None
-    finally:
-        for probe in probes:
-            os.close(probe)
-
-
-def _forget_output() -> None:
-    """Let what is still buffered for stdout go nowhere."""
-    from contextlib import suppress
-
-    with suppress(OSError, ValueError):  # a stdout that is no file has no number
-        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
 
 
 def _leave_on_signals() -> None:
@@ -374,7 +303,9 @@ def _run(argv: list[str], providers: "Providers | None") -> int:
     except typer.Abort:
         return ExitStatus.INTERRUPTED
     except wrong_usage as error:
-        _complain(*_usage_sentence(error))
+        from tftool.cli.misusing import sentence_of
+
+        _complain(*sentence_of(error))
         return ExitStatus.WRONG_USAGE
     except UsageError as error:
         _complain("tftool", str(error))
@@ -389,64 +320,6 @@ def _run(argv: list[str], providers: "Providers | None") -> int:
         _complain("tftool", str(error))
         return ExitStatus.FAILED
     return result if isinstance(result, int) else ExitStatus.DONE
-
-
-PLAINLY = (
-    (r"is not a valid int( range)?\b", "is not a whole number"),
-    (r"is not a valid float( range)?\b", "is not a number"),
-    (r"is not in the range (\S+)<=x<=(\S+?)\.?$", r"is not between \1 and \2."),
-    (r"is not in the range x>=(\S+?)\.?$", r"is less than \1."),
-    (r"(?<![.?])$", "."),
-)
-"""What click says in a programmer's words, and what we say instead."""
-
-
-def _usage_sentence(error: "Any") -> tuple[str, str]:
-    context = getattr(error, "ctx", None)
-    command = context.command_path if context is not None else "tftool"
-    import re
-
-    sentence = error.format_message()
-    unknown = re.match(r"No such command '(.*?)'", sentence, re.DOTALL)
-    if unknown is not None:
-        # Suggested by typer in the order of the list, and only when very alike.
-        sentence = unknown[0] + "."
-        near = _nearest(unknown[1], list(COMMANDS))
-        if near:
-            meant = " or ".join(f"'{one}'" for one in near)
-            sentence = f"{unknown[0]}. Did you mean {meant}?"
-        return command, f"{sentence} Try '{command} --help'."
-    near = [one for one in getattr(error, "possibilities", None) or () if "help" not in one]
-    if hasattr(error, "possibilities"):
-        sentence = error.message
-        near = _nearest(str(getattr(error, "option_name", "")), near)
-    if near:
-        # click sorts them by the alphabet; here the nearest comes first.
-        sentence = f"{error.message.rstrip('.')}. Did you mean {' or '.join(near)}?"
-    for pattern, words in PLAINLY:
-        sentence = re.sub(pattern, words, sentence)
-    return command, f"{sentence} Try '{command} --help'."
-
-
-UNLIKE = 0.5
-"""Two words that are less alike than this, from 0 to 1, are not mistaken for one another."""
-
-
-def _nearest(written: str, near: list[str]) -> list[str]:
-    """Those of the near options that are about as near as the best, best first."""
-    from difflib import SequenceMatcher
-
-    def likeness_of(one: str) -> float:
-        # The first letter is the one that is seldom mistyped.
-        same = one.lstrip("-")[:1] == written.lstrip("-")[:1]
-        return SequenceMatcher(None, written, one).ratio() + 0.1 * same
-
-    likeness = {one: likeness_of(one) for one in near}
-    best = max(likeness.values(), default=0.0)
-    return sorted(
-        (one for one in near if likeness[one] > max(best - 0.1, UNLIKE)),
-        key=lambda one: -likeness[one],
-    )
 
 
 def _complain(who: str, sentence: str) -> None:
