@@ -134,8 +134,12 @@ def _room(size: int) -> Bytes:
         return np.empty(size, dtype=np.uint8)
     # Only whole large pages can be large ones, and a small one costs as much as a hundred
     # transforms: numpy's own begin and end anywhere.
-    pages = mmap.mmap(-1, size + 2 * _PAGE & -_PAGE, mmap.MAP_PRIVATE | mmap.MAP_ANONYMOUS)
-    pages.madvise(_HUGE)
+    try:
+        pages = mmap.mmap(-1, size + 2 * _PAGE & -_PAGE, mmap.MAP_PRIVATE | mmap.MAP_ANONYMOUS)
+        pages.madvise(_HUGE)
+    except OSError:
+        # A kernel without them, or not as many addresses.
+        return np.empty(size, dtype=np.uint8)
     whole = np.frombuffer(pages, dtype=np.uint8)
     first = -whole.ctypes.data % _PAGE
     return whole[first : first + size]
