@@ -11,8 +11,10 @@ import pytest
 from tests.sources.scanning import REASON, ROS1_SAMPLE, both, cdr, is_native, ros1, same
 from tftool.frames.sample import TransformStamped
 from tftool.geometry.rigid import Transform
+from tftool.sources import columns
 from tftool.wire.layouts import CDR, ROS1
 from tftool.wire.native import SCAN
+from tftool.wire.rows import walk
 from tftool.wire.transforms import encode_transforms
 
 needs_scan = pytest.mark.skipif(not is_native(), reason=REASON)
@@ -54,14 +56,19 @@ def test_finds_the_same_in_damaged_messages(layout, encode):
     assert len(native) > 100
 
 
+def big(second, parent, child):
+    """A message of one transform in the other byte order."""
+    head = b"\x00\x00\x00\x00" + struct.pack(">IiI", 1, second, 4)
+    for name in (parent + b"\x00", child + b"\x00"):
+        head += bytes(-len(head) % 4) + struct.pack(">I", len(name)) + name
+    return head + bytes((4 - len(head)) % 8) + struct.pack(">7d", *range(7))
+
+
 @needs_scan
 def test_finds_the_same_in_either_byte_order():
     little = cdr([(1, "world", "turtle1")])
-    big = b"\x00\x00\x00\x00" + struct.pack(
-        ">IiII6sxxI8sxxxx7d", 1, 3, 4, 6, b"world\x00", 8, b"turtle1", *range(7)
-    )
 
-    plain, native = both(CDR, [little, big, little])
+    plain, native = both(CDR, [little, big(3, b"world", b"turtle1"), little])
 
     same(plain, native)
     assert [len(edge) for edge in native.edges] == [3]
@@ -76,6 +83,33 @@ def test_finds_the_same_among_more_pairs_than_there_are_layouts_for():
 
     same(plain, native)
     assert len(native.edges) == 97 * 89
+
+
+@needs_scan
+@pytest.mark.parametrize("at_once", [64, 300])
+def test_keeps_the_same_edges_where_there_are_more_than_are_kept(monkeypatch, at_once):
+    monkeypatch.setattr(columns, "MOST_EDGES", 40)
+    draw = random.Random(8)
+    messages = []
+    for number in range(900):
+        # Of many lengths, some in the other byte order, some with more than there is room for.
+        names = [("a" * draw.randrange(1, 9), f"{draw.randrange(3 + number // 9)}") for _ in "ab"]
+        sent = [(number, *pair) for pair in names[: draw.randrange(3)]]
+        if number % 50 == 7:
+            sent += [(number, "many", f"{number} {k}") for k in range(4)]
+        messages.append(
+            big(number, b"big", b"%d" % (number % 30)) if number % 11 == 3 else cdr(sent)
+        )
+
+    plain, native = both(CDR, messages, at_once)
+
+    same(plain, native)
+    first = {}
+    for payload in messages:
+        for place in walk(CDR, payload).places:
+            first.setdefault((place.parent, place.child))
+    assert {(edge.parent, edge.child) for edge in native.edges} == set(list(first)[:40])
+    assert any("more than 40 pairs" in text for text in native.damage)
 
 
 def alike(count):

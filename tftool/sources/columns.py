@@ -276,13 +276,18 @@ class Table:
         key = (*plain, static)
         edge = self._edges.get(key)
         if edge is None:
-            if len(self._edges) >= MOST_EDGES:
+            if self.spare <= 0:
                 self.leave_out(count)
                 return None
             edge = self._edges[key] = Growing(*key)
         if plain != (parent, child):
             edge.add_slashed(count)
         return edge
+
+    @property
+    def spare(self) -> int:
+        """How many edges more there may be."""
+        return MOST_EDGES - len(self._edges)
 
     def make_room(self, edge: Growing, message: int) -> None:
         """Have room for one more transform of an edge, which comes in that message."""

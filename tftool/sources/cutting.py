@@ -11,7 +11,7 @@ from tftool.sources.contract import Indexes
 from tftool.sources.foreign import Decoder
 from tftool.wire.layouts import CDR, Layout
 from tftool.wire.native import SCAN
-from tftool.wire.rows import Template, Words, row_span, rows_of, sample, walk
+from tftool.wire.rows import SMALLEST, Template, Words, row_span, rows_of, sample, walk
 
 _PER_LENGTH: Final = 16  # layouts of one length that are tried before messages are walked singly
 _TEMPLATE_BYTES: Final = 16_000_000
@@ -43,7 +43,7 @@ class Cutter:
         """
         if len(batch) >= _FEW:
             self.flush()
-            self._cut(batch, numbers)
+            self._cut_first(batch, numbers)
         elif len(batch):
             # Only their bytes are kept, not the whole chunk they lie in.
             self._waiting.append((_compacted(batch), numbers))
@@ -68,9 +68,24 @@ class Cutter:
             np.concatenate([batch.log_times for batch, _ in waiting]),
             np.concatenate([batch.senders for batch, _ in waiting]),
         )
-        self._cut(joined, np.concatenate([numbers for _, numbers in waiting]))
+        self._cut_first(joined, np.concatenate([numbers for _, numbers in waiting]))
+
+    def _cut_first(self, batch: Batch, numbers: Indexes) -> None:
+        """Cut messages; where there may be more edges than are kept, those that come first are."""
+        if int(batch.lengths.sum()) // SMALLEST <= self._table.spare:
+            self._cut(batch, numbers)
+            return
+        # How many transforms they can have, up to each of them.
+        most = np.cumsum(batch.lengths // SMALLEST)
+        begin = done = 0
+        while begin < len(batch):
+            # What these bring finds room in any order.
+            end = max(int(np.searchsorted(most, done + self._table.spare, "right")), begin + 1)
+            self._cut(batch.chosen(slice(begin, end)), numbers[begin:end])
+            begin, done = end, int(most[end - 1])
 
     def _cut(self, batch: Batch, numbers: Indexes) -> None:
+        """Cut messages in whatever order is quickest."""
         raise NotImplementedError
 
     def _walk(self, batch: Batch, numbers: Indexes) -> None:
@@ -102,6 +117,9 @@ class TemplateCutter(Cutter):
 
     def _cut(self, batch: Batch, numbers: Indexes) -> None:
         lengths = batch.lengths
+        if len(batch) == 1:
+            self._walk(batch, numbers)
+            return
         if (lengths == lengths[0]).all():
             self._cut_equal(batch, numbers, int(lengths[0]))
             return
@@ -112,7 +130,7 @@ class TemplateCutter(Cutter):
     def _cut_equal(self, batch: Batch, numbers: Indexes, length: int) -> None:
         """Cut messages that are equally long."""
         begin, width = row_span(self._layout, length)
-        if width < 72:
+        if width < SMALLEST:
             self._walk(batch, numbers)
             return
         if int(batch.starts.min()) + begin < 0:

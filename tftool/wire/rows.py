@@ -28,6 +28,9 @@ Records: TypeAlias = npt.NDArray[np.int64]
 LONGEST_NAME: Final = 4096
 """Bytes of the longest frame name that is read."""
 
+SMALLEST: Final = 72
+"""Bytes of a transform with empty names: stamp 8, two lengths 8, seven doubles 56."""
+
 _KIND: Final = "tf2_msgs/TFMessage"
 _LITTLE: Final = b"\x00\x01"
 _BIG: Final = b"\x00\x00"
@@ -86,8 +89,8 @@ def walk(layout: Layout, payload: bytes) -> Walked:
         fixed.append((0, position + 4))
         position += 4
         # Stamp and numbers take 64 bytes, and two lengths 8, at least.
-        if count * 72 > size - position:
-            room = (size - position) // 72
+        if count * SMALLEST > size - position:
+            room = (size - position) // SMALLEST
             raise MalformedMessage(_KIND, f"it announces {count} transforms, with room for {room}")
         for _ in range(count):
             stamp = position if is_cdr else position + 4  # behind the sequence number
