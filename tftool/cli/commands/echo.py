@@ -9,6 +9,7 @@ from tftool.cli.app import ExitStatus
 from tftool.cli.options import (
     OUTPUT,
     WHEN,
+    At,
     AtOption,
     CacheTime,
     Json,
@@ -108,7 +109,7 @@ def echo(
     tftool echo turtle2 turtle1 --offset -5 --fixed-frame world
     """
     from tftool.cli.echoing import Echo, LivePrinter, Printer
-    from tftool.cli.hosting import A_MOMENT, NO_SESSION, open_session
+    from tftool.cli.hosting import A_MOMENT, NO_SESSION, open_session, refuse_to_share
     from tftool.cli.naming import named
     from tftool.cli.notices import notice
     from tftool.cli.redrawing import Redrawing, can_redraw
@@ -117,14 +118,7 @@ def echo(
     from tftool.views.echo import in_words
 
     place, rate = _place_or_rate(place, rate)
-    if once and count not in (None, 1):
-        raise UsageError(f"--once and --count {count} contradict each other.")
-    if at is not None and count not in (None, 1):
-        raise UsageError(f"--at asks about one moment, and has one answer, not {count}.")
-    if fixed_frame is not None and offset is None:
-        raise UsageError("--fixed-frame needs --offset: it carries SOURCE over that time.")
-    if at is not None and offset is not None:
-        raise UsageError("--at and --offset both choose the moment: leave one out.")
+    _refuse_contradictions(once, count, at, offset, fixed_frame)
     for frame in (target, source, *([] if fixed_frame is None else [fixed_frame])):
         _check_name(frame)
 
@@ -133,20 +127,17 @@ def echo(
     recorded = found is not None and found.kind is not Kind.SCENARIO
     if stamps_of is not None and (not recorded or at is not None or offset is not None):
         raise UsageError("--at-stamps-of goes with a recording, and without --at and --offset.")
-    if (
-        found is not None
-        and found.kind.is_recording
-        and (stamps_of is not None or not (once or at is not None or offset is not None))
-    ):
-        from tftool.cli.hosting import refuse_to_share
+    heading = in_words(target, source)
+    printer: Printer | LivePrinter = Printer(precision, distance, for_programs)
+    of_one_moment = stamps_of is None and (once or at is not None or offset is not None)
+    if found is not None and found.kind.is_recording and not of_one_moment:
         from tftool.cli.recorded import moments
 
         refuse_to_share(connection, place)
-        blocks = Printer(precision, distance, for_programs)
-        notice(f"{in_words(target, source)}:")
+        notice(f"{heading}:")
         stored = connection.open_stored(found)
         for answer in moments(stored, target, source, rate=rate, topic=stamps_of, most=count):
-            blocks.found(answer.stamp, answer)
+            printer.found(answer.stamp, answer)
         return ExitStatus.DONE
     # Where nothing changes, once is enough.
     still = found is not None and found.kind in (Kind.DESCRIPTION, Kind.STATICS)
@@ -158,7 +149,6 @@ def echo(
         cache_time=cache_time,
         because=NO_SESSION if at is None else A_MOMENT,
     )
-    heading = in_words(target, source)
     stamp = 0
     if at is not None:
         stamp = session.moment(at)
@@ -175,7 +165,6 @@ def echo(
     if target == source:
         notice("A frame seen from itself is always the identity.")
     with contextlib.ExitStack() as stack:
-        printer: Printer | LivePrinter = Printer(precision, distance, for_programs)
         if redraws:
             redrawing = stack.enter_context(Redrawing(session.world.clock))
             printer = LivePrinter(redrawing, pair, precision, distance)
@@ -191,6 +180,23 @@ def echo(
         )
         session.run(echoing.run())
     return ExitStatus.DONE
+
+
+def _refuse_contradictions(
+    once: bool,
+    count: int | None,
+    at: At | None,
+    offset: Duration | None,
+    fixed_frame: str | None,
+) -> None:
+    if once and count not in (None, 1):
+        raise UsageError(f"--once and --count {count} contradict each other.")
+    if at is not None and count not in (None, 1):
+        raise UsageError(f"--at asks about one moment, and has one answer, not {count}.")
+    if fixed_frame is not None and offset is None:
+        raise UsageError("--fixed-frame needs --offset: it carries SOURCE over that time.")
+    if at is not None and offset is not None:
+        raise UsageError("--at and --offset both choose the moment: leave one out.")
 
 
 def _place_or_rate(place: str | None, rate: float | None) -> tuple[str | None, float | None]:
