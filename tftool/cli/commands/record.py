@@ -28,6 +28,7 @@ if TYPE_CHECKING:
     from collections.abc import Iterator
 
     from tftool.cli.connection import Connection
+    from tftool.cli.recording import RecordingRun
     from tftool.sources.writing.rolling import RollingRecording
 
 _SIZE = re.compile(r"(\d+(?:\.\d+)?)\s*([kMG]?)(?:i?B)?", re.ASCII)
@@ -117,7 +118,6 @@ def record(
             "--ring writes one file in the end: leave out --max-size and --max-duration."
         )
     limits = RecordLimits(_size(max_size), max_duration or 0, ring or 0)
-    status = ExitStatus.DONE
     running: RecordingRun | None = None
     with interruptible(), _ended_by_hangup():
         rolling = RollingRecording(output, limits, compression=best_compression(), force=force)
@@ -152,23 +152,13 @@ def record(
             rolling.close()
     assert running is not None
     tell(rolling, running.recorder)
-    if running.found is not None:
-        status = ExitStatus.FAILED
     if for_programs:
-        document = {
-            "output": str(output),
-            "files": rolling.files,
-            "messages": rolling.messages,
-            "transforms": rolling.transforms,
-            "topics": sorted(running.recorder.topics),
-            "finding": running.found.message if running.found is not None else None,
-        }
-        sys.stdout.write(json.dumps(document, indent=2) + "\n")
+        sys.stdout.write(f"{_as_json(output, running)}\n")
     else:
         if running.found is not None:
             sys.stdout.write(f"{visible(running.found.message)}\n")
         sys.stdout.write(f"{_summed_up(rolling)}\n")
-    return status
+    return ExitStatus.DONE if running.found is None else ExitStatus.FAILED
 
 
 @contextmanager
@@ -182,6 +172,19 @@ def _ended_by_hangup() -> "Iterator[None]":
         yield
     finally:
         signal.signal(signal.SIGHUP, before)
+
+
+def _as_json(output: Path, running: "RecordingRun") -> str:
+    rolling = running.rolling
+    document = {
+        "output": str(output),
+        "files": rolling.files,
+        "messages": rolling.messages,
+        "transforms": rolling.transforms,
+        "topics": sorted(running.recorder.topics),
+        "finding": running.found.message if running.found is not None else None,
+    }
+    return json.dumps(document, indent=2)
 
 
 def _summed_up(rolling: "RollingRecording") -> str:
