@@ -135,7 +135,7 @@ class QuaternionRows:
         np.copyto(self.repeat, self.first)
 
     def conjugate(self) -> None:
-        """QuaternionRows the other way."""
+        """Turn the other way."""
         vector = self.rows[1:]
         np.negative(vector, vector)
 
@@ -147,7 +147,7 @@ def rotate(
     cross: VectorRows,
     spare: Floats,
 ) -> None:
-    """QuaternionRows vectors in vectors; x and y are not repeated.
+    """Turn vectors in place; x and y are not repeated.
 
     Args:
         quaternions: By what.

@@ -9,6 +9,7 @@ from tftool import errors
 from tftool.errors import TransformException
 from tftool.geometry.conversions import quaternion_from_rpy
 from tftool.geometry.planar import wrap
+from tftool.geometry.quaternions import angle_between
 from tftool.geometry.rigid import Quaternion, Transform
 from tftool.messages import Pose2D
 from tftool.scenario import document, values
@@ -108,10 +109,7 @@ class PoseCheck(AnswerCheck):
             for want, have in zip(wanted, answer.translation, strict=True)
         )
         if self.rotation is not None:
-            # From the vector part: acos of a dot product near 1 has no digits left.
-            left = Transform((0.0, 0.0, 0.0), self.rotation).inverse() @ answer
-            x, y, z, w = left.rotation
-            ok = ok and 2.0 * math.atan2(math.hypot(x, y, z), abs(w)) <= self.tolerance.angle
+            ok = ok and angle_between(self.rotation, answer.rotation) <= self.tolerance.angle
         return Judged(ok, _pose_text(answer))
 
     def __str__(self) -> str:
