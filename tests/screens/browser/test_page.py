@@ -210,7 +210,9 @@ def test_a_pairs_numbers_are_those_of_lookup_transform(chromium, stage, moment):
     told = numbers(page)
     assert told["Translation"] == pytest.approx(found.transform.translation, abs=1e-6)
     assert told["Quaternion"] == pytest.approx(found.transform.rotation, abs=1e-6)
-    assert told["Distance"][0] == pytest.approx(math.hypot(*found.transform.translation), abs=1e-6)
+    assert told["Distance, m"][0] == pytest.approx(
+        math.hypot(*found.transform.translation), abs=1e-6
+    )
     assert page.text("#sentence") == "turtle in other"
     assert page.text("#chain") == "Chain, source to target: turtle · world · other"
 

@@ -1,6 +1,6 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
-import { Bounds, distanceFor, spread } from "../../../../tftool/screens/browser/page/bounds.js";
+import { Bounds, distanceFor, spread, together } from "../../../../tftool/screens/browser/page/bounds.js";
 
 test("the box holds every point it ever grew around", () => {
   const bounds = new Bounds();
@@ -25,6 +25,18 @@ test("nothing drawn makes no box, and a single frame has a size to look at", () 
   const bounds = new Bounds();
   assert.equal(bounds.grow([]), null);
   assert.ok(spread(bounds.grow([[1, 1, 1]])) > 0);
+});
+
+test("a frame in another country is not looked at together with a robot", () => {
+  const robot = [[0, 0, 0], [1, 0, 0], [1, 2, 0], [1, 2, 0.5, 0, 0, 0, 1]];
+  const utm = [-500_000, 4_000_000, 0];
+  assert.deepEqual(together([...robot, utm]), robot);
+  assert.equal(new Bounds().grow([utm, ...robot]).high[1], 2);
+
+  // Where it drove to, and where two are all there is, is looked at as a whole.
+  const driven = [...robot, [800, -300, 0]];
+  assert.deepEqual(together(driven), driven);
+  assert.deepEqual(together([robot[0], utm]), [robot[0], utm]);
 });
 
 const STRAIGHT = { right: [1, 0, 0], upward: [0, 1, 0], away: [0, 0, 1] };

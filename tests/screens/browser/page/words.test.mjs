@@ -2,6 +2,7 @@ import assert from "node:assert/strict";
 import { readFileSync } from "node:fs";
 import { test } from "node:test";
 import { colorOf, lateness } from "../../../../tftool/screens/browser/page/frames.js";
+import { halves } from "../../../../tftool/screens/browser/page/format.js";
 import { freshness } from "../../../../tftool/screens/browser/page/freshness.js";
 import { KEYS, meant } from "../../../../tftool/screens/browser/page/keys.js";
 import { offered } from "../../../../tftool/screens/browser/page/match.js";
@@ -56,6 +57,13 @@ test("what is shown is live, stale or gone", () => {
   model.fresh.now = 9;
   model.statics = [false, true];
   assert.equal(freshness("open", model, false), "live");
+});
+
+test("of a long name the end is always to be seen", () => {
+  assert.deepEqual(halves("base_link"), ["base_link"]);
+  assert.deepEqual(halves("front_left_ultrasonic_optical_frame_3"), ["front_left_ultrasonic_opt", "ical_frame_3"]);
+  // From right to left, or of characters that join, a name stays one.
+  assert.equal(halves("שלום".repeat(9)).length, 1);
 });
 
 test("the first frames have colours of their own", () => {

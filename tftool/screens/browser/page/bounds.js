@@ -5,6 +5,8 @@
 
 const LEAST = 0.5; // metres; a single frame has no size
 const MARGIN = 0.1; // of the largest side
+const MOST = 0.6; // of the points are what a picture is of
+const FAR = 2000; // times as far as those, and a point is not looked at with them
 
 /**
  * The length of a box's longest side, metres.
@@ -46,6 +48,19 @@ export function distanceFor({ low, high }, { right, upward, away }, slope) {
   return distance;
 }
 
+/**
+ * Those of a picture's points that can be looked at together: where most lie close by, one that is
+ * thousands of times as far, as utm is from a robot, would leave nothing of them to be seen.
+ * @param {number[][]} points places, whatever may stand behind their three numbers
+ */
+export function together(points) {
+  if (spread(boxOf(points)) < FAR * LEAST) return points;
+  const middle = [0, 1, 2].map((side) => points.map((point) => point[side]).sort((a, b) => a - b)[(points.length - 1) >> 1]);
+  const away = points.map((point) => Math.hypot(...middle.map((value, side) => point[side] - value)));
+  const most = [...away].sort((a, b) => a - b)[Math.ceil(MOST * points.length) - 1];
+  return points.filter((_, place) => away[place] <= FAR * Math.max(most, LEAST));
+}
+
 export class Bounds {
   constructor() {
     /** @type {Box | null} */
@@ -62,7 +77,7 @@ export class Bounds {
    */
   grow(points) {
     if (!points.length) return null;
-    const now = boxOf(points);
+    const now = boxOf(together(points));
     const { box } = this;
     if (box && now.low.every((value, side) => value >= box.low[side]) && now.high.every((value, side) => value <= box.high[side])) {
       return null;

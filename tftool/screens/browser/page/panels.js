@@ -31,9 +31,9 @@ export function fill(list, rows) {
 }
 
 function poseRows(pose) {
-  if (!pose) return [["Position", "–"], ["Quaternion", "–"], ["RPY, deg", "–"]];
+  if (!pose) return [["Position, m", "–"], ["Quaternion", "–"], ["RPY, deg", "–"]];
   return [
-    ["Position", pose.slice(0, 3)],
+    ["Position, m", pose.slice(0, 3)],
     ["Quaternion", pose.slice(3, 7)],
     ["RPY, deg", rpy(pose).map(degrees), 2],
   ];
@@ -81,7 +81,7 @@ export function showPair(pair) {
     ["Quaternion", pair.rotation, 6],
     ["RPY, rad", angles, 6],
     ["RPY, deg", angles.map((angle) => (angle === null ? null : degrees(angle))), 3],
-    ["Distance", [translation.includes(null) ? null : Math.hypot(...translation)], 6],
+    ["Distance, m", [translation.includes(null) ? null : Math.hypot(...translation)], 6],
     ["At time", pair.moment === null ? "always (static)" : `${pair.stamp} s`],
   ]);
   $("chain").textContent =
@@ -148,6 +148,7 @@ export function showEmpty(connection, model, fixed) {
   $("empty").textContent =
     connection === "wait" ? "Connecting to the session…"
     : missing ? `Frame [${fixed}] does not exist.\nChoose another fixed frame.`
+    : connection === "stored" ? "No tf data.  Actual error: no frame exists in this file."
     : "No tf data.  Actual error: no frame exists yet.\nFrames appear here as soon as a transform is broadcast.";
 }
 

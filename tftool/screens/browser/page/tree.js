@@ -1,6 +1,6 @@
 // @ts-check
 // The nested list of frames. Names go in by textContent and no other way.
-import { stillness } from "./format.js";
+import { halves, stillness } from "./format.js";
 import { kept, led, listed } from "./outline.js";
 
 export class Tree {
@@ -86,8 +86,12 @@ export class Tree {
     swatch.className = "swatch";
     const label = document.createElement("span");
     label.className = "name";
-    label.textContent = name;
     label.title = name;
+    for (const part of halves(name)) {
+      const half = document.createElement("span");
+      half.textContent = part;
+      label.append(half);
+    }
     const told = document.createElement("span");
     told.className = "told";
     if (model.parents[index] >= 0 && model.statics[index]) {
