@@ -99,6 +99,18 @@ def test_info_counts_in_words_and_shows_no_table_of_nothing(tftool, tmp_path):
     assert "Topics" not in tftool("info", none).out
 
 
+def test_one_wild_stamp_makes_no_hundred_million_answers(tftool, tmp_path):
+    sent = [
+        Sent(at * SECOND, "/tf", ((stamp * SECOND, "map", "base", numbers(1)),))
+        for at, stamp in enumerate((1_750_000_000, 1_750_000_001, 2_147_000_000))
+    ]
+
+    result = tftool("echo", "map", "base", write_mcap(tmp_path / "wild.mcap", sent))
+
+    assert result.status == 2
+    assert "397,000,001 moments" in result.err
+
+
 def test_info_tells_what_is_odd(tftool, tmp_path):
     start = 1_750_000_000 * SECOND
     sent = [

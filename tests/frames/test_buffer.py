@@ -13,7 +13,7 @@ from tftool.errors import (
     NoDataForExtrapolationException,
     TransformException,
 )
-from tftool.frames.buffer import MAX_FRAMES, Buffer
+from tftool.frames.buffer import MAX_FRAMES, NO_LIMIT, Buffer
 from tftool.frames.sample import TransformStamped
 from tftool.geometry.rigid import Transform
 from tftool.stamps import seconds
@@ -290,6 +290,14 @@ def test_the_number_of_frames_can_be_raised_or_lowered(said):
     assert put(buffer, 1)
     assert not put(buffer, 1, child="turtle2")
     assert Buffer(max_frames=10**6).max_frames == 10**6
+
+
+def test_a_buffer_says_what_it_is():
+    buffer = Buffer(seconds(2.5))
+    buffer.set_transform(TransformStamped(1, "map", "base", Transform()), "me")
+
+    assert repr(buffer) == "<Buffer: 2 frames, keeps 2.5 s>"
+    assert repr(Buffer(NO_LIMIT)) == "<Buffer: 0 frames, keeps all>"
 
 
 def test_a_name_may_hold_anything(buffer):

@@ -10,7 +10,15 @@ pytest.importorskip("mcap", reason="writes the test files")
 pytest.importorskip("zstandard", reason="the extra 'recordings' is not installed")
 
 from tests.sources.writers import CONTAINERS, SECOND, Sent, content, numbers, write_mcap
-from tftool import Buffer, InputError, Transform, TransformStamped, open_recording, seconds
+from tftool import (
+    Buffer,
+    InputError,
+    Transform,
+    TransformStamped,
+    UsageError,
+    open_recording,
+    seconds,
+)
 
 SENT = content(200)
 
@@ -168,3 +176,16 @@ def test_messages_are_decoded_by_the_recorded_definition(tmp_path, name):
         assert [one.child_frame_id for one in transforms[0][1].transforms] == ["laser", "camera"]
         with pytest.raises(InputError, match="No topic '/scam'"):
             recording.messages("/scam")
+
+
+@pytest.mark.parametrize("name", CONTAINERS)
+def test_a_closed_recording_says_so_and_keeps_what_was_read(tmp_path, name):
+    path = str(CONTAINERS[name](tmp_path, SENT))
+    with open_recording(path) as unread, open_recording(path) as read:
+        edges = read.edges
+    for ask in (lambda: unread.buffer, lambda: unread.headers("/scan"), lambda: unread.edges):
+        with pytest.raises(UsageError, match="is closed: read what you need"):
+            ask()
+
+    assert read.edges == edges
+    assert read.buffer.frame_exists("map")

@@ -38,6 +38,11 @@ def crane():
     return Robot(parse_description(TEXT))
 
 
+def test_it_says_what_it_is(crane):
+    links, joints = TEXT.count("<link "), TEXT.count("<joint ")
+    assert repr(crane) == f"<Robot 'crane': {links} links, {joints} joints>"
+
+
 def poses(robot, positions):
     return {one.child_frame_id: one.transform for one in robot.transforms(positions)}
 

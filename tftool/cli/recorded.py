@@ -259,6 +259,7 @@ def moments(
 
     Raises:
         InputError: If it has no such topic.
+        UsageError: If there are more moments than can be asked for at once.
         TransformException: If the pair cannot be looked up at any of them.
     """
     import numpy as np
@@ -266,12 +267,13 @@ def moments(
     from tftool.frames.sample import TransformStamped
     from tftool.geometry.rigid import Transform
     from tftool.sources.recording import Recording
+    from tftool.trajectories.sampling import evenly
 
     if topic is not None and isinstance(stored, Recording):
         stamps = stored.headers(topic).stamps
     else:
         period = seconds(1.0 / (rate or 1.0))
-        stamps = np.arange(stored.start, stored.end + 1, period, dtype=np.int64)
+        stamps = evenly(stored.start, stored.end, period)
     path = stored.buffer.lookup_transforms(target, source, stamps, missing="nan")
     places = np.flatnonzero(path.valid)
     if len(stamps) and not len(places):

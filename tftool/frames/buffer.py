@@ -26,7 +26,7 @@ from tftool.frames.tree import FrameTree
 from tftool.geometry import poses, quaternions, rigid
 from tftool.geometry.rigid import Transform
 from tftool.listeners import Listeners, Report, listener_text
-from tftool.stamps import CACHE_TIME, Duration, Stamp, whole
+from tftool.stamps import CACHE_TIME, Duration, Stamp, as_seconds, whole
 
 if TYPE_CHECKING:
     import numpy as np
@@ -149,6 +149,10 @@ class Buffer(Door):
         self._listening = self._listeners.registered
 
     # Setting
+
+    def __repr__(self) -> str:
+        kept = "all" if self.cache_time == NO_LIMIT else f"{as_seconds(self.cache_time):g} s"
+        return f"<Buffer: {len(self.frames())} frames, keeps {kept}>"
 
     def set_transform(self, transform: TransformStamped, authority: str = "") -> bool:
         """Remember a sample of a link that moves.

@@ -10,7 +10,7 @@ from typing import Any, Final
 import numpy as np
 import numpy.typing as npt
 
-from tftool.errors import InputError, TftoolError
+from tftool.errors import InputError, TftoolError, UsageError
 from tftool.frames.buffer import NO_LIMIT, Buffer
 from tftool.frames.sample import TransformStamped
 from tftool.frames.tree import stripped
@@ -110,6 +110,7 @@ class Recording:
         self._progress = progress
         self._oddities: Counter[str] = Counter()
         self._described: DescribedFrames | None = None
+        self._closed = False
 
     def __enter__(self) -> "Recording":
         return self
@@ -122,7 +123,18 @@ class Recording:
 
     def close(self) -> None:
         """Close its files; what was read stays."""
+        self._closed = True
         self.source.close()
+
+    @property
+    def _readable(self) -> Source:
+        # A closed file of SQLite's reads as one in which nothing is.
+        if self._closed:
+            raise UsageError(
+                f"Recording '{self.name}' is closed: read what you need of it while it is open, "
+                "inside its with block."
+            )
+        return self.source
 
     # What is in it
 
@@ -154,14 +166,14 @@ class Recording:
         """Every transform, in columns per edge."""
         found = None if self._kept is None else self._kept.load()
         if found is None:
-            found = self.source.transforms(progress=self._progress)
+            found = self._readable.transforms(progress=self._progress)
             # What was damaged is read anew, and told again.
             if self._kept is not None and not self.source.damage and not found.damage:
                 self._kept.store(found)
         topics = self.odometry
         if topics:
             names = [topic.name for topic in topics]
-            found = joined(found, self.source.transforms(names, self._progress))
+            found = joined(found, self._readable.transforms(names, self._progress))
         return found
 
     @cached_property
@@ -269,7 +281,7 @@ class Recording:
             return None
         for topic in description_topics(self.topics):
             try:
-                return read_description(self.source, topic)
+                return read_description(self._readable, topic)
             except TftoolError as error:
                 first = str(error).strip().partition("\n")[0]
                 self._oddities[f"'{topic.name}' cannot be read: {first}"] += 1
@@ -280,7 +292,7 @@ class Recording:
         """The joint states that belong to the robot, as columns."""
         inside = description_topics(self.topics)
         namespace = inside[0].name.rpartition("/")[0] if inside and self._robot is None else ""
-        return read_joint_states(self.source, joint_state_topics(self.topics, namespace))
+        return read_joint_states(self._readable, joint_state_topics(self.topics, namespace))
 
     @property
     def described(self) -> DescribedFrames | None:
@@ -301,7 +313,7 @@ class Recording:
             InputError: If there is no such topic, or its messages have no header.
         """
         self._topic(topic)
-        found = self.source.headers([topic], self._progress)
+        found = self._readable.headers([topic], self._progress)
         if topic not in found:
             raise InputError(f"The messages of '{topic}' do not begin with a header.")
         return found[topic]
@@ -338,7 +350,7 @@ class Recording:
             InputError: If there is no such topic.
         """
         self._topic(topic)
-        return self.source.messages([topic])
+        return self._readable.messages([topic])
 
     def messages(self, topic: str) -> Iterator[tuple[Stamp, Any]]:
         """A topic's messages, decoded one by one by the definition in the recording.
@@ -359,7 +371,7 @@ class Recording:
             )
         kind = Interfaces().recorded(found.type, found.definition)
         decode = Codec(kind, layout).decode
-        return ((raw.log_time, decode(raw.payload)) for raw in self.source.messages([topic]))
+        return ((raw.log_time, decode(raw.payload)) for raw in self._readable.messages([topic]))
 
     def _topic(self, name: str) -> RecordedTopic:
         for topic in self.topics:

@@ -54,6 +54,9 @@ class Robot:
         self.description = description
         self._above = {joint.child: joint for joint in description.joints.values()}
 
+    def __repr__(self) -> str:
+        return f"<Robot {self.name!r}: {len(self.links)} links, {len(self.joints)} joints>"
+
     @property
     def name(self) -> str:
         """The robot's name."""

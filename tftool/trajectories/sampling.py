@@ -14,8 +14,8 @@ from tftool.stamps import Duration, Stamp, as_seconds
 
 Stamps: TypeAlias = npt.NDArray[np.int64]
 
-MOST_MOMENTS: Final = 200_000_000
-"""Moments of one pair that are asked for at once: 13 GB of poses."""
+MOST_MOMENTS: Final = 20_000_000
+"""Moments of one pair that are asked for at once: 1.3 GB of poses, days of a hundred a second."""
 
 MOST_REASONS: Final = 200
 """Runs of refused moments whose reason is asked for; of more, the rest goes without."""
@@ -192,6 +192,23 @@ def continuous(rotations: batch.Floats, valid: npt.NDArray[np.bool_] | None = No
     return found
 
 
+def evenly(start: Stamp, end: Stamp, period: Duration) -> Stamps:
+    """The moments from `start` to `end`, one a period; 1 for 0, which would mean the latest.
+
+    Raises:
+        UsageError: If there are more than `MOST_MOMENTS`.
+    """
+    count = max(0, end - start) // period + 1
+    if count > MOST_MOMENTS:
+        raise UsageError(
+            f"Every {as_seconds(period):g} s over {as_seconds(end - start):,.0f} s would be "
+            f"{count:,} moments, and {MOST_MOMENTS:,} is the most: ask at a lower rate. If what "
+            "was recorded did not last so long, a stamp is wrong: 'tftool info' says from when to "
+            "when they are."
+        )
+    return max(start, 1) + period * np.arange(count, dtype=np.int64)
+
+
 def _asked(buffer: Buffer, target: str, source: str, moments: Moments) -> tuple[Stamps, str]:
     if moments.stamps is not None:
         stamps = np.unique(np.asarray(moments.stamps, dtype=np.int64))
@@ -201,15 +218,7 @@ def _asked(buffer: Buffer, target: str, source: str, moments: Moments) -> tuple[
         low, high = moving_span(buffer, links)
         start = low if moments.start is None else moments.start
         end = high if moments.end is None else moments.end
-        count = max(0, end - start) // moments.period + 1
-        if count > MOST_MOMENTS:
-            raise UsageError(
-                f"Every {as_seconds(moments.period):g} s over {as_seconds(end - start):g} s would "
-                f"be {count} moments: ask for {MOST_MOMENTS} at most."
-            )
-        # Stamp 0 would mean the latest.
-        stamps = max(start, 1) + moments.period * np.arange(count, dtype=np.int64)
-        return stamps, f"every {as_seconds(moments.period):g} s"
+        return evenly(start, end, moments.period), f"every {as_seconds(moments.period):g} s"
     found = fastest(buffer, links)
     if found is None:
         # Any moment will do: the first there is data of, as stamp 0 would mean the latest.
