@@ -253,3 +253,20 @@ def test_example_interfaces_have_what_std_msgs_has(name):
         field: kind.replace("std_msgs", "example_interfaces")
         for field, kind in theirs.get_fields_and_field_types().items()
     }
+
+
+def test_a_service_has_its_event_and_an_action_what_ros_2_makes_of_it():
+    event = INTERFACES.find("std_srvs", "srv", "SetBool").Event
+    fibonacci = INTERFACES.find("example_interfaces", "action", "Fibonacci")
+    send, ask = fibonacci.Impl.SendGoalService, fibonacci.Impl.GetResultService
+    goal = fibonacci.Goal(order=3)
+
+    assert event(request=[INTERFACES.part("std_srvs/srv/SetBool_Request")(data=True)]).request
+    assert send.Request(goal=goal).goal == goal
+    assert send.Response().accepted is False
+    assert send.interface__ == "example_interfaces/action/Fibonacci_SendGoal"
+    assert send is fibonacci.Impl.SendGoalService
+    assert ask.Response(result=fibonacci.Result(sequence=[1]), status=4).status == 4
+    assert fibonacci.Impl.FeedbackMessage().feedback == fibonacci.Feedback()
+    assert fibonacci.Impl.CancelGoalService is INTERFACES.find("action_msgs", "srv", "CancelGoal")
+    assert fibonacci.Impl.GoalStatusMessage().status_list == []

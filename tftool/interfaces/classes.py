@@ -234,13 +234,40 @@ class Interfaces(Schema):
         return made
 
     def _compound(self, package: str, kind: str, name: str) -> type[Any]:
+        full = f"{package}/{kind}/{name}"
         made: dict[str, Any] = {
-            part: self.part(f"{package}/{kind}/{name}_{part}")
-            for part in self.parts(package, kind, name)
+            part: self.part(f"{full}_{part}") for part in self.parts(package, kind, name)
         }
-        made["interface__"] = f"{package}/{kind}/{name}"
-        made["__module__"] = f"{package}.{kind}"
-        return type(name, (), made)
+        if kind == "srv":
+            made["Event"] = _Later(lambda: self.part(f"{full}_Event"))
+        if kind == "action":
+            made["Impl"] = _Later(lambda: self._derived(full))
+        return _holder(full, made)
+
+    def _derived(self, action: str) -> type[Any]:
+        """What ROS 2 makes of an action: three services and two topics, by rclpy's names."""
+        made = self._made.get(f"{action}_Impl")
+        if made is None:
+            services = {
+                f"{one}Service": _holder(
+                    f"{action}_{one}",
+                    {
+                        part: self.part(f"{action}_{one}_{part}")
+                        for part in ("Request", "Response", "Event")
+                    },
+                )
+                for one in ("SendGoal", "GetResult")
+            }
+            made = self._made[f"{action}_Impl"] = _holder(
+                f"{action}_Impl",
+                {
+                    **services,
+                    "CancelGoalService": self.find("action_msgs", "srv", "CancelGoal"),
+                    "FeedbackMessage": self.part(f"{action}_FeedbackMessage"),
+                    "GoalStatusMessage": self.message("action_msgs/GoalStatusArray"),
+                },
+            )
+        return made
 
     def _class(self, structure: Structure, within: tuple[str, ...]) -> type[Message]:
         package, kind, name = structure.name.split("/")
@@ -277,6 +304,21 @@ class Interfaces(Schema):
             check = array_check(name, kind, size, field.bound, check)
             described = f"{described}[{size}]" if size >= 0 else f"sequence<{described}>"
         return MessageField(name, kind, size, field.bound, field.text_bound, check, make, described)
+
+
+class _Later:
+    """A class within another one, made when it is first asked for."""
+
+    def __init__(self, make: Callable[[], type[Any]]) -> None:
+        self._make = make
+
+    def __get__(self, instance: object, owner: object) -> type[Any]:
+        return self._make()
+
+
+def _holder(full: str, members: dict[str, Any]) -> type[Any]:
+    package, kind, name = full.split("/")
+    return type(name, (), members | {"interface__": full, "__module__": f"{package}.{kind}"})
 
 
 def _property(field: MessageField) -> property:
