@@ -140,7 +140,79 @@ def test_a_program_may_launch_by_itself(ros_runtime, tmp_path, capfd):
     ros_runtime.sleep(2.0)
 
     assert program.status == 0
-    assert "[INFO] [launch]: three seconds" in capfd.readouterr().err
+    captured = capfd.readouterr()
+    assert "[INFO] [launch]: three seconds" in captured.err
+    assert captured.out == "[INFO] [mine]: before\n"
+
+
+def test_the_loggers_of_launch_say_and_write_what_is_set(ros_runtime, tmp_path, capsys):
+    import launch.logging
+    from launch.substitutions import LaunchLogDir
+
+    config = launch.logging.launch_config
+    launch.logging.reset()
+    config.log_dir = str(tmp_path)
+    config.level = "WARNING"
+    logger = launch.logging.get_logger("outer.inner")
+    assert launch.logging.get_logger("outer") is not logger
+    logger.addHandler(config.get_log_file_handler())
+    logger.info("too little")
+    logger.warning("once")
+    config.set_screen_format("{message} of {name}")
+    config.set_log_format("{name}: {message}")
+    logger.error("again")
+
+    assert capsys.readouterr().out == "[WARNING] [outer.inner]: once\nagain of outer.inner\n"
+    first, second = (tmp_path / "launch.log").read_text().splitlines()
+    assert first.partition(" ")[2] == "[WARNING] [outer.inner]: once"
+    assert second == "outer.inner: again"
+    assert LaunchLogDir().perform(launch.LaunchContext()) == str(tmp_path)
+    with pytest.raises(ValueError, match="does not exist"):
+        config.log_dir = str(tmp_path / "none")
+    with pytest.raises(ValueError, match="a style of its own"):
+        config.set_screen_format("default", screen_style="%")
+    launch.logging.reset()
+    assert launch.logging.get_logger("outer").getEffectiveLevel() == config.level == 20
+
+
+def test_a_logger_of_launch_writes_by_a_handler_of_one_s_own(ros_runtime, tmp_path):
+    import launch.logging
+    import launch.logging.handlers
+
+    written = []
+
+    class Kept(launch.logging.handlers.Handler):
+        def emit(self, record):
+            written.append(self.format(record))
+
+    launch.logging.reset()
+    config = launch.logging.launch_config
+    config.log_dir = str(tmp_path)
+    config.log_handler_factory = lambda path, encoding=None: Kept()
+    config.set_log_format("{message}")
+    logger = launch.logging.get_logger("kept")
+    logger.addHandler(config.get_log_file_handler("own.log"))
+    logger.info("this")
+    launch.logging.reset()
+
+    assert written == ["this"]
+    assert not (tmp_path / "own.log").exists()
+
+
+@pytest.mark.parametrize("way", ["default", "ROS_LOG_DIR", "ROS_HOME"])
+def test_the_folder_of_logs_is_ros_2_s(ros_runtime, monkeypatch, tmp_path, way):
+    import launch.logging
+    from launch.frontend.parse_substitution import parse_substitution
+
+    for name in ("ROS_LOG_DIR", "ROS_HOME"):
+        monkeypatch.delenv(name, raising=False)
+    monkeypatch.setenv("HOME", str(tmp_path / "home"))
+    if way != "default":
+        monkeypatch.setenv(way, str(tmp_path))
+    expected = {"default": "home/.ros/log", "ROS_LOG_DIR": "", "ROS_HOME": "log"}[way]
+    (found,) = parse_substitution("$(log_dir)")
+
+    assert found.perform(launch.LaunchContext()) == str(tmp_path / expected)
 
 
 def test_xml_keeps_resets_and_reads_files(tmp_path):

@@ -190,7 +190,8 @@ launch: launch.context: LaunchContext
 launch: launch.action: Action
 launch: launch.service: LaunchService
 launch.launch_service: launch.service: LaunchService
-launch.logging: launch.service: get_logger
+launch.logging: launch.logging: get_logger launch_config LaunchConfig reset
+launch.logging.handlers: launch.logging: Handler StreamHandler FileHandler
 launch: launch.conditions: Condition
 launch: launch.events: Event EventHandler
 launch: launch.substitutions: Substitution SomeSubstitutionsType
@@ -262,6 +263,7 @@ launch_ros.events: launch.lifecycle: matches_node_name
 launch_ros.events.lifecycle: launch.lifecycle: ChangeState StateTransition
 launch_ros.events.matchers: launch.lifecycle: matches_node_name
 launch_ros.event_handlers: launch.lifecycle: OnStateTransition
+launch.substitutions: launch.substitutions: LaunchLogDir
 launch_ros.substitutions: launch.substitutions: ExecutableInPackage
 launch_ros.substitutions: launch.substitutions: FindPackageShare FindPackagePrefix FindPackage
 launch_ros.substitutions.find_package: launch.substitutions: FindPackageShare FindPackagePrefix

@@ -106,6 +106,8 @@ SUBSTITUTIONS: dict[str, Callable[..., Any]] = {
     "find-pkg-prefix": substitutions.FindPackageShare,
     "dirname": substitutions.ThisLaunchFileDir,
     "filename": substitutions.ThisLaunchFile,
+    "log_dir": substitutions.LaunchLogDir,
+    "launch_log_dir": substitutions.LaunchLogDir,
     "eval": lambda *words: _expression(words),
     "command": lambda command, on_stderr="fail": substitutions.Command(
         command, on_stderr=on_stderr

@@ -1,7 +1,6 @@
 """launch's LaunchService: a launch that a program makes and runs by itself."""
 
 import asyncio
-import logging
 import sys
 from collections.abc import Coroutine
 from typing import Any
@@ -101,15 +100,3 @@ def _loop() -> asyncio.AbstractEventLoop | None:
 
 async def _nothing() -> None:
     """What is asked of a launch is asked at once."""
-
-
-def get_logger(name: str | None = None) -> logging.Logger:
-    """A logger of Python's own that writes to standard error as launch does."""
-    root = logging.getLogger("launch")
-    if not root.handlers:
-        handler = logging.StreamHandler()
-        handler.setFormatter(logging.Formatter("[%(levelname)s] [%(name)s]: %(message)s"))
-        root.addHandler(handler)
-        root.setLevel(logging.INFO)
-        root.propagate = False
-    return root if name in (None, "launch") else root.getChild(str(name))

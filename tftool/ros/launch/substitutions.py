@@ -11,6 +11,7 @@ from tftool.errors import UsageError
 from tftool.near_names import did_you_mean
 from tftool.ros.launch import commands, packages
 from tftool.ros.launch.context import LaunchContext
+from tftool.ros.launch.logging import launch_config
 
 ROS2: Final = "ros2"
 """The command of ROS 2 that is carried out without a process of its own."""
@@ -122,6 +123,14 @@ class LaunchConfiguration(Substitution):
     def describe(self) -> str:
         """LaunchConfig('name')."""
         return f"LaunchConfig({describe(self.variable_name)})"
+
+
+class LaunchLogDir(Substitution):
+    """The folder of the launch's logs, as `launch.logging` has it."""
+
+    def perform(self, context: LaunchContext) -> str:
+        """The path."""
+        return launch_config.log_dir
 
 
 class EnvironmentVariable(Substitution):

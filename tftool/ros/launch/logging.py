@@ -1,0 +1,129 @@
+"""launch.logging: loggers for what launch files say, apart from those of the process.
+
+A launch here writes no files of its own. One comes up where a launch file asks for its handler.
+"""
+
+import logging
+import os
+import sys
+from collections.abc import Callable
+from logging import FileHandler, Handler, StreamHandler
+from pathlib import Path
+
+from tftool.ros.rclpy.logging import get_logging_directory
+
+__all__ = ["FileHandler", "Handler", "LaunchConfig", "StreamHandler", "get_logger", "reset"]
+
+_PLAIN = "[{levelname}] [{name}]: {message}"
+_FORMATS = {"default": _PLAIN, "default_with_timestamp": "{created:.7f} " + _PLAIN}
+
+
+class _Screen(Handler):
+    """Writes to what standard output is at that moment."""
+
+    def emit(self, record: logging.LogRecord) -> None:
+        """Write one line."""
+        sys.stdout.write(f"{self.format(record)}\n")
+
+
+class LaunchConfig:
+    """What loggers say, how, and where."""
+
+    def __init__(self) -> None:
+        self._files: dict[str, Handler] = {}
+        self.reset()
+
+    def reset(self) -> None:
+        """Be as at the beginning."""
+        for handler in self._files.values():
+            handler.close()
+        self.manager = logging.Manager(logging.RootLogger(logging.INFO))
+        self._log_dir: str | None = None
+        self._files = {}
+        self._factory: Callable[..., Handler] = FileHandler
+        self._screen = _Screen()
+        self._log_format: logging.Formatter | None = None
+        self.set_screen_format(os.environ.get("OVERRIDE_LAUNCH_SCREEN_FORMAT") or "default")
+        self.set_log_format(os.environ.get("OVERRIDE_LAUNCH_LOG_FORMAT") or "default")
+
+    @property
+    def level(self) -> int:
+        """From which level on lines are said."""
+        return self.manager.root.level
+
+    @level.setter
+    def level(self, level: int | str) -> None:
+        self.manager.root.setLevel(level)
+
+    @property
+    def log_dir(self) -> str:
+        """The folder for files: the one that was set, else where ROS 2 has its logs."""
+        return self._log_dir or os.path.normpath(get_logging_directory())
+
+    @log_dir.setter
+    def log_dir(self, folder: str | None) -> None:
+        if folder is not None and not Path(folder).is_dir():
+            raise ValueError(f"{folder} does not exist")
+        self._log_dir = folder
+
+    @property
+    def log_handler_factory(self) -> Callable[..., Handler]:
+        """What makes the handler of a file, of its path."""
+        return self._factory
+
+    @log_handler_factory.setter
+    def log_handler_factory(self, factory: Callable[..., Handler] | None) -> None:
+        self._factory = factory or FileHandler
+
+    def set_screen_format(self, screen_format: str, *, screen_style: str | None = None) -> None:
+        """Say lines in a format: a name of launch's, or one of Python's, with braces."""
+        self._screen.setFormatter(_formatter(screen_format, screen_style))
+
+    def set_log_format(self, log_format: str, *, log_style: str | None = None) -> None:
+        """Write lines to files in a format."""
+        if log_format == "default":
+            # Alone on the screen it is plain.
+            _formatter(log_format, log_style)
+            log_format = "default_with_timestamp"
+        self._log_format = _formatter(log_format, log_style)
+        for handler in self._files.values():
+            handler.setFormatter(self._log_format)
+
+    def get_screen_handler(self) -> Handler:
+        """What writes lines to the screen."""
+        return self._screen
+
+    def get_log_file_path(self, file_name: str = "launch.log") -> str:
+        """Where a file is."""
+        return os.path.join(self.log_dir, file_name)
+
+    def get_log_file_handler(self, file_name: str = "launch.log") -> Handler:
+        """What writes lines to a file."""
+        if file_name not in self._files:
+            Path(self.log_dir).mkdir(parents=True, exist_ok=True)
+            made = self._factory(self.get_log_file_path(file_name), encoding="utf-8")
+            made.setFormatter(self._log_format)
+            self._files[file_name] = made
+        return self._files[file_name]
+
+
+def _formatter(text: str, style: str | None) -> logging.Formatter:
+    if text in _FORMATS and style is not None:
+        raise ValueError(f"the format '{text}' has a style of its own")
+    return logging.Formatter(_FORMATS.get(text, text), style=style or "{")  # type: ignore[arg-type]
+
+
+launch_config = LaunchConfig()
+
+
+def get_logger(name: str | None = None) -> logging.Logger:
+    """A logger that writes to the screen."""
+    logger = launch_config.manager.getLogger(name or "launch")
+    logger.propagate = False
+    logger.addHandler(launch_config.get_screen_handler())
+    return logger
+
+
+def reset() -> None:
+    """Forget every logger and what was set."""
+    launch_config.reset()
