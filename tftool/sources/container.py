@@ -2,7 +2,7 @@
 
 import os
 import re
-from collections.abc import Callable, Collection, Iterator
+from collections.abc import Collection, Iterator
 from dataclasses import dataclass
 from functools import partial
 from pathlib import Path
@@ -18,6 +18,8 @@ MOST_STREAMS: Final = 65_536
 """Streams of one recording; those beyond are left out, and that is told."""
 
 TRANSIENT_LOCAL: Final = "transient_local"
+
+_MOST_NOTED = 20
 
 _OFFER = re.compile(r"(durability|reliability):\s*([\w\"']+)")
 _LONGEST_OFFERS = 100_000
@@ -143,6 +145,10 @@ class PackedChunk(Protocol):
     method: str
     cut: bool
 
+    @property
+    def position(self) -> int:
+        """Where it is said to be."""
+
 
 class File:
     """A file read at places, never beyond the end it had when it was opened.
@@ -212,37 +218,56 @@ class File:
         self._file.close()
 
 
-def packed_piece(file: File, piece: PackedChunk) -> Packed | None:
-    """What of a chunk is unpacked ahead; None of one that is read in another way."""
-    if piece.cut or piece.method in ("", "none"):
-        return None
-    return piece.method, partial(file.at, piece.place, piece.packed), piece.size
+class ChunkedFile(File):
+    """A file whose messages lie in chunks, and what turns out to be wrong with it.
 
-
-def unpacked_piece(
-    file: File, piece: PackedChunk, note: Callable[[str], None], ahead: Ahead | None = None
-) -> "bytes | memoryview":
-    """A chunk's bytes, unpacked; as many as there are of one that is cut or damaged.
-
-    Args:
-        file: Where it lies.
-        piece: The chunk.
-        note: Is told what is damaged about it.
-        ahead: Where it may be on its way.
-
-    Raises:
-        InputError: If not even its packed bytes can be read.
-        UsageError: If what it takes is not installed.
+    Attributes:
+        damage: As sentences, each once; not more than tell enough.
     """
-    coming = None if ahead is None else ahead.take(piece)
-    try:
-        if coming is not None:
-            return coming.result()
-        data = file.at(piece.place, piece.packed)
-        if piece.cut:
-            return unpack_beginning(piece.method, data, piece.size)
-        return unpack(piece.method, data, piece.size)
-    except InputError as error:
-        data = file.at(piece.place, piece.packed)
-        note(str(error))
-        return unpack_beginning(piece.method, data, piece.size)
+
+    def __init__(self, path: Path) -> None:
+        """Open it; see `File`."""
+        super().__init__(path)
+        self.damage: list[str] = []
+        self._damaged: set[PackedChunk] = set()
+
+    def note(self, damage: str) -> None:
+        """Note what is wrong."""
+        if damage not in self.damage and len(self.damage) < _MOST_NOTED:
+            self.damage.append(damage)
+
+    def note_chunk(self, chunk: PackedChunk, reason: str) -> None:
+        """Note what is wrong with a chunk, of each what is found first: the rest comes of it."""
+        if chunk not in self._damaged:
+            self._damaged.add(chunk)
+            self.note(f"A chunk at byte {chunk.position} is damaged ({reason}).")
+
+    def packed(self, chunk: PackedChunk) -> Packed | None:
+        """What of a chunk is unpacked ahead; None of one that is read in another way."""
+        if chunk.cut or chunk.method in ("", "none"):
+            return None
+        return chunk.method, partial(self.at, chunk.place, chunk.packed), chunk.size
+
+    def unpacked(self, chunk: PackedChunk, ahead: Ahead | None = None) -> "bytes | memoryview":
+        """A chunk's bytes, unpacked; as many as there are of one that is cut or damaged.
+
+        Args:
+            chunk: The chunk.
+            ahead: Where it may be on its way.
+
+        Raises:
+            InputError: If not even its packed bytes can be read.
+            UsageError: If what it takes is not installed.
+        """
+        coming = None if ahead is None else ahead.take(chunk)
+        try:
+            if coming is not None:
+                return coming.result()
+            data = self.at(chunk.place, chunk.packed)
+            if chunk.cut:
+                return unpack_beginning(chunk.method, data, chunk.size)
+            return unpack(chunk.method, data, chunk.size)
+        except InputError as error:
+            data = self.at(chunk.place, chunk.packed)
+            self.note_chunk(chunk, str(error))
+            return unpack_beginning(chunk.method, data, chunk.size)

@@ -6,7 +6,6 @@ Source: the MCAP format specification, version 0.
 import itertools
 import struct
 from collections.abc import Collection, Iterator
-from functools import partial
 from pathlib import Path
 from typing import Final
 
@@ -17,12 +16,10 @@ from tftool.sources.columns import Batch, in_order, words_at
 from tftool.sources.compressed import Ahead
 from tftool.sources.container import (
     MOST_STREAMS,
-    File,
+    ChunkedFile,
     MessageStream,
     Offers,
     offers_of,
-    packed_piece,
-    unpacked_piece,
 )
 from tftool.sources.contract import Indexes, Progress, Stamps
 from tftool.sources.find import MCAP_MAGIC
@@ -77,13 +74,12 @@ class Mcap:
             InputError: If nothing of it can be read.
             OSError: If the file cannot be opened.
         """
-        self._file = File(path)
+        self._file = ChunkedFile(path)
         self.size = self._file.size
         self.start = self.end = 0
         self.streams: list[MessageStream] = []
         self.counts: list[int] = []
-        self.damage: list[str] = []
-        self._damaged: set[int] = set()  # chunks that are noted
+        self.damage = self._file.damage
         self.profile = ""
         self._schemas: dict[int, tuple[str, str, bytes]] = {}
         self._numbers: dict[int, int] = {}  # of a channel: its stream
@@ -208,7 +204,7 @@ class Mcap:
             try:
                 self.counts[number] += len(self._pairs(channel, place))
             except InputError as error:
-                self._note(f"A message index cannot be read ({error}).")
+                self._file.note(f"A message index cannot be read ({error}).")
 
     # From front to back
 
@@ -247,7 +243,7 @@ class Mcap:
                 elif code == _CHANNEL:
                     self._take_channel(file.at(body, length))
             except (InputError, struct.error) as error:
-                self._note(f"A record at byte {position} cannot be read ({reason_of(error)}).")
+                self._file.note(f"A record at byte {position} cannot be read ({reason_of(error)}).")
             if not whole:
                 break
             position = body + length
@@ -292,7 +288,7 @@ class Mcap:
     def _walk(self, chunk: IndexedChunk) -> None:
         """Walk through a chunk's records; learn its channels, and where its messages are."""
         found = chunk.walked = WalkedMessages()
-        data = bytes(unpacked_piece(self._file, chunk, partial(self._note_chunk, chunk)))
+        data = bytes(self._file.unpacked(chunk))
         numbers, counts = self._numbers, self.counts
         low, high = LAST_STAMP, 0
         try:
@@ -311,7 +307,7 @@ class Mcap:
                     self._take_channel(data[first:last])
         except (InputError, struct.error) as error:
             if not chunk.cut:
-                self._note_chunk(chunk, reason_of(error))
+                self._file.note_chunk(chunk, reason_of(error))
         if chunk.cut or len(found.places):
             # What is announced may not have been reached.
             chunk.start, chunk.end = (low, high) if len(found.places) else (0, 0)
@@ -336,8 +332,7 @@ class Mcap:
             for chunk in self._chunks
         ]
         # Those that were walked are unpacked then and there; the others in order.
-        ahead = Ahead(itertools.compress(self._chunks, read), partial(packed_piece, self._file))
-        with ahead:
+        with Ahead(itertools.compress(self._chunks, read), self._file.packed) as ahead:
             yield from self._chunk_batches(read, chosen, channels, ahead, progress, head)
         yield from self._loose_batches(channels, progress, head)
 
@@ -357,11 +352,13 @@ class Mcap:
                 try:
                     batch = self._batch(chunk, chosen, channels, singly, ahead)
                 except (InputError, struct.error) as error:
-                    self._note_chunk(chunk, reason_of(error))
+                    self._file.note_chunk(chunk, reason_of(error))
                     try:
                         batch = self._rest_of(chunk, channels)
                     except (InputError, struct.error) as worse:
-                        self._note(f"A chunk at byte {chunk.place} is lost ({reason_of(worse)}).")
+                        self._file.note(
+                            f"A chunk at byte {chunk.place} is lost ({reason_of(worse)})."
+                        )
             # What was read singly before it comes before it.
             if singly.is_full or (batch is not None and len(singly)):
                 yield singly.taken()
@@ -396,10 +393,7 @@ class Mcap:
             places = sorted(place for pairs, _ in parts for place in pairs[:, 1].tolist())
             singly.read(places, chunk.place, chunk.place + chunk.packed)
             return None
-        data = np.frombuffer(
-            unpacked_piece(self._file, chunk, partial(self._note_chunk, chunk), ahead),
-            dtype=np.uint8,
-        )
+        data = np.frombuffer(self._file.unpacked(chunk, ahead), dtype=np.uint8)
         return in_order(
             [
                 Batch(data, *indexed(data, pairs, channel), np.full(len(pairs), channels[channel]))
@@ -423,10 +417,7 @@ class Mcap:
         which = np.flatnonzero(channels[owners] >= 0)
         if not len(which):
             return None
-        data = np.frombuffer(
-            unpacked_piece(self._file, chunk, partial(self._note_chunk, chunk), ahead),
-            dtype=np.uint8,
-        )
+        data = np.frombuffer(self._file.unpacked(chunk, ahead), dtype=np.uint8)
         places = np.frombuffer(walked.places, dtype=np.int64)[which]
         return Batch(
             data,
@@ -467,16 +458,6 @@ class Mcap:
         self._index_sizes[channel] = max(15 + count * 17 // 16, _INDEX_AT_ONCE)
         pairs = np.frombuffer(head, dtype=np.int64, count=count // 8, offset=15)
         return pairs.reshape(-1, 2)
-
-    def _note_chunk(self, chunk: IndexedChunk, reason: str) -> None:
-        """Note what is damaged about a chunk first: the rest comes of it."""
-        if chunk.place not in self._damaged:
-            self._damaged.add(chunk.place)
-            self._note(f"A chunk at byte {chunk.place} is damaged ({reason}).")
-
-    def _note(self, damage: str) -> None:
-        if damage not in self.damage and len(self.damage) < 20:
-            self.damage.append(damage)
 
 
 def _check_length(length: int) -> None:

@@ -64,6 +64,11 @@ class IndexedChunk:
     walked: "WalkedMessages | None" = None
     cut: bool = False
 
+    @property
+    def position(self) -> int:
+        """Where it is said to be."""
+        return self.place
+
 
 class WalkedMessages:
     """Messages that were found by walking, as columns."""

@@ -8,7 +8,6 @@ import struct
 from array import array
 from collections.abc import Collection, Iterator
 from dataclasses import dataclass, field
-from functools import partial
 from pathlib import Path
 from typing import Final, TypeAlias
 
@@ -21,11 +20,9 @@ from tftool.sources.compressed import Ahead, Packed
 from tftool.sources.container import (
     MOST_STREAMS,
     TRANSIENT_LOCAL,
-    File,
+    ChunkedFile,
     MessageStream,
     Offers,
-    packed_piece,
-    unpacked_piece,
 )
 from tftool.sources.contract import Progress, Stamps
 from tftool.sources.find import ROS1_MAGIC
@@ -87,13 +84,12 @@ class Rosbag1:
             InputError: If nothing of it can be read.
             OSError: If the file cannot be opened.
         """
-        self._file = File(path)
+        self._file = ChunkedFile(path)
         self.size = self._file.size
         self.start = self.end = 0
         self.streams: list[MessageStream] = []
         self.counts: list[int] = []
-        self.damage: list[str] = []
-        self._damaged: set[int] = set()  # chunks that are noted
+        self.damage = self._file.damage
         self._numbers: dict[int, int] = {}  # of a connection: its stream
         self._chunks: list[_Chunk] = []
         try:
@@ -245,7 +241,7 @@ class Rosbag1:
         """Walk through a chunk's records; learn its connections, and where its messages are."""
         walked = chunk.walked = array("q"), array("q"), array("q")
         connections, log_times, places = walked
-        data = bytes(unpacked_piece(self._file, chunk, partial(self._note_chunk, chunk)))
+        data = bytes(self._file.unpacked(chunk))
         try:
             for header, first, last in _records(data):
                 code = header.get(b"op")
@@ -261,7 +257,7 @@ class Rosbag1:
                     self._take_connection(header, data[first:last])
         except (InputError, struct.error, KeyError) as error:
             if not chunk.cut:
-                self._note_chunk(chunk, _reason(error))
+                self._file.note_chunk(chunk, _reason(error))
 
     # Messages
 
@@ -291,7 +287,7 @@ class Rosbag1:
                 try:
                     batch = self._batch(chunk, chosen, ahead)
                 except (InputError, struct.error, KeyError) as error:
-                    self._note_chunk(chunk, _reason(error))
+                    self._file.note_chunk(chunk, _reason(error))
                     batch = self._rest_of(chunk, chosen)
                 if batch is not None and len(batch):
                     yield batch
@@ -305,10 +301,7 @@ class Rosbag1:
         parts = self._indexes(chunk, chosen)
         if not parts:
             return None
-        data = np.frombuffer(
-            unpacked_piece(self._file, chunk, partial(self._note_chunk, chunk), ahead),
-            dtype=np.uint8,
-        )
+        data = np.frombuffer(self._file.unpacked(chunk, ahead), dtype=np.uint8)
         return in_order(
             [
                 Batch(data, *_indexed(data, entries, connection), senders)
@@ -360,10 +353,7 @@ class Rosbag1:
         which = [row for row, connection in enumerate(connections) if connection in chosen]
         if not which:
             return None
-        data = np.frombuffer(
-            unpacked_piece(self._file, chunk, partial(self._note_chunk, chunk), ahead),
-            dtype=np.uint8,
-        )
+        data = np.frombuffer(self._file.unpacked(chunk, ahead), dtype=np.uint8)
         starts = np.frombuffer(places, dtype=np.int64)[which]
         return Batch(
             data,
@@ -379,17 +369,7 @@ class Rosbag1:
             self._locate(chunk)
         except (InputError, struct.error, KeyError):
             return None
-        return packed_piece(self._file, chunk)
-
-    def _note_chunk(self, chunk: _Chunk, reason: str) -> None:
-        """Note what is damaged about a chunk first: the rest comes of it."""
-        if chunk.position not in self._damaged:
-            self._damaged.add(chunk.position)
-            self._note(f"A chunk at byte {chunk.position} is damaged ({reason}).")
-
-    def _note(self, damage: str) -> None:
-        if damage not in self.damage and len(self.damage) < 20:
-            self.damage.append(damage)
+        return self._file.packed(chunk)
 
 
 def _indexed(data: Bytes, entries: Entries, connection: int) -> tuple[Stamps, Stamps, Stamps]:
