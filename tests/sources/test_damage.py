@@ -9,11 +9,13 @@ pytest.importorskip("mcap", reason="writes the test files")
 pytest.importorskip("zstandard", reason="the extra 'recordings' is not installed")
 pytest.importorskip("lz4", reason="the extra 'recordings' is not installed")
 
+import lz4.frame
 import zstandard
 
 from tests.sources.writers import CONTAINERS, content, write_mcap, write_rosbag1, write_rosbag2
 from tftool import InputError, open_recording
 from tftool.sources import compressed
+from tftool.sources.writing.compression import compressor
 
 SENT = content()
 SINGLE = [name for name in CONTAINERS if "split" not in name]
@@ -186,3 +188,26 @@ def test_of_a_damaged_piece_that_unpacks_to_much_only_a_part_is_held(monkeypatch
     found = compressed.unpack_beginning("zstd", packed, 60_000)
 
     assert found == (random.Random(1).randbytes(500) * 100)[:10_000]
+
+
+def test_of_a_piece_with_a_wrong_checksum_all_is_read():
+    text = random.Random(2).randbytes(300) * 200
+    packed = lz4.frame.compress(
+        text, block_size=lz4.frame.BLOCKSIZE_MAX4MB, content_checksum=True, store_size=False
+    )
+
+    found = compressed.unpack_beginning("lz4", packed[:-1] + bytes([packed[-1] ^ 1]), len(text))
+
+    assert found == text
+
+
+@pytest.mark.parametrize("method", ["lz4", "zstd"])
+def test_of_a_damaged_piece_what_stands_before_the_damage_is_read(method):
+    text = random.Random(3).randbytes(90_000)
+    packed = bytearray(compressor(method)(text))
+    packed[len(packed) // 2] ^= 0xFF
+
+    found = compressed.unpack_beginning(method, bytes(packed), len(text))
+
+    assert found[:20_000] == text[:20_000]
+    assert compressed.unpack_beginning(method, b"nothing of the kind", 100) == b""

@@ -163,22 +163,35 @@ def unpack_beginning(method: str, packed: bytes, size: int) -> bytes:
     size = min(size, LARGEST, MOST_GAIN * len(packed) + _SLACK)
     if method in ("", "none"):
         return packed[:size]
+    size = min(size, _LARGEST_DAMAGED)
     try:
-        stream = _stream(method)
+        found, broken = _in_steps(method, packed, size, len(packed))
+        if broken < len(packed) and method != "bz2":
+            # Of the step in which it broke nothing came out. A block of bz2 is all wrong then.
+            found, _ = _in_steps(method, packed, size, broken)
     except InputError:
         return b""
-    size = min(size, _LARGEST_DAMAGED)
-    found = bytearray()
-    # In small steps: of the step in which it breaks, nothing comes out.
-    step = 4096
-    for start in range(0, len(packed), step):
+    return bytes(memoryview(found)[:size])
+
+
+def _in_steps(method: str, packed: bytes, size: int, coarse: int) -> tuple[bytearray, int]:
+    """Unpack a piece in steps up to a place, and byte by byte behind it.
+
+    Returns:
+        What came out, and where the step began in which it broke; the end if it did not.
+
+    Raises:
+        InputError: If it is not known how it is packed.
+    """
+    stream, found, start = _stream(method), bytearray(), 0
+    while start < len(packed) and len(found) < size and not getattr(stream, "eof", False):
+        step = 4096 if start < coarse else 1
         try:
             found += stream.decompress(packed[start : start + step])
         except Exception:
-            break
-        if len(found) >= size or getattr(stream, "eof", False):
-            break
-    return bytes(memoryview(found)[:size])
+            return found, start
+        start += step
+    return found, len(packed)
 
 
 def check_size(packed: int, size: int) -> None:
