@@ -9,10 +9,8 @@ from array import array
 from collections.abc import Collection, Iterator
 from dataclasses import dataclass, field
 from pathlib import Path
-from typing import Final, TypeAlias
 
 import numpy as np
-import numpy.typing as npt
 
 from tftool.errors import InputError
 from tftool.sources.columns import Batch, in_order, words_at
@@ -24,27 +22,27 @@ from tftool.sources.container import (
     MessageStream,
     Offers,
 )
-from tftool.sources.contract import Progress, Stamps
+from tftool.sources.contract import Progress
 from tftool.sources.find import ROS1_MAGIC
-from tftool.stamps import NANOSECONDS
-from tftool.wire.native import SCAN
-from tftool.wire.rows import Bytes
+from tftool.sources.rosbag1_records import (
+    BAG,
+    CHUNK,
+    CHUNK_INFO,
+    CONNECTION,
+    INDEX,
+    MESSAGE,
+    U32,
+    U64,
+    Entries,
+    fields_of,
+    indexed,
+    reason_of,
+    record_head,
+    records_in,
+    time_of,
+)
 
-Entries: TypeAlias = npt.NDArray[np.uint32]
-"""Of each message seconds, nanoseconds, and where its record begins, shape (n, 3)."""
-
-_MESSAGE: Final = b"\x02"
-_BAG: Final = b"\x03"
-_INDEX: Final = b"\x04"
-_CHUNK: Final = b"\x05"
-_CHUNK_INFO: Final = b"\x06"
-_CONNECTION: Final = b"\x07"
-
-_U32, _U64 = struct.Struct("<I"), struct.Struct("<Q")
-_TIME = struct.Struct("<II")
-_LARGEST_HEADER = 1 << 20
 _LARGEST_INDEX = 1 << 30
-_HEAD = 4096
 
 
 @dataclass(slots=True, eq=False)
@@ -106,7 +104,7 @@ class Rosbag1:
             complete = self._read_index()
         except (InputError, struct.error, KeyError) as error:
             complete = False
-            self.damage.append(f"Its index cannot be read ({_reason(error)}).")
+            self.damage.append(f"Its index cannot be read ({reason_of(error)}).")
         if not complete:
             self._scan()
 
@@ -118,11 +116,11 @@ class Rosbag1:
 
     def _read_index(self) -> bool:
         """Take what the index at the end tells; whether there is one."""
-        header, _, _ = self._record_head(len(ROS1_MAGIC))
-        if header.get(b"op") != _BAG:
+        header, _, _ = record_head(self._file, len(ROS1_MAGIC))
+        if header.get(b"op") != BAG:
             raise InputError("the bag's own header is missing")
-        (place,) = _U64.unpack(header[b"index_pos"])
-        (chunks,) = _U32.unpack(header[b"chunk_count"])
+        (place,) = U64.unpack(header[b"index_pos"])
+        (chunks,) = U32.unpack(header[b"chunk_count"])
         if place == 0:
             self.damage.append("The recording was not closed.")
             return False
@@ -130,18 +128,18 @@ class Rosbag1:
             raise InputError(f"it should begin at byte {place} of {self.size}")
         data = self._file.at(place, self.size - place)
         low, high = 2**62, 0
-        for header, first, last in _records(data):
+        for header, first, last in records_in(data):
             code = header.get(b"op")
-            if code == _CONNECTION:
+            if code == CONNECTION:
                 self._take_connection(header, data[first:last])
-            elif code == _CHUNK_INFO:
-                (position,) = _U64.unpack(header[b"chunk_pos"])
+            elif code == CHUNK_INFO:
+                (position,) = U64.unpack(header[b"chunk_pos"])
                 pairs = struct.iter_unpack("<II", data[first : first + (last - first) // 8 * 8])
                 chunk = _Chunk(position, dict(pairs))
                 self._chunks.append(chunk)
                 if chunk.counts:
-                    low = min(low, _time(header[b"start_time"]))
-                    high = max(high, _time(header[b"end_time"]))
+                    low = min(low, time_of(header[b"start_time"]))
+                    high = max(high, time_of(header[b"end_time"]))
         if len(self._chunks) != chunks:
             raise InputError(f"it names {len(self._chunks)} chunks of {chunks}")
         if any(chunk.position >= place for chunk in self._chunks):
@@ -156,10 +154,10 @@ class Rosbag1:
         return True
 
     def _take_connection(self, header: dict[bytes, bytes], data: bytes) -> None:
-        (connection,) = _U32.unpack(header[b"conn"])
+        (connection,) = U32.unpack(header[b"conn"])
         if connection in self._numbers or len(self.streams) >= MOST_STREAMS:
             return
-        fields = _fields(data)
+        fields = fields_of(data)
 
         def text(name: bytes) -> str:
             return fields.get(name, b"").decode("utf-8", "backslashreplace")
@@ -174,17 +172,6 @@ class Rosbag1:
         )
         self.counts.append(0)
 
-    def _record_head(self, position: int) -> tuple[dict[bytes, bytes], int, int]:
-        """A record's header, where its data begins, and how long that is."""
-        block = self._file.up_to(position, _HEAD)
-        (length,) = _U32.unpack_from(block)
-        if length > _LARGEST_HEADER:
-            raise InputError(f"a record at byte {position} announces a header of {length} bytes")
-        if length + 8 > len(block):
-            block = self._file.at(position, length + 8)
-        (size,) = _U32.unpack_from(block, 4 + length)
-        return _fields(block[4 : 4 + length]), position + 8 + length, size
-
     # From front to back
 
     def _scan(self) -> None:
@@ -196,17 +183,17 @@ class Rosbag1:
         position = len(ROS1_MAGIC)
         while position < self.size:
             try:
-                header, data, length = self._record_head(position)
+                header, data, length = record_head(self._file, position)
                 code = header.get(b"op")
                 cut = data + length > self.size
-                if code == _CHUNK:
+                if code == CHUNK:
                     chunk = _Chunk(position)
                     self._look_at(chunk, header, data, min(length, self.size - data), cut)
                     self._chunks.append(chunk)
                     self._walk(chunk)
-                elif code == _CONNECTION and not cut:
+                elif code == CONNECTION and not cut:
                     self._take_connection(header, self._file.at(data, length))
-                elif code not in (_BAG, _INDEX, _CHUNK_INFO, _CONNECTION):
+                elif code not in (BAG, INDEX, CHUNK_INFO, CONNECTION):
                     break
                 if cut:
                     break
@@ -231,11 +218,11 @@ class Rosbag1:
     def _look_at(
         self, chunk: _Chunk, header: dict[bytes, bytes], place: int, packed: int, cut: bool
     ) -> None:
-        if header.get(b"op") != _CHUNK:
+        if header.get(b"op") != CHUNK:
             raise InputError(f"no chunk is at byte {chunk.position}")
         chunk.place, chunk.packed, chunk.cut = place, packed, cut
         chunk.method = header[b"compression"].decode("ascii", "replace")
-        (chunk.size,) = _U32.unpack(header[b"size"])
+        (chunk.size,) = U32.unpack(header[b"size"])
 
     def _walk(self, chunk: _Chunk) -> None:
         """Walk through a chunk's records; learn its connections, and where its messages are."""
@@ -243,21 +230,21 @@ class Rosbag1:
         connections, log_times, places = walked
         data = bytes(self._file.unpacked(chunk))
         try:
-            for header, first, last in _records(data):
+            for header, first, last in records_in(data):
                 code = header.get(b"op")
-                if code == _MESSAGE:
-                    (connection,) = _U32.unpack(header[b"conn"])
-                    log_times.append(_time(header[b"time"]))
+                if code == MESSAGE:
+                    (connection,) = U32.unpack(header[b"conn"])
+                    log_times.append(time_of(header[b"time"]))
                     connections.append(connection)
                     places.append(first)
                     number = self._numbers.get(connection)
                     if number is not None:
                         self.counts[number] += 1
-                elif code == _CONNECTION:
+                elif code == CONNECTION:
                     self._take_connection(header, data[first:last])
         except (InputError, struct.error, KeyError) as error:
             if not chunk.cut:
-                self._file.note_chunk(chunk, _reason(error))
+                self._file.note_chunk(chunk, reason_of(error))
 
     # Messages
 
@@ -287,7 +274,7 @@ class Rosbag1:
                 try:
                     batch = self._batch(chunk, chosen, ahead)
                 except (InputError, struct.error, KeyError) as error:
-                    self._file.note_chunk(chunk, _reason(error))
+                    self._file.note_chunk(chunk, reason_of(error))
                     batch = self._rest_of(chunk, chosen)
                 if batch is not None and len(batch):
                     yield batch
@@ -304,7 +291,7 @@ class Rosbag1:
         data = np.frombuffer(self._file.unpacked(chunk, ahead), dtype=np.uint8)
         return in_order(
             [
-                Batch(data, *_indexed(data, entries, connection), senders)
+                Batch(data, *indexed(data, entries, connection), senders)
                 for connection, entries in parts
                 for senders in [np.full(len(entries), chosen[connection], dtype=np.int32)]
             ]
@@ -313,7 +300,7 @@ class Rosbag1:
     def _locate(self, chunk: _Chunk) -> None:
         """Find out where a chunk's data lies, if that is not known."""
         if not chunk.place:
-            header, place, packed = self._record_head(chunk.position)
+            header, place, packed = record_head(self._file, chunk.position)
             self._look_at(chunk, header, place, packed, False)
 
     def _indexes(self, chunk: _Chunk, chosen: dict[int, int]) -> list[tuple[int, Entries]]:
@@ -323,10 +310,10 @@ class Rosbag1:
         data = self._file.up_to(position, min(expected, _LARGEST_INDEX))
         found = []
         missing = set(chunk.counts)
-        for header, first, last in _records(data, partial=True):
-            if header.get(b"op") != _INDEX:
+        for header, first, last in records_in(data, partial=True):
+            if header.get(b"op") != INDEX:
                 break
-            (connection,) = _U32.unpack(header[b"conn"])
+            (connection,) = U32.unpack(header[b"conn"])
             missing.discard(connection)
             if connection in chosen:
                 count = (last - first) // 12
@@ -370,108 +357,3 @@ class Rosbag1:
         except (InputError, struct.error, KeyError):
             return None
         return self._file.packed(chunk)
-
-
-def _indexed(data: Bytes, entries: Entries, connection: int) -> tuple[Stamps, Stamps, Stamps]:
-    """Where a connection's messages begin, their lengths, and their log times.
-
-    Args:
-        data: A chunk's records.
-        entries: What its index tells of each message.
-        connection: Whose messages they are.
-
-    Raises:
-        InputError: If the index points at something else.
-    """
-    first = int(entries[0, 2])
-    if first > len(data) - 4:
-        raise InputError("its index points outside of it")
-    (head,) = _U32.unpack_from(data.data, first)
-    header = data[first + 4 : first + 4 + min(head, _LARGEST_HEADER)].tobytes()
-    code, owner = header.find(b"op=") + 3, header.find(b"conn=") + 5
-    if code < 3 or owner < 5 or not code < len(header) >= owner + 4 or len(header) != head:
-        raise InputError("its index points at something else")
-    if SCAN is not None:
-        found = tuple(np.empty(len(entries), dtype=np.int64) for _ in range(3))
-        if SCAN.pointed(data, np.ascontiguousarray(entries), *found, connection, code, owner):
-            starts, lengths, log_times = found
-            return starts, lengths, log_times
-    places = entries[:, 2].astype(np.int64)
-    heads = _within(places, data)
-    bodies = places + 4 + heads
-    lengths = _within(bodies, data)
-    starts = bodies + 4
-    if (heads > _LARGEST_HEADER).any() or (starts + lengths > len(data)).any():
-        raise InputError("its index points outside of it")
-    if (
-        (heads != head).any()
-        or (data[places + 4 + code] != _MESSAGE[0]).any()
-        or (words_at(data, places + 4 + owner, "<u4") != connection).any()
-    ):
-        raise InputError("its index points at something else")
-    return starts, lengths, entries[:, 0].astype(np.int64) * NANOSECONDS + entries[:, 1]
-
-
-def _within(places: Stamps, data: Bytes) -> Stamps:
-    """The numbers of four bytes at some places.
-
-    Raises:
-        InputError: If one lies outside.
-    """
-    if len(data) < 4 or int(places.max()) > len(data) - 4:
-        raise InputError("its index points outside of it")
-    return words_at(data, places, "<u4").astype(np.int64)
-
-
-def _records(data: bytes, partial: bool = False) -> Iterator[tuple[dict[bytes, bytes], int, int]]:
-    """Every record's header, and where its data begins and ends.
-
-    Args:
-        data: Records.
-        partial: Whether the last one may be cut.
-
-    Raises:
-        InputError: At one that goes on behind the end.
-    """
-    position, size = 0, len(data)
-    while position + 8 <= size:
-        (length,) = _U32.unpack_from(data, position)
-        first = position + 8 + length
-        if length > _LARGEST_HEADER or first > size:
-            if partial:
-                return
-            raise InputError(f"a record announces a header of {length} bytes")
-        (count,) = _U32.unpack_from(data, first - 4)
-        last = first + count
-        if last > size:
-            if partial:
-                return
-            raise InputError(f"a record announces {count} bytes and {size - first} are there")
-        yield _fields(data[position + 4 : first - 4]), first, last
-        position = last
-
-
-def _fields(header: bytes) -> dict[bytes, bytes]:
-    """The fields of a header, by name."""
-    found = {}
-    position, size = 0, len(header)
-    while position + 4 <= size:
-        (length,) = _U32.unpack_from(header, position)
-        position += 4
-        if position + length > size:
-            raise InputError(f"a field announces {length} bytes")
-        name, _, value = header[position : position + length].partition(b"=")
-        found[name] = value
-        position += length
-    return found
-
-
-def _time(raw: bytes) -> int:
-    sec, nanosec = _TIME.unpack(raw)
-    return int(sec) * NANOSECONDS + int(nanosec)
-
-
-def _reason(error: Exception) -> str:
-    if isinstance(error, KeyError):
-        return f"a record lacks its field {error.args[0].decode('ascii', 'replace')!r}"
-    return "a record is cut" if isinstance(error, struct.error) else str(error)

@@ -430,3 +430,38 @@ def test_a_broken_chunk_costs_only_what_lies_behind_the_break_in_it(tmp_path):
     assert len(SENT) - 20 < sum(map(len, after.values())) < len(SENT)
     assert all(set(some) <= set(before[topic]) for topic, some in after.items())
     strictly_read(out)
+
+
+@pytest.mark.parametrize("is_chunked", [True, False])
+def test_a_message_of_a_channel_that_nothing_describes_is_left_out(tmp_path, is_chunked):
+    path, out = tmp_path / "a.mcap", tmp_path / "b.mcap"
+    write_mcap(path, SENT, use_chunking=is_chunked, compression=CompressionType.NONE)
+    before = messages(path)
+    data = bytearray(path.read_bytes())
+    place = data.index(before["/tf"][3][1])
+    data[place - 22 : place - 20] = b"\xff\xff"
+    # Without the summary every message is looked at.
+    path.write_bytes(data[:-37])
+
+    report = edit([str(path)], out, Edits())
+
+    assert any("nothing tells on which topic" in note for note in report.notes)
+    before["/tf"].pop(3)
+    assert messages(out) == before
+
+
+def test_a_message_may_say_that_it_was_sent_at_any_time(tmp_path):
+    path, out = tmp_path / "a.mcap", tmp_path / "b.mcap"
+    write_mcap(path, SENT, compression=CompressionType.NONE)
+    before = messages(path)
+    data = bytearray(path.read_bytes())
+    place = data.index(before["/tf"][3][1])
+    data[place - 8 : place] = b"\xff" * 8
+    path.write_bytes(data[:-37])
+
+    edit([str(path)], out, Edits())
+
+    assert messages(out) == before
+    with out.open("rb") as stream:
+        sent = {message.publish_time for _, _, message in SeekingReader(stream).iter_messages()}
+    assert 2**64 - 1 in sent

@@ -8,9 +8,9 @@ from typing import Any, Final
 
 from tftool.errors import InputError
 from tftool.sources.compressed import unpack, unpack_beginning
-from tftool.sources.container import File
+from tftool.sources.container import ChunkedFile
 from tftool.sources.editing.pieces import Piece
-from tftool.sources.editing.tape import Extras, Taken
+from tftool.sources.editing.tape import Extras, Taken, described
 from tftool.sources.find import MCAP_MAGIC
 from tftool.sources.mcap_records import AS_IT_IS, reason_of, strings_at, text_at
 from tftool.sources.writing import mcap as format
@@ -29,6 +29,7 @@ class McapTape:
     """An MCAP file; see `Tape`.
 
     Attributes:
+        file: Itself.
         schemas: Its schemas by their numbers: name, encoding, data.
         schema_of: The schema of each channel.
     """
@@ -42,14 +43,14 @@ class McapTape:
             InputError: If it is no MCAP file.
             OSError: If it cannot be opened.
         """
-        self._file = File(path)
-        self.size = self._file.size
+        self.file = ChunkedFile(path)
+        self.size = self.file.size
         self.channels: dict[int, Channel] = {}
         self.schemas: dict[int, tuple[str, str, bytes]] = {}
         self.schema_of: dict[int, int] = {}
         self.is_indexed = False
         self.extras = Extras()
-        self.damage: list[str] = []
+        self.damage = self.file.damage
         self.style: dict[str, Any] = {
             "profile": "",
             "library": "",
@@ -59,7 +60,7 @@ class McapTape:
             "with_chunk_crc": False,
             "chunk_size": 0,
         }
-        if self._file.up_to(0, len(MCAP_MAGIC)) != MCAP_MAGIC:
+        if self.file.up_to(0, len(MCAP_MAGIC)) != MCAP_MAGIC:
             self.close()
             raise InputError(f"'{path}' is no MCAP file.")
         self._read_style()
@@ -71,16 +72,16 @@ class McapTape:
 
     def close(self) -> None:
         """Close the file."""
-        self._file.close()
+        self.file.close()
 
     def _read_style(self) -> None:
         """Find out by its first records how it is written."""
         position = len(MCAP_MAGIC)
         try:
             while position + 9 <= self.size:
-                code, length = format.RECORD.unpack(self._file.at(position, 9))
+                code, length = format.RECORD.unpack(self.file.at(position, 9))
                 if code == format.HEADER:
-                    head = self._file.at(position + 9, length)
+                    head = self.file.at(position + 9, length)
                     self.style["profile"], place = text_at(head, 0, errors=AS_IT_IS)
                     self.style["library"], _ = text_at(head, place, errors=AS_IT_IS)
                 elif code == format.CHUNK:
@@ -94,7 +95,7 @@ class McapTape:
 
     def _read_summary(self) -> bool:
         size = self.size
-        tail = self._file.at(max(0, size - _FOOTER_SIZE), min(size, _FOOTER_SIZE))
+        tail = self.file.at(max(0, size - _FOOTER_SIZE), min(size, _FOOTER_SIZE))
         if not tail.endswith(MCAP_MAGIC) or tail[0] != format.FOOTER:
             self.damage.append("The recording was not closed.")
             return False
@@ -106,12 +107,12 @@ class McapTape:
             raise InputError(f"it should begin at byte {begin}")
         if size - begin > _LARGEST_SUMMARY:
             raise InputError(f"it would be {size - begin} bytes long")
-        summary = self._file.at(begin, size - _FOOTER_SIZE - begin)
+        summary = self.file.at(begin, size - _FOOTER_SIZE - begin)
         if crc and zlib.crc32(summary + tail[:25]) != crc:
             raise InputError("its CRC is wrong")
         for code, first, last in _records(summary):
             self.learn(code, summary[first:last])
-        data_end = self._file.at(begin - _DATA_END_SIZE, _DATA_END_SIZE)
+        data_end = self.file.at(begin - _DATA_END_SIZE, _DATA_END_SIZE)
         if data_end[0] == format.DATA_END:
             self.style["with_crc"] = data_end[9:] != bytes(4)
         return True
@@ -145,7 +146,7 @@ class McapTape:
         loose: list[Taken] = []
         ended = False
         while position + 9 <= size:
-            code, length = format.RECORD.unpack(self._file.at(position, 9))
+            code, length = format.RECORD.unpack(self.file.at(position, 9))
             body, end = position + 9, position + 9 + length
             if code in (format.DATA_END, format.FOOTER):
                 ended = True
@@ -162,45 +163,35 @@ class McapTape:
                     yield chunk
                     continue
                 if code == format.MESSAGE:
-                    loose.append(_message(self._file.at(body, length), 0, length))
+                    message = _message(self.file.at(body, length), 0, length)
+                    loose += described([message], self.channels, self.file)
                     if len(loose) >= 4096:
                         yield _Loose(loose)
                         loose = []
                 elif code in (format.SCHEMA, format.CHANNEL):
-                    self.learn(code, self._file.at(body, length))
+                    self.learn(code, self.file.at(body, length))
                 elif code == format.ATTACHMENT:
-                    self._attachment(self._file.at(body, length), position)
+                    self._attachment(self.file.at(body, length), position)
                 elif code == format.METADATA:
-                    self.extras.metadata.append(self._file.at(body, length))
+                    self.extras.metadata.append(self.file.at(body, length))
             except (InputError, struct.error) as error:
-                self.note(f"A record at byte {position} cannot be read ({reason_of(error)}).")
+                self.file.note(f"A record at byte {position} cannot be read ({reason_of(error)}).")
             if end > size:
                 break
             position = end
         if loose:
             yield _Loose(loose)
         if not ended:
-            self.note(f"The recording breaks off at byte {position}.")
+            self.file.note(f"The recording breaks off at byte {position}.")
 
     def _attachment(self, body: bytes, position: int) -> None:
         (crc,) = _U32.unpack_from(body, len(body) - 4)
         if crc and zlib.crc32(body[:-4]) != crc:
-            self.note(f"The CRC of the attachment at byte {position} is wrong: it is left out.")
+            self.file.note(
+                f"The CRC of the attachment at byte {position} is wrong: it is left out."
+            )
             return
         self.extras.attachments.append(body)
-
-    def note(self, damage: str) -> None:
-        """Tell what is wrong."""
-        if damage not in self.damage and len(self.damage) < 20:
-            self.damage.append(damage)
-
-    def fileno(self) -> int:
-        """The file's number."""
-        return self._file.fileno()
-
-    def bytes_at(self, place: int, count: int) -> bytes:
-        """So many bytes of the file."""
-        return self._file.at(place, count)
 
 
 class _Loose:
@@ -239,7 +230,7 @@ class McapChunk:
         self._cut = cut
         self._found: list[Taken] | None = None
         self._is_examined = False
-        head = tape.bytes_at(position, min(end - position, 256))
+        head = tape.file.at(position, min(end - position, 256))
         self._crc: int
         start, stop, self._size, self._crc, length = struct.unpack_from("<QQQII", head, 9)
         if length > 64:
@@ -269,7 +260,7 @@ class McapChunk:
         tape, counts, length = self._tape, dict[int, int](), 0
         position = self._end
         while not self._cut and position + 15 <= tape.size:
-            head = tape.bytes_at(position, 15)
+            head = tape.file.at(position, 15)
             code, length = format.RECORD.unpack_from(head)
             if code != format.MESSAGE_INDEX or position + 9 + length > tape.size:
                 break
@@ -307,7 +298,7 @@ class McapChunk:
 
     def raw(self) -> Piece:
         """Its record and those of its message indexes."""
-        return Piece(self._tape.fileno(), self.position, self.behind - self.position)
+        return Piece(self._tape.file.fileno(), self.position, self.behind - self.position)
 
     def messages(self) -> list[Taken]:
         """Its messages, those up to the damage where there is any."""
@@ -323,9 +314,11 @@ class McapChunk:
                     tape.learn(code, data[first:last])
         except (InputError, struct.error) as error:
             if not self._cut:
-                tape.note(f"The chunk at byte {self.position} is damaged ({reason_of(error)}).")
+                tape.file.note(
+                    f"The chunk at byte {self.position} is damaged ({reason_of(error)})."
+                )
             self.whole = False
-        self._found = found
+        self._found = found = described(found, tape.channels, tape.file)
         counts: dict[int, int] = {}
         for one in found:
             counts[one.channel] = counts.get(one.channel, 0) + 1
@@ -343,18 +336,18 @@ class McapChunk:
             if self.method:
                 self._unpacked()
             elif self._crc and not self._cut:
-                self._check(Piece(self._tape.fileno(), self._data, self._packed).crc())
+                self._check(Piece(self._tape.file.fileno(), self._data, self._packed).crc())
         self._is_examined = True
         return self.whole
 
     def _unpacked(self) -> bytes:
-        packed = self._tape.bytes_at(self._data, self._packed)
+        packed = self._tape.file.at(self._data, self._packed)
         if self._cut:
             return unpack_beginning(self.method, packed, self._size)
         try:
             data = unpack(self.method, packed, self._size)
         except InputError as error:
-            self._tape.note(f"The chunk at byte {self.position} is damaged ({error}).")
+            self._tape.file.note(f"The chunk at byte {self.position} is damaged ({error}).")
             self.whole = False
             return unpack_beginning(self.method, packed, self._size)
         if self._crc:
@@ -364,7 +357,7 @@ class McapChunk:
     def _check(self, crc: int) -> None:
         """Hold the CRC of what it holds against the one it carries."""
         if crc != self._crc:
-            self._tape.note(
+            self._tape.file.note(
                 f"The CRC of the chunk at byte {self.position} is wrong: its messages are "
                 "copied as they are, and may not be what was recorded."
             )

@@ -26,7 +26,7 @@ from tftool.sources.writing.sqlite import SqliteWriter
 from tftool.stamps import LAST_STAMP, Stamp
 
 _LARGEST_CHUNK: Final = 1 << 26
-_HEAD = struct.Struct("<qqQ")
+_HEAD = struct.Struct("<qQQ")
 
 
 @dataclass(slots=True)

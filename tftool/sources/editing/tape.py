@@ -8,6 +8,7 @@ from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field
 from typing import Any, NamedTuple, Protocol
 
+from tftool.sources.container import ChunkedFile
 from tftool.sources.writing.channel import Channel
 from tftool.stamps import Stamp
 
@@ -28,6 +29,16 @@ class Taken(NamedTuple):
     payload: bytes
     publish_time: Stamp
     sequence: int
+
+
+def described(
+    messages: list[Taken], channels: Mapping[int, Channel], file: ChunkedFile
+) -> list[Taken]:
+    """Those of some messages of which the file tells on which topic they are."""
+    found = [one for one in messages if one.channel in channels]
+    if len(found) < len(messages):
+        file.note("Messages are left out of which nothing tells on which topic they are.")
+    return found
 
 
 class Block(Protocol):

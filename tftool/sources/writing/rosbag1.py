@@ -13,16 +13,18 @@ from typing import Final
 
 from tftool.errors import InputError, UsageError
 from tftool.sources.find import ROS1_MAGIC
+from tftool.sources.rosbag1_records import (
+    BAG,
+    CHUNK,
+    CHUNK_INFO,
+    CONNECTION,
+    INDEX,
+    U32,
+    U64,
+)
 from tftool.sources.writing.channel import Channel, CopiedPiece
 from tftool.sources.writing.compression import compressor
 from tftool.stamps import NANOSECONDS, Stamp
-
-MESSAGE: Final = b"\x02"
-BAG: Final = b"\x03"
-INDEX: Final = b"\x04"
-CHUNK: Final = b"\x05"
-CHUNK_INFO: Final = b"\x06"
-CONNECTION: Final = b"\x07"
 
 COMPRESSIONS: Final = ("none", "bz2", "lz4")
 
@@ -30,7 +32,6 @@ CHUNK_SIZE: Final = 768 * 1024
 """Bytes of messages in a chunk, as ROS 1 has it."""
 
 _HEADER_SIZE: Final = 4096  # of the bag's own record, which is written again in the end
-_U32, _U64 = struct.Struct("<I"), struct.Struct("<Q")
 _LATEST: Final = 2**32 * NANOSECONDS
 
 
@@ -110,7 +111,7 @@ class Rosbag1Writer:
 
     def add_connection(self, number: int, topic: bytes, header: bytes) -> None:
         """Make a connection known by the header its publisher sent."""
-        head = {"op": CONNECTION, "conn": _U32.pack(number), "topic": topic}
+        head = {"op": CONNECTION, "conn": U32.pack(number), "topic": topic}
         self._records[number] = record(head, header)
 
     def write(
@@ -149,16 +150,16 @@ class Rosbag1Writer:
         data = b"".join(self._pieces)
         indexes, low, high = self._indexes, self._low, self._high
         self._new_chunk()
-        head = {"op": CHUNK, "compression": self.method.encode(), "size": _U32.pack(len(data))}
+        head = {"op": CHUNK, "compression": self.method.encode(), "size": U32.pack(len(data))}
         parts = [record(head, self._pack(data))]
         counts = {}
         for number, index in indexes.items():
             counts[number] = len(index) // 3
             described = {
                 "op": INDEX,
-                "ver": _U32.pack(1),
-                "conn": _U32.pack(number),
-                "count": _U32.pack(counts[number]),
+                "ver": U32.pack(1),
+                "conn": U32.pack(number),
+                "count": U32.pack(counts[number]),
             }
             parts.append(record(described, index.tobytes()))
         self._note_chunk(low if counts else 0, high, counts)
@@ -185,11 +186,11 @@ class Rosbag1Writer:
             self.counts[number] = self.counts.get(number, 0) + count
         described = {
             "op": CHUNK_INFO,
-            "ver": _U32.pack(1),
-            "chunk_pos": _U64.pack(self.position),
+            "ver": U32.pack(1),
+            "chunk_pos": U64.pack(self.position),
             "start_time": struct.pack("<II", *divmod(start, NANOSECONDS)),
             "end_time": struct.pack("<II", *divmod(end, NANOSECONDS)),
-            "count": _U32.pack(len(counts)),
+            "count": U32.pack(len(counts)),
         }
         data = b"".join(struct.pack("<II", *pair) for pair in counts.items())
         self._infos.append(record(described, data))
@@ -214,13 +215,13 @@ class Rosbag1Writer:
         fields = packed_fields(
             {
                 "op": BAG,
-                "index_pos": _U64.pack(place),
-                "conn_count": _U32.pack(len(self._records)),
-                "chunk_count": _U32.pack(len(self._infos)),
+                "index_pos": U64.pack(place),
+                "conn_count": U32.pack(len(self._records)),
+                "chunk_count": U32.pack(len(self._infos)),
             }
         )
         filling = b" " * (_HEADER_SIZE - 8 - len(fields))
-        return _U32.pack(len(fields)) + fields + _U32.pack(len(filling)) + filling
+        return U32.pack(len(fields)) + fields + U32.pack(len(filling)) + filling
 
     def _put(self, piece: bytes) -> None:
         view = memoryview(piece)
@@ -232,13 +233,13 @@ class Rosbag1Writer:
 def packed_fields(fields: Mapping[str, bytes]) -> bytes:
     """Fields of a header: each behind its length, "name=value"."""
     pairs = [name.encode() + b"=" + value for name, value in fields.items()]
-    return b"".join(_U32.pack(len(pair)) + pair for pair in pairs)
+    return b"".join(U32.pack(len(pair)) + pair for pair in pairs)
 
 
 def record(fields: Mapping[str, bytes], data: bytes) -> bytes:
     """A record of a header and data."""
     head = packed_fields(fields)
-    return _U32.pack(len(head)) + head + _U32.pack(len(data)) + data
+    return U32.pack(len(head)) + head + U32.pack(len(data)) + data
 
 
 def _message(number: int, sec: int, nanosec: int, length: int) -> bytes:
@@ -247,7 +248,7 @@ def _message(number: int, sec: int, nanosec: int, length: int) -> bytes:
     return b"".join(
         (
             b"\x26\x00\x00\x00\x04\x00\x00\x00op=\x02\x09\x00\x00\x00conn=",
-            _U32.pack(number),
+            U32.pack(number),
             b"\x0d\x00\x00\x00time=",
             struct.pack("<III", sec, nanosec, length),
         )
