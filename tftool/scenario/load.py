@@ -91,7 +91,7 @@ class _ScenarioReader:
     Attributes:
         given: Arguments from outside.
         duration: How long the scenario lasts, once that is known.
-        names: NamesCheck of its nodes, once all are known.
+        names: Names of its nodes, once all are known.
         looks: How often its expectations look so far.
         not_a_tree: Where its nodes publish what no tree of frames can hold.
     """

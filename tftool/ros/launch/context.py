@@ -28,7 +28,7 @@ class LaunchContext:
         load: Reads a launch file, for those that include one; None outside of a launch.
         launch: What runs it.
         argv: What the launch was given on its command line.
-        noninteractive: Whether nobody is asked anything, as in ROS 2: here nobody ever is.
+        noninteractive: Whether questions are left out, as in ROS 2: here none is ever asked.
         event: What is being handled, None while nothing is.
     """
 

@@ -27,7 +27,7 @@ class Node(Startable):
 
     Attributes:
         node_name: Its full name, once it is known when the launch runs.
-        expanded_node_namespace: Its namespace then; "" where nobody has given one.
+        expanded_node_namespace: Its namespace then; "" where none was given.
         expanded_remapping_rules: Its remappings and those of its scope then, None before.
     """
 

@@ -34,7 +34,7 @@ def make_namespace_absolute(ns: str | None) -> str | None:
 
 
 def prefix_namespace(base_ns: str | None, ns: str | None) -> str | None:
-    """A namespace inside another; None is one that nobody has given."""
+    """A namespace inside another; None is one that was not given."""
     if base_ns is None or ns is None:
         joined = base_ns if ns is None else ns
     elif is_namespace_absolute(ns) or not base_ns:
@@ -45,7 +45,7 @@ def prefix_namespace(base_ns: str | None, ns: str | None) -> str | None:
 
 
 def namespace_in(context: LaunchContext, own: Any) -> str | None:
-    """The namespace of a node of the scope, from the root on; None where nobody has given one.
+    """The namespace of a node of the scope, from the root on; None where none was given.
 
     Args:
         context: The scope.

@@ -352,7 +352,7 @@ class MultiThreadedExecutor(Executor):
         self._threads = max(1, num_threads or THREADS)
         self._workers = 0
         self._let_go: Future | None = None
-        """Done when nobody spins any more; None while nobody does."""
+        """Done when no thread spins any more; None while none does."""
 
     def spin(self) -> None:
         """Serve until shutdown."""

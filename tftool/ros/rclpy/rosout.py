@@ -1,4 +1,4 @@
-"""A node's log on `/rosout`, for whoever listens there."""
+"""A node's log on `/rosout`, for other programs that listen there."""
 
 from typing import Any
 
