@@ -4,12 +4,19 @@ import os
 import shlex
 import subprocess
 import sys
+import weakref
+from contextlib import suppress
 from itertools import cycle, islice
 from pathlib import Path
-from threading import Event
+from select import select
+
+from tests.patience import PATIENCE
 
 ROOT = Path(__file__).parents[1]
-TRIES, PAUSE = 3600, 0.05
+LOOKS = 20_000
+"""Looks at a screen until it is given up; after each one the terminal has to be written to."""
+UNHEARD = 0.5
+"""Seconds until another key is pressed where the one before had no effect."""
 
 
 class Terminal:
@@ -36,6 +43,12 @@ class Terminal:
             **environment,
         }
         self.tmux("new-session", "-d", "-x", str(width), "-y", str(height), line)
+        # What is written to the terminal comes here too, so that a look can wait for it.
+        copy = place / "written"
+        os.mkfifo(copy)
+        self.written = os.open(copy, os.O_RDONLY | os.O_NONBLOCK)
+        weakref.finalize(self, os.close, self.written)
+        self.tmux("pipe-pane", "-O", f"exec cat > {shlex.quote(str(copy))}")
 
     def tmux(self, *words):
         done = subprocess.run(
@@ -58,24 +71,42 @@ class Terminal:
     def until(self, condition, what, *, pressing=()):
         """Look at the screen until it is as it should be; before each look press the next key."""
         keys = cycle(pressing)
-        for _ in range(TRIES):
-            self.press(*islice(keys, 1))
-            screen = self.screen()
-            if condition(screen):
-                return screen
-            Event().wait(PAUSE)
-        raise AssertionError(f"{what} never came; this did:\n{screen}")
+        return self._seen(
+            self.screen,
+            condition,
+            what,
+            lambda: self.press(*islice(keys, 1)),
+            UNHEARD if pressing else PATIENCE,
+        )
 
     def shows(self, words):
         return self.until(lambda screen: words in screen, words)
 
     def has_shown(self, words):
         """Wait for words that may have left the screen at its top since."""
-        for _ in range(TRIES):
-            if words in self.tmux("capture-pane", "-p", "-J", "-S", "-"):
-                return
-            Event().wait(PAUSE)
-        raise AssertionError(f"{words} never came; this did:\n{self.screen()}")
+        self._seen(
+            lambda: self.tmux("capture-pane", "-p", "-J", "-S", "-"),
+            lambda text: words in text,
+            words,
+        )
+
+    def _seen(self, look, condition, what, before=lambda: None, patience=PATIENCE):
+        """Look again whenever something was written, until what is seen is as it should be."""
+        for _ in range(LOOKS):
+            before()
+            self._drain()
+            seen = look()
+            if condition(seen):
+                return seen
+            ready, _, _ = select([self.written], [], [], patience)
+            if not ready and patience == PATIENCE:
+                break
+        raise AssertionError(f"{what} never came; this did:\n{self.screen()}")
+
+    def _drain(self):
+        with suppress(BlockingIOError):
+            while os.read(self.written, 1 << 16):
+                pass
 
     def facts(self):
         """Whether the other screen is on, the cursor seen, the mouse caught."""

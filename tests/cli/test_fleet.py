@@ -8,7 +8,7 @@ import subprocess
 import sys
 from contextlib import suppress
 from pathlib import Path
-from threading import Event, Thread
+from threading import Thread
 
 import pytest
 
@@ -19,7 +19,7 @@ pytest.importorskip("zstandard", reason="the extra 'recordings' is not installed
 from tests.cli.test_doctor_recordings import drive
 from tests.patience import PATIENCE
 from tests.sources.writers import write_mcap
-from tftool.runtime.clock import WallClock
+from tftool.runtime.clock import WallClock, run
 from tftool.stamps import seconds
 
 
@@ -198,11 +198,16 @@ class DaskCluster:
 
 
 def wait_until(holds):
+    """Look at what another process does, by the clock of a world."""
     clock = WallClock()
-    end = clock.now() + seconds(PATIENCE)
-    while not holds():
-        assert clock.now() < end
-        Event().wait(0.02)
+
+    async def looked():
+        end = clock.now() + seconds(PATIENCE)
+        while not holds():
+            assert clock.now() < end
+            await clock.sleep(seconds(0.02))
+
+    run(clock, looked())
 
 
 @pytest.fixture

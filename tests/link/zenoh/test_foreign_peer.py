@@ -80,6 +80,8 @@ class Foreign:
 
     def __init__(self, port, folder, program="sdk_peer.py"):
         self.said = []
+        self._heard = threading.Condition()
+        self._silent = False
         self.process = subprocess.Popen(
             [sys.executable, str(HERE / program), str(port), str(definitions(folder))],
             stdout=subprocess.PIPE,
@@ -98,7 +100,12 @@ class Foreign:
     def _read(self):
         for line in self.process.stdout:
             if line.startswith("{"):
-                self.said.append(json.loads(line))
+                with self._heard:
+                    self.said.append(json.loads(line))
+                    self._heard.notify_all()
+        with self._heard:
+            self._silent = True
+            self._heard.notify_all()
 
     def _read_errors(self):
         self.errors.extend(self.process.stderr)
@@ -109,6 +116,13 @@ class Foreign:
             for one in self.said
             if key in one and all(one.get(name) == value for name, value in fields.items())
         ]
+
+    def until(self, condition):
+        """Look at everything that it says until `condition()` holds, or it has ended."""
+        with self._heard:
+            self._heard.wait_for(lambda: condition() or self._silent, PATIENCE)
+        assert not self._silent or self.check()
+        return condition()
 
     def check(self):
         if self.process.poll() is not None:

@@ -1,7 +1,6 @@
 """What `tftool play` sends, heard by an independent implementation of ROS 2 over zenoh."""
 
 import socket
-import threading
 
 import pytest
 
@@ -13,18 +12,6 @@ pytest.importorskip("zstandard", reason="the extra 'recordings' is not installed
 from tests.link.processes import Process
 from tests.link.zenoh.test_foreign_peer import Foreign
 from tests.sources.writers import content, write_mcap
-
-TRIES, PAUSE = 3600, 0.05
-
-
-def until(condition, play):
-    for _ in range(TRIES):
-        found = condition()
-        if found:
-            return found
-        assert play.started.poll() is None, play.text
-        threading.Event().wait(PAUSE)
-    raise AssertionError(f"it never came; the player said: {play.text}")
 
 
 def test_a_foreign_ros_2_peer_hears_a_recording(tmp_path):
@@ -39,7 +26,9 @@ def test_a_foreign_ros_2_peer_hears_a_recording(tmp_path):
         try:
 
             def has(key, **fields):
-                return until(lambda: foreign.check() and foreign.with_key(key, **fields), play)
+                found = foreign.until(lambda: foreign.with_key(key, **fields))
+                assert found, f"{key} never came; the player said: {play.text}"
+                return found
 
             statics = {child: seven for _, _, child, seven in sent[0].transforms}
             (laser, *_) = has("topic", topic="tf_static", child="laser")
