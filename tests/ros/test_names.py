@@ -75,6 +75,12 @@ def test_a_slip_in_what_begins_ros_2s_arguments_is_told(slip):
         names.parse([slip, "-p", "speed:=2.0"])
 
 
+@pytest.mark.parametrize("level", ["bogus", "me:=wran", "me:="])
+def test_a_log_level_that_is_none_is_told(level):
+    with pytest.raises(UsageError, match=f"'{level}' is no log level; there are debug, info"):
+        names.parse(["--ros-args", "--log-level", level])
+
+
 def test_a_rename_may_hold_for_one_node_alone():
     options, _ = names.parse(["--ros-args", "-r", "one:a:=b"])
 

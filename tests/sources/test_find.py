@@ -68,6 +68,19 @@ def test_what_is_no_source_is_refused_with_what_it_is(tmp_path, content, told):
         find(str(path))
 
 
+def test_a_file_is_what_its_suffix_says_where_its_content_says_nothing(tmp_path):
+    written, recorded, robot = (tmp_path / name for name in ("a.yaml", "a.mcap", "a.urdf"))
+    written.touch()
+    recorded.touch()
+    robot.write_text("hello")
+
+    with pytest.raises(InputError, match=r"empty file \(0 bytes\)\.$"):
+        find(str(written))
+    with pytest.raises(InputError, match="nothing was recorded"):
+        find(str(recorded))
+    assert find(str(robot)).kind is Kind.DESCRIPTION
+
+
 def test_nothing_is_refused(tmp_path):
     missing = str(tmp_path / "run.mcap")
 

@@ -130,6 +130,11 @@ def find(word: str) -> Found:
         raise InputError(f"'{word}' cannot be read: {reason}") from error
 
 
+_DESCRIBING = {".urdf", ".xacro"}
+_WRITTEN = {*_DESCRIBING, ".yaml", ".yml", ".xml", ".py"}
+"""Suffixes of what people write, and no recorder."""
+
+
 def kind_of_file(path: Path) -> Kind:
     """What one file is, by its first bytes.
 
@@ -144,7 +149,8 @@ def kind_of_file(path: Path) -> Kind:
     with path.open("rb") as file:
         head = file.read(_HEAD)
     if not head:
-        raise InputError(f"'{path}' is an empty file (0 bytes): nothing was recorded.")
+        nothing = "" if path.suffix in _WRITTEN else ": nothing was recorded"
+        raise InputError(f"'{path}' is an empty file (0 bytes){nothing}.")
     for magic, kind in (
         (MCAP_MAGIC, Kind.MCAP),
         (SQLITE_MAGIC, Kind.SQLITE),
@@ -181,6 +187,8 @@ def _kind_of_text(path: Path, head: bytes) -> Kind:
     if _CONTROL.search(text):
         raise _nothing(path)
     start = text.removeprefix(b"\xef\xbb\xbf").lstrip()
+    if path.suffix in _DESCRIBING:
+        return Kind.DESCRIPTION
     if start.startswith(b"<"):
         root = re.search(rb"<([A-Za-z_][\w.:-]*)", start)
         return Kind.STATICS if root is not None and root[1] == b"launch" else Kind.DESCRIPTION

@@ -224,6 +224,8 @@ def parse(argv: Sequence[str]) -> tuple[RosOptions, list[str]]:
     return options, own
 
 
+_LEVELS = ("UNSET", "DEBUG", "INFO", "WARN", "ERROR", "FATAL")
+
 _OPTIONS = {
     "-p": "--param",
     "--param": "--param",
@@ -261,8 +263,14 @@ def _take(options: RosOptions, word: str, words: Iterable[str]) -> None:
     elif known == "--params-file":
         options.parameters += read_parameters(Path(value))
     elif known == "--log-level":
-        logger, found, level = value.partition(":=")
-        options.levels[logger if found else ""] = (level if found else logger).upper()
+        logger, found, rest = value.partition(":=")
+        level = (rest if found else logger).upper()
+        if level not in _LEVELS:
+            raise UsageError(
+                f"'{value}' is no log level; there are debug, info, warn, error and fatal, "
+                "and LOGGER:=LEVEL for one logger"
+            )
+        options.levels[logger if found else ""] = level
 
 
 def add_parameter(options: RosOptions, text: str) -> None:
