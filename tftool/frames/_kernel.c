@@ -4,13 +4,11 @@
    `geometry.poses`, `batch/`), and the tests run on both. Its rules:
 
    - It does exactly what its twin does, with the same operations in the same order (built with
-     -ffp-contract=off), or it does nothing and returns None: then the twin takes over. What is
-     unusual (a refusal, a link that changes parents, a number that is no float) is left to it.
+     -ffp-contract=off), or it does nothing, and the twin takes over. What is unusual (a refusal,
+     a link that changes parents, a number that is no float, no room) is left to it.
    - It keeps nothing between calls. Samples lie in arrays that Python holds, and are read and
      written through the buffer protocol; every index and length is checked against the buffer.
-   - The limited API of CPython 3.11: one build serves every later version with a GIL.
-
-   Layout of a record, as in `history`: a stamp in nanoseconds, x y z, qx qy qz qw; 8 words. */
+   - The limited API of CPython 3.11: one build serves every later version with a GIL. */
 
 #define PY_SSIZE_T_CLEAN
 #define Py_LIMITED_API 0x030B0000
@@ -21,22 +19,23 @@
 
 #include "_kept.h"
 
-#define WORD 8
-#define RECORD (8 * WORD)
-#define PARENT_MASK 0xffffffffLL
-
 /* What `tftool.frames.native` expects; a build of another interface is not used. */
-#define INTERFACE 4
+#define INTERFACE 5
 
 #if defined(__GNUC__)
 #define INLINE static inline __attribute__((always_inline))
 #define PREFETCH(place) __builtin_prefetch(place)
-#elif defined(_MSC_VER)
-#define INLINE static __forceinline
-#define PREFETCH(place) (void)(place)
 #else
 #define INLINE static inline
 #define PREFETCH(place) (void)(place)
+#endif
+
+/* Where one build can hold a function twice, it does so for processors that work on four numbers
+   at once: which one runs is chosen when the module is loaded. */
+#if defined(__GNUC__) && defined(__x86_64__) && defined(__GLIBC__)
+#define WIDE __attribute__((target_clones("avx2", "default")))
+#else
+#define WIDE
 #endif
 
 /* So many moments are worked on together, number by number: what they take stays in the
@@ -46,66 +45,97 @@
 /* Poses lie as rows, `width` numbers each: first every x, then y z qx qy qz qw. The functions
    of one moment and of many are the same: for one, the width is 1. */
 typedef double Rows[7 * BLOCK];
-static const double identity[7] = {0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 1.0};
 
-/* Records ---------------------------------------------------------------- */
-
-static inline int64_t word_of(const char *words, Py_ssize_t index) {
-    int64_t word;
-    memcpy(&word, words + WORD * index, sizeof word);
-    return word;
-}
-
-static inline int64_t stamp_of(const char *records, Py_ssize_t index) {
-    return word_of(records, WORD * index);
-}
-
-/* Where a moment is looked for first: by the mean rate of the samples. */
+/* As in `history`: a stamp in nanoseconds; x y z, qx qy qz qw. */
 typedef struct {
-    Py_ssize_t at;
-    double rate; /* Samples a nanosecond. */
-} Guess;
+    int64_t stamp;
+    double pose[7];
+} Record;
 
-/* A guess between the first and the last record; oldest < time < newest, last > 0. */
-static inline Guess guess(int64_t oldest, int64_t newest, Py_ssize_t last, int64_t time) {
-    Guess made = {0, (double)last / (double)((uint64_t)newest - (uint64_t)oldest)};
-    made.at = (Py_ssize_t)((double)((uint64_t)time - (uint64_t)oldest) * made.rate);
-    if (made.at > last - 1)
-        made.at = last - 1;
-    return made;
+/* One link made ready for moments: records in order, or a pose that never changes. */
+typedef struct {
+    Py_buffer view;
+    const Record *records; /* NULL: `fixed`. */
+    Py_ssize_t last;
+    int64_t oldest, newest; /* The same if there is one record. */
+    double rate;            /* Records a nanosecond. */
+    Py_ssize_t here;        /* Where the first moment is looked for first. */
+    double fixed[7];
+} Edge;
+
+/* Finding ---------------------------------------------------------------- */
+
+/* Where a moment is looked for first, by the mean rate of the samples; memory is told to bring
+   what lies there. Before the last record, if there are two. */
+INLINE Py_ssize_t aim(const Edge *edge, int64_t time) {
+    const double most = edge->last > 0 ? (double)(edge->last - 1) : 0.0;
+    double at = ((double)time - (double)edge->oldest) * edge->rate;
+    at = at < most ? at : most;
+    const Py_ssize_t here = (Py_ssize_t)(at > 0.0 ? at : 0.0);
+    for (int line = 0; line < 3; line++)
+        PREFETCH((const char *)(edge->records + here + line) - (line == 2));
+    return here;
 }
 
 /* The last record at or before a moment, given stamp[0] <= time < stamp[last] and a guess;
-   whatever the stamps are, it is less than `last`. Correct the guess once, and search only when
-   that fails. */
-static inline Py_ssize_t find(const char *records, Py_ssize_t last, int64_t time, Guess guess) {
-    Py_ssize_t low = 0, high = last, at = guess.at;
-    for (int turn = 0; turn < 2; turn++) {
-        const int64_t there = stamp_of(records, at);
-        double next = (double)at;
-        if (there > time) {
+   whatever the stamps are, it is less than `last`. Correct the guess twice, then bisect. */
+static Py_ssize_t find(const Edge *edge, int64_t time, Py_ssize_t at) {
+    const Record *records = edge->records;
+    Py_ssize_t low = 0, high = edge->last;
+    for (int turn = 0; high - low > 1; turn++) {
+        const int64_t there = records[at].stamp;
+        if (there > time)
             high = at;
-            next -= (double)((uint64_t)there - (uint64_t)time) * guess.rate;
-        }
-        else if (time < stamp_of(records, at + 1))
+        else if (time < records[at + 1].stamp)
             return at;
-        else {
-            low = at + 1;
-            next += (double)((uint64_t)time - (uint64_t)there) * guess.rate;
-        }
-        if (high - low <= 1)
-            break;
-        at = next < (double)high ? (next > (double)low ? (Py_ssize_t)next : low) : high - 1;
-    }
-    while (high - low > 1) {
-        const Py_ssize_t middle = low + (high - low) / 2;
-        if (stamp_of(records, middle) <= time)
-            low = middle;
         else
-            high = middle;
+            low = at + 1;
+        const double next = (double)at + ((double)time - (double)there) * edge->rate;
+        if (turn >= 2)
+            at = low + (high - low) / 2;
+        else
+            at = next < (double)high ? (next > (double)low ? (Py_ssize_t)next : low) : high - 1;
     }
-    return low < last ? low : last - 1;
+    return low < edge->last ? low : edge->last - 1;
 }
+
+/* Fetch both neighbours of each moment, and how far it lies between them. Where a link has no
+   data for a moment, `valid` becomes 0 and what is fetched is of no use. */
+INLINE void fetch(const Edge *edge, const int64_t *times, int n, int width, double *first,
+                  double *second, double *share, unsigned char *valid) {
+    const Record *records = edge->records;
+    const Py_ssize_t last = edge->last;
+    Py_ssize_t places[BLOCK];
+    for (int i = 0; i < n; i++)
+        places[i] = width > 1 ? aim(edge, times[i]) : edge->here;
+    for (int i = 0; i < n; i++) {
+        const int64_t time = times[i];
+        Py_ssize_t at = places[i];
+        if (edge->oldest < time && time < edge->newest) {
+            if (width > 1) {
+                /* As a rule it is that one or a neighbour; of many, no branch foretells which. */
+                at -= (at > 0) & (records[at].stamp > time);
+                at += (at < last - 1) & (records[at + 1].stamp <= time);
+            }
+            if (!(records[at].stamp <= time && time < records[at + 1].stamp))
+                at = find(edge, time, at);
+        }
+        else {
+            /* Of equal stamps at the newest end it is the last, at the oldest end the first. */
+            at = time == edge->oldest && time != edge->newest ? 0 : last;
+            valid[i] &= time == edge->oldest || time == edge->newest;
+        }
+        const Record *here = records + at, *next = here + (at < last);
+        const double length = (double)((uint64_t)next->stamp - (uint64_t)here->stamp);
+        share[i] = length > 0.0 ? (double)((uint64_t)time - (uint64_t)here->stamp) / length : 0.0;
+        for (int k = 0; k < 7; k++) {
+            first[k * width + i] = here->pose[k];
+            second[k * width + i] = next->pose[k];
+        }
+    }
+}
+
+/* Arithmetic of poses: twins of `geometry.poses` ------------------------- */
 
 /* Arcs up to these values of 1 - cos are turned by so many terms, the error below 1e-17. */
 #define SHORT_ARC 1e-3
@@ -116,7 +146,7 @@ static inline Py_ssize_t find(const char *records, Py_ssize_t last, int64_t time
 /* sin(f θ) / sin θ for u = 1 - cos θ, as a product of terms that are all positive:
    f (1 + b1 (1 + b2 (1 + …))) with b_i = u (i² - f²) / (i (2 i + 1)).
    Eberly, "A Fast and Accurate Algorithm for Computing SLERP", JGT 2011. */
-static inline double weight(double f, double u, int terms) {
+INLINE double weight(double f, double u, int terms) {
     double sum = 1.0;
     for (int i = terms; i > 0; i--) {
         const double scale = 1.0 / (i * (2.0 * i + 1.0));
@@ -124,8 +154,6 @@ static inline double weight(double f, double u, int terms) {
     }
     return f * sum;
 }
-
-/* Arithmetic of poses: twins of `geometry.poses` ------------------------- */
 
 /* The poses on the way from `a` to `b`, to be written to `out`. */
 INLINE void interpolate(const double *a, const double *b, const double *share, int n, int width,
@@ -211,14 +239,19 @@ INLINE void between(const double *first, double *second, int n, int width) {
     }
 }
 
-static inline void canonical(double *turn) {
-    if (!(turn[3] > 0.5) && leading(turn[0], turn[1], turn[2], turn[3]) < 0.0)
-        for (int i = 0; i < 4; i++)
-            turn[i] = -turn[i];
+/* The sign that tf2 gives: `quaternions.canonical`. */
+INLINE void canonical(double *turn, int n, int width) {
+    for (int i = 0; i < n; i++) {
+        double *q = turn + i;
+        const double sign =
+            leading(q[0], q[width], q[2 * width], q[3 * width]) < 0.0 ? -1.0 : 1.0;
+        for (int k = 0; k < 4; k++)
+            q[k * width] *= sign;
+    }
 }
 
 /* `quaternions.unit`; returns 0 where there is no direction, or none that is plain to see. */
-static inline int unit(double *turn) {
+static int unit(double *turn) {
     const double square = square_of(turn);
     if (-ROUNDING < square - 1.0 && square - 1.0 < ROUNDING)
         return 1;
@@ -228,14 +261,55 @@ static inline int unit(double *turn) {
     return square > 2.0 / DBL_MAX && square < HUGE_VAL;
 }
 
-/* What a link keeps, and what a buffer does ------------------------------- */
+/* The poses of several links one after the other, lowest first, for each moment: `path.chain`. */
+INLINE void climb(const Edge *edges, Py_ssize_t count, const int64_t *times, int n, int width,
+                  double *pose, unsigned char *valid) {
+    Rows first, second, step;
+    double share[BLOCK];
+    for (Py_ssize_t e = 0; e < count || e == 0; e++) {
+        double *out = e > 0 ? step : pose;
+        if (count > 0 && edges[e].records != NULL) {
+            fetch(&edges[e], times, n, width, first, second, share, valid);
+            interpolate(first, second, share, n, width, out);
+        }
+        else
+            for (int k = 0; k < 7; k++)
+                for (int i = 0; i < n; i++)
+                    out[k * width + i] = count > 0 ? edges[e].fixed[k] : k == 6;
+        if (e > 0)
+            compose(step, pose, n, width);
+    }
+}
+
+/* Ways ------------------------------------------------------------------- */
+
+/* So many links need no memory of their own. */
+#define FEW 32
+
+/* The links from source upward, then those from target upward, made ready. */
+typedef struct {
+    Edge *edges, few[FEW];
+    Py_ssize_t ups, count;
+} Way;
+
+/* Poses of source in target, of tf2's sign: `Path.solve`. */
+INLINE void solve_way(const Way *way, const int64_t *times, int n, int width, double *pose,
+                      unsigned char *valid) {
+    Rows other;
+    climb(way->edges, way->ups, times, n, width, pose, valid);
+    if (way->count > way->ups) {
+        climb(way->edges + way->ups, way->count - way->ups, times, n, width, other, valid);
+        between(other, pose, n, width);
+    }
+    canonical(pose + 3 * width, n, width);
+}
 
 /* The fields of both kinds of links. Python's classes inherit them, and Python's code reads and
    writes them by their names; see `History` for what they mean. */
 typedef struct {
     PyObject_HEAD
     PyObject *records, *origins, *newest, *newest_pair;
-    long long newest_stamp, oldest_stamp, limit, start, count, compact_at, origin, parent;
+    long long newest_stamp, oldest_stamp, limit, start, count, origin, parent;
     char is_static, mixed;
 } Link;
 
@@ -244,49 +318,6 @@ typedef struct {
     PyObject_HEAD
     PyObject *paths, *senders, *listening, *pending;
 } Door;
-
-/* Both begin with so many objects. */
-#define HELD 4
-#define HELD_OF(self) ((PyObject **)((char *)(self) + sizeof(PyObject)))
-
-#define MEMBER(type, name, kind) {#name, kind, offsetof(type, name), 0, NULL}
-#define PRIVATE(type, name, kind) {"_" #name, kind, offsetof(type, name), 0, NULL}
-static PyMemberDef link_members[] = {
-    MEMBER(Link, records, T_OBJECT_EX), MEMBER(Link, origins, T_OBJECT_EX),
-    MEMBER(Link, newest_stamp, T_LONGLONG), MEMBER(Link, oldest_stamp, T_LONGLONG),
-    MEMBER(Link, limit, T_LONGLONG), MEMBER(Link, start, T_LONGLONG),
-    MEMBER(Link, count, T_LONGLONG), MEMBER(Link, origin, T_LONGLONG),
-    MEMBER(Link, parent, T_LONGLONG), MEMBER(Link, is_static, T_BOOL),
-    MEMBER(Link, mixed, T_BOOL), PRIVATE(Link, newest, T_OBJECT_EX),
-    PRIVATE(Link, newest_pair, T_OBJECT_EX), PRIVATE(Link, compact_at, T_LONGLONG),
-    {NULL, 0, 0, 0, NULL},
-};
-static PyMemberDef door_members[] = {
-    PRIVATE(Door, paths, T_OBJECT_EX), PRIVATE(Door, senders, T_OBJECT_EX),
-    PRIVATE(Door, listening, T_OBJECT_EX), PRIVATE(Door, pending, T_OBJECT_EX),
-    {NULL, 0, 0, 0, NULL},
-};
-
-static int held_traverse(PyObject *self, visitproc visit, void *arg) {
-    Py_VISIT(Py_TYPE(self));
-    for (int i = 0; i < HELD; i++)
-        Py_VISIT(HELD_OF(self)[i]);
-    return 0;
-}
-
-static int held_clear(PyObject *self) {
-    for (int i = 0; i < HELD; i++)
-        Py_CLEAR(HELD_OF(self)[i]);
-    return 0;
-}
-
-static void held_dealloc(PyObject *self) {
-    PyTypeObject *type = Py_TYPE(self);
-    PyObject_GC_UnTrack(self);
-    held_clear(self);
-    ((freefunc)PyType_GetSlot(type, Py_tp_free))(self);
-    Py_DECREF(type);
-}
 
 /* What answers are made of and read by; the state of the module, which Python never unloads. */
 typedef struct {
@@ -318,143 +349,66 @@ static int read_stamp(PyObject *stamp, int64_t *value) {
 
 /* Whether a moving link is one the kernel reads: its records in `view`, to be released. */
 static int read_records(const Link *link, int flags, Py_buffer *view) {
-    if (link->records == NULL || link->start < 0 || link->count <= link->start)
+    if (link->records == NULL || link->start < 0 || link->count <= link->start || link->mixed)
         return 0;
     if (PyObject_GetBuffer(link->records, view, flags) < 0) {
         PyErr_Clear();
         return 0;
     }
-    if (link->count <= view->len / RECORD)
+    if (link->count <= view->len / (Py_ssize_t)sizeof(Record)
+        && (uintptr_t)view->buf % sizeof(int64_t) == 0)
         return 1;
     PyBuffer_Release(view);
     return 0;
 }
 
-/* One link made ready for moments: records in order, or a pose that never changes. */
-typedef struct {
-    Py_buffer view, origins_view;
-    const char *records, *origins; /* NULL: `fixed`; NULL: they are all alike. */
-    Py_ssize_t last, here;         /* `here`: where the last moment was found, or may be. */
-    int64_t oldest, newest;
-    double fixed[7];
-} Edge;
-
-/* Fetch both neighbours of each moment, and how far it lies between them. Where a link has no
-   data for a moment, `valid` becomes 0 and what is fetched is of no use. */
-INLINE void fetch(Edge *edge, const int64_t *times, int n, int width, double *first,
-                  double *second, double *share, unsigned char *valid) {
-    const char *records = edge->records;
-    const Py_ssize_t last = edge->last;
-    Py_ssize_t here = edge->here;
-    for (int i = 0; i < n; i++) {
-        const int64_t time = times[i];
-        if (!(edge->oldest < time && time < edge->newest)) {
-            /* Of equal stamps at the newest end it is the last, at the oldest end the first. */
-            here = time == edge->oldest && time != edge->newest ? 0 : last;
-            valid[i] &= time == edge->oldest || time == edge->newest;
-        }
-        else if (here == last || !(stamp_of(records, here) <= time && time < stamp_of(records, here + 1))) {
-            if (here + 2 <= last && stamp_of(records, here + 1) <= time
-                && time < stamp_of(records, here + 2))
-                here++;
-            else
-                here = find(records, last, time, guess(edge->oldest, edge->newest, last, time));
-        }
-        const Py_ssize_t next = here < last ? here + 1 : last;
-        const int64_t before = stamp_of(records, here);
-        const uint64_t length = (uint64_t)stamp_of(records, next) - (uint64_t)before;
-        const int parts = edge->origins != NULL
-            && ((word_of(edge->origins, here) ^ word_of(edge->origins, next)) & PARENT_MASK);
-        share[i] = parts || !length ? 0.0 : (double)((uint64_t)time - (uint64_t)before) / (double)length;
-        for (int k = 0; k < 7; k++) {
-            memcpy(&first[k * width + i], records + RECORD * here + WORD + WORD * k, WORD);
-            memcpy(&second[k * width + i], records + RECORD * next + WORD + WORD * k, WORD);
-        }
-    }
-    edge->here = here;
-}
-
-/* The same pose for each moment. */
-INLINE void fill(const double *pose, int n, int width, double *out) {
-    for (int k = 0; k < 7; k++)
-        for (int i = 0; i < n; i++)
-            out[k * width + i] = pose[k];
-}
-
-/* The poses of several links one after the other, lowest first, for each moment: `path.chain`.
-   Where `pose` has begun already, these go on from it. */
-INLINE void climb(Edge *edges, Py_ssize_t count, const int64_t *times, int n, int width, double *pose,
-                  int begun, unsigned char *valid) {
-    Rows first, second, step;
-    double share[BLOCK];
-    if (!begun && !count)
-        fill(identity, n, width, pose);
-    for (Py_ssize_t e = 0; e < count; e++) {
-        double *out = begun ? step : pose;
-        if (edges[e].records != NULL) {
-            fetch(&edges[e], times, n, width, first, second, share, valid);
-            interpolate(first, second, share, n, width, out);
-        }
-        else
-            fill(edges[e].fixed, n, width, out);
-        if (begun)
-            compose(step, pose, n, width);
-        begun = 1;
-    }
-}
-
-/* Looking up -------------------------------------------------------------- */
-
-/* So many links are made ready before the first is read: meanwhile memory brings their samples. */
-#define AHEAD 8
-
-/* Make a link ready for a moment. Returns whether it is plain; what `records` are of is then to
-   be released. Never sets an error. */
-static int prepare(const Link *link, int64_t time, Edge *edge) {
-    edge->records = edge->origins = NULL;
+/* Make a link ready. Returns whether it is plain; never sets an error. */
+static int read_link(const Link *link, Edge *edge) {
+    edge->records = NULL;
     if (link->is_static)
         return link->newest != NULL && read_floats(link->newest, edge->fixed, 7);
-    if (link->mixed || !read_records(link, PyBUF_SIMPLE, &edge->view))
+    if (!read_records(link, PyBUF_SIMPLE, &edge->view))
         return 0;
-    edge->records = (const char *)edge->view.buf + RECORD * link->start;
-    edge->here = edge->last = (Py_ssize_t)(link->count - link->start) - 1;
-    edge->oldest = stamp_of(edge->records, 0);
+    edge->records = (const Record *)edge->view.buf + link->start;
+    edge->last = (Py_ssize_t)(link->count - link->start) - 1;
     edge->newest = link->newest_stamp;
-    if (edge->last > 0 && edge->oldest < time && time < edge->newest) {
-        edge->here = guess(edge->oldest, edge->newest, edge->last, time).at;
-        for (int line = 0; line < 3; line++)
-            PREFETCH(edge->records + RECORD * edge->here + RECORD * line - (line == 2));
-    }
+    edge->oldest = edge->last > 0 ? link->oldest_stamp : edge->newest;
+    edge->rate = (double)edge->last / (double)((uint64_t)edge->newest - (uint64_t)edge->oldest);
     return 1;
 }
 
-/* The poses of several links one after the other, lowest first: `path.chain`. Returns 0 if one
-   is not plain or has none; never sets an error. */
-static int chain(PyObject *links, PyTypeObject *fields, int64_t time, double *pose) {
-    const Py_ssize_t count = PyTuple_Size(links);
+/* Make the links of two tuples ready, to be closed in any case; `time` is when they are read
+   first. Returns whether all are plain; never sets an error. */
+static int open_way(Way *way, PyTypeObject *fields, PyObject *up, PyObject *down, int64_t time) {
+    const Py_ssize_t ups = PyTuple_Size(up), total = ups + PyTuple_Size(down);
     PyTypeObject *known = fields;
-    Edge edges[AHEAD];
-    unsigned char valid = 1;
-    Py_ssize_t done = 0;
-    do {
-        int ready = 0;
-        for (; valid && ready < AHEAD && done + ready < count; ready += valid) {
-            PyObject *link = PyTuple_GetItem(links, done + ready);
-            valid = Py_TYPE(link) == known || PyObject_TypeCheck(link, fields);
-            if (valid) {
-                known = Py_TYPE(link);
-                valid = (unsigned char)prepare((const Link *)link, time, &edges[ready]);
-            }
-        }
-        if (valid)
-            climb(edges, ready, &time, 1, 1, pose, done > 0, &valid);
-        for (int i = 0; i < ready; i++)
-            if (edges[i].records != NULL)
-                PyBuffer_Release(&edges[i].view);
-        done += ready;
-    } while (valid && done < count);
-    return valid;
+    way->count = 0;
+    way->ups = ups;
+    way->edges = total <= FEW ? way->few : PyMem_Malloc(sizeof(Edge) * total);
+    for (; way->edges != NULL && way->count < total; way->count++) {
+        const Py_ssize_t i = way->count;
+        PyObject *link = i < ups ? PyTuple_GetItem(up, i) : PyTuple_GetItem(down, i - ups);
+        if (Py_TYPE(link) != known && !PyObject_TypeCheck(link, fields))
+            return 0;
+        known = Py_TYPE(link);
+        if (!read_link((const Link *)link, &way->edges[i]))
+            return 0;
+        /* Memory brings what is read first while the other links are made ready. */
+        if (way->edges[i].records != NULL)
+            way->edges[i].here = aim(&way->edges[i], time);
+    }
+    return way->edges != NULL;
 }
+
+static void close_way(Way *way) {
+    for (Py_ssize_t i = 0; i < way->count; i++)
+        if (way->edges[i].records != NULL)
+            PyBuffer_Release(&way->edges[i].view);
+    if (way->edges != way->few)
+        PyMem_Free(way->edges);
+}
+
+/* Looking up -------------------------------------------------------------- */
 
 /* Whether two plain strings are equal; one that is none is equal to nothing. */
 static int same_text(PyObject *known, PyObject *given) {
@@ -481,48 +435,37 @@ static PyObject *path_of(const Door *door, PyObject *target, PyObject *source) {
     return found;
 }
 
-/* The newest moment for which every moving link has data: `Path.latest`. With `covered`, whether
-   all of them have data at that moment, or at `*moment` if it is not 0: `Path.covers`. Returns
-   whether the links are plain; never sets an error. */
-static int latest(PyObject *path, PyTypeObject *fields, int64_t *moment, int *covered) {
-    PyObject *moving = PyTuple_GetItem(path, 2);
+/* The newest moment for which every moving link has data: `Path.latest`. Returns whether the
+   links are plain; never sets an error. */
+static int latest(PyObject *moving, PyTypeObject *fields, int64_t *moment) {
     const Py_ssize_t count = PyTuple_Size(moving);
-    int64_t oldest = 0;
     for (Py_ssize_t i = 0; i < count; i++) {
         PyObject *link = PyTuple_GetItem(moving, i);
         if (!PyObject_TypeCheck(link, fields))
             return 0;
         const int64_t stamp = ((Link *)link)->newest_stamp;
-        if (stamp != 0 && (stamp < oldest || oldest == 0))
-            oldest = stamp;
-    }
-    if (*moment == 0)
-        *moment = oldest;
-    for (Py_ssize_t i = 0; covered != NULL && i < count; i++) {
-        const Link *link = (const Link *)PyTuple_GetItem(moving, i);
-        *covered &= *moment == link->newest_stamp || *moment == 0
-            || (link->oldest_stamp <= *moment && *moment < link->newest_stamp);
+        if (stamp != 0 && (stamp < *moment || *moment == 0))
+            *moment = stamp;
     }
     return 1;
 }
 
-/* The pose of source in target by a path that is kept, of tf2's sign, and the moment it holds
-   for in place of 0: `Path.solve`. Returns 0 if that is not plain; never sets an error. */
+/* The pose of source in target by a path that is kept, and the moment it holds for in place of 0.
+   Returns 0 if that is not plain; never sets an error. */
 static int solve_path(const Door *door, const Types *types, PyObject *target, PyObject *source,
                       int64_t *time, double *pose) {
     PyObject *path = path_of(door, target, source);
-    double other[7];
-    if (path == NULL || (*time == 0 && !latest(path, types->fields, time, NULL))
-        || !chain(PyTuple_GetItem(path, 0), types->fields, *time, pose))
+    unsigned char valid = 1;
+    Way way;
+    if (path == NULL
+        || (*time == 0 && !latest(PyTuple_GetItem(path, 2), types->fields, time)))
         return 0;
-    PyObject *down = PyTuple_GetItem(path, 1);
-    if (PyTuple_Size(down) > 0) {
-        if (!chain(down, types->fields, *time, other))
-            return 0;
-        between(other, pose, 1, 1);
-    }
-    canonical(pose + 3);
-    return pose[6] == pose[6];
+    if (open_way(&way, types->fields, PyTuple_GetItem(path, 0), PyTuple_GetItem(path, 1), *time))
+        solve_way(&way, time, 1, 1, pose, &valid);
+    else
+        valid = 0;
+    close_way(&way);
+    return valid && pose[6] == pose[6];
 }
 
 /* Put new references into a new tuple; all of them are given up on failure. */
@@ -590,166 +533,104 @@ METHOD(lookup_transform) {
     return PLAINLY(lookup_transform);
 }
 
+/* Whether it can be looked up by a known path; it says no in plain Python. */
+METHOD(can_transform) {
+    int64_t time = 0;
+    double pose[7];
+    if (names == NULL && (count == 2 || (count == 3 && read_stamp(args[2], &time)))
+        && solve_path((const Door *)self, PyType_GetModuleState(door), args[0], args[1], &time, pose))
+        Py_RETURN_TRUE;
+    return PLAINLY(can_transform);
+}
+
 /* The same where target and source may be one frame, whose name another path has shown good. */
 static int solve_leg(const Door *door, const Types *types, PyObject *target, PyObject *source,
                      int64_t *time, double *pose) {
-    fill(identity, 1, 1, pose);
+    for (int k = 0; k < 7; k++)
+        pose[k] = k == 6;
     return (*time != 0 && same_text(target, source))
         || solve_path(door, types, target, source, time, pose);
 }
 
 METHOD(lookup_transform_full) {
     const Types *types = PyType_GetModuleState(door);
+    const Door *buffer = (const Door *)self;
     int64_t here, there;
     double inner[7], outer[7];
     if (names == NULL && count == 5 && read_stamp(args[1], &here) && read_stamp(args[3], &there)
-        && !same_text(args[0], args[2])
-        && solve_leg((const Door *)self, types, args[4], args[2], &there, inner)
-        && solve_leg((const Door *)self, types, args[0], args[4], &here, outer)) {
+        && !same_text(args[0], args[2]) && solve_leg(buffer, types, args[4], args[2], &there, inner)
+        && solve_leg(buffer, types, args[0], args[4], &here, outer)) {
         compose(outer, inner, 1, 1);
         if (unit(inner + 3)) {
-            canonical(inner + 3);
+            canonical(inner + 3, 1, 1);
             return answer(types, here, args[0], args[2], inner);
         }
     }
     return PLAINLY(lookup_transform_full);
 }
 
-METHOD(can_transform) {
-    const Types *types = PyType_GetModuleState(door);
-    int64_t time = 0;
-    int covered = 1;
-    if (names == NULL && (count == 2 || (count == 3 && read_stamp(args[2], &time)))) {
-        PyObject *path = path_of((const Door *)self, args[0], args[1]);
-        if (path != NULL && latest(path, types->fields, &time, &covered) && covered)
-            Py_RETURN_TRUE;
-    }
-    return PLAINLY(can_transform);
-}
-
 /* Inserting --------------------------------------------------------------- */
 
-/* So many pruned records are left where they are, at least and as a part of all (a shift to the
-   right): as in `history`. */
-#define LEAST_SLACK 32
-#define SLACK 3
-
-/* Room for samples to come is as much again as there is, at least so much, and so much at most or
-   that part of all: each time it is made, everything may have to be copied. */
-#define LEAST_ROOM 8
-#define MOST_ROOM 128
-#define ROOM 4
-
-#define LARGER(a, b) ((a) > (b) ? (a) : (b))
-#define SMALLER(a, b) ((a) < (b) ? (a) : (b))
-
-/* Take words out of a link's records, that are held. Returns whether it let go of them, which none
-   does that a batch reads; never sets an error. */
-static int cut(const Link *link, PyObject *records, Py_ssize_t from, Py_ssize_t to) {
-    const int64_t start = link->start, count = link->count;
-    PyObject *first = PyLong_FromSsize_t(from), *last = PyLong_FromSsize_t(to);
-    PyObject *words = first == NULL || last == NULL ? NULL : PySlice_New(first, last, NULL);
-    /* To make the slice may run the collector, and that code which changes the link. */
-    const int same = link->records == records && link->start == start && link->count == count;
-    const int done = words != NULL && same && PyObject_DelItem(records, words) == 0;
-    Py_XDECREF(first);
-    Py_XDECREF(last);
-    Py_XDECREF(words);
-    if (!done)
-        PyErr_Clear();
+/* Whether no batch reads a link's records, and they are an array's: samples among them may be
+   moved where they lie. Never sets an error. */
+static int is_free(const Link *link) {
+    /* An array lets go of nothing while others read it, be it no word at all. To ask may run
+       the collector, and that code which gives the link other records. */
+    PyObject *held = Py_NewRef(link->records);
+    const int done = PySequence_DelSlice(held, 0, 0) == 0 && link->records == held;
+    Py_DECREF(held);
+    PyErr_Clear();
     return done;
 }
 
-/* Have so many records of zeros more at the end of an array. Returns whether it grew, which none
-   does that a batch reads; never sets an error. */
-static int grow(PyObject *records, Py_ssize_t more) {
-    PyObject *zeros = PyObject_CallFunction((PyObject *)&PyBytes_Type, "n", RECORD * more);
-    PyObject *none = zeros == NULL ? NULL : PyObject_CallMethod(records, "frombytes", "O", zeros);
-    Py_XDECREF(zeros);
-    Py_XDECREF(none);
-    if (none == NULL)
-        PyErr_Clear();
-    return none != NULL;
-}
+/* So many pruned records are too many to leave where they are: more of them than a part of all. */
+#define SLACK 32
+#define SLACK_PART 8
 
-/* Have room for a sample in a link's records, which are held, and which no batch reads if the
-   sample is not the newest. Returns whether it could be had; never sets an error. */
-static int make_room(Link *link, PyObject *records, int64_t stamp) {
-    const Py_ssize_t room = PyObject_Size(records) / WORD;
-    if (link->start < 0 || link->count <= link->start || link->count > room) {
-        PyErr_Clear();
-        return 0;
-    }
-    if (link->start >= link->compact_at) {
-        /* What is pruned makes room for as many. */
-        const Py_ssize_t start = (Py_ssize_t)link->start, count = (Py_ssize_t)link->count - start;
-        if (!cut(link, records, 0, WORD * start))
-            return 0;
-        link->start = 0;
-        link->count = count;
-        link->compact_at = LARGER(count >> SLACK, LEAST_SLACK);
-        if (!grow(records, start))
-            return 0;
-    }
-    else if (stamp <= link->newest_stamp) {
-        /* One record more or one less: either is done where nobody reads them. One in front takes
-           no room behind, and one that is there already takes none in the end. */
-        if (link->count + (stamp >= link->oldest_stamp) < room)
-            return cut(link, records, WORD * room - WORD, WORD * room);
-        return grow(records, 1);
-    }
-    else if (link->count == room)
-        return grow(records, LARGER(LARGER(SMALLER(room, MOST_ROOM), LEAST_ROOM), room >> ROOM));
-    return 1;
-}
-
-/* Put a sample into a link: `History.insert` where no other one has its stamp,
+/* Put a sample into a link where there is room: `History.insert` if no other one has its stamp,
    and all are of the same origin. Returns whether it was done; never sets an error. */
 static int put(Link *link, int64_t stamp, int64_t origin, double *pose) {
     Py_buffer view;
     const double square = square_of(pose + 3);
     if (!(1.0 - ROUNDING < square && square < 1.0 + ROUNDING && pose[0] + pose[1] + pose[2] < HUGE_VAL))
         return 0;
-    if (link->is_static || link->mixed || link->origins != Py_None || link->origin != origin
-        || link->limit < 0 || link->records == NULL)
+    const int is_full = link->start > SLACK + link->count / SLACK_PART;
+    if (link->is_static || link->origins != Py_None || link->origin != origin || link->limit < 0
+        || link->records == NULL
+        || ((is_full || stamp <= link->newest_stamp) && !is_free(link))
+        || !read_records(link, PyBUF_WRITABLE, &view))
         return 0;
-    /* Making room calls Python, whose collector may run code that gives the link other records. */
-    PyObject *held = Py_NewRef(link->records);
-    const int has_room = make_room(link, held, stamp);
-    Py_DECREF(held);
-    if (!has_room || !read_records(link, PyBUF_WRITABLE, &view))
-        return 0;
-    char *records = view.buf;
+    Record *records = view.buf;
     const int64_t newest = link->newest_stamp;
     const uint64_t limit = (uint64_t)link->limit;
+    if (is_full) {
+        link->count -= link->start;
+        memmove(records, records + link->start, sizeof(Record) * link->count);
+        link->start = 0;
+    }
     Py_ssize_t start = (Py_ssize_t)link->start, count = (Py_ssize_t)link->count, place = count;
     int64_t oldest = link->oldest_stamp;
     while ((uint64_t)newest - (uint64_t)oldest > limit && start + 1 < count)
-        oldest = stamp_of(records, ++start);
-    int fits = 1;
+        oldest = records[++start].stamp;
     if (stamp < oldest)
         place = start - 1;
-    else if (stamp <= newest) {
-        const Py_ssize_t last = count - 1 - start;
-        fits &= stamp < newest && last > 0;
-        if (fits)
-            place = start + 1
-                + find(records + RECORD * start, last, stamp, guess(oldest, newest, last, stamp));
-        fits &= stamp_of(records, place - 1) != stamp;
-    }
-    fits &= stamp > newest || (uint64_t)newest - (uint64_t)stamp <= limit;
-    fits &= place >= 0 && (place < start || count < view.len / RECORD);
+    else
+        while (place > start && records[place - 1].stamp > stamp)
+            place--;
+    const int fits = place < start
+        ? place >= 0 && (uint64_t)newest - (uint64_t)stamp <= limit
+        : place > start && records[place - 1].stamp != stamp
+            && count < view.len / (Py_ssize_t)sizeof(Record);
     if (fits) {
-        char *record = records + RECORD * place;
-        canonical(pose + 3);
+        canonical(pose + 3, 1, 1);
         if (place < start) {
             oldest = stamp;
             start = place;
         }
         else
-            memmove(record + RECORD, record, RECORD * (count++ - place));
-        memcpy(record, &stamp, WORD);
-        memcpy(record + WORD, pose, 7 * WORD);
+            memmove(records + place + 1, records + place, sizeof(Record) * (count++ - place));
+        records[place].stamp = stamp;
+        memcpy(records[place].pose, pose, sizeof records[place].pose);
         link->start = start;
         link->count = count;
         link->oldest_stamp = oldest;
@@ -810,6 +691,113 @@ METHOD(set_transform) {
     Py_RETURN_TRUE;
 }
 
+/* A batch ---------------------------------------------------------------- */
+
+/* A block, row by row: poses of source in target, or NaN where `valid` becomes 0. */
+WIDE static void solve_block(const Way *way, const int64_t *times, int n, double *places,
+                             double *turns, unsigned char *valid) {
+    Rows pose;
+    for (int i = 0; i < n; i++)
+        valid[i] = times[i] != 0;
+    solve_way(way, times, n, BLOCK, pose, valid);
+    for (int i = 0; i < n; i++) {
+        const double known = valid[i] ? 1.0 : NAN;
+        for (int k = 0; k < 3; k++)
+            places[3 * i + k] = pose[k * BLOCK + i] * known;
+        for (int k = 0; k < 4; k++)
+            turns[4 * i + k] = pose[(3 + k) * BLOCK + i] * known;
+    }
+}
+
+PyDoc_STRVAR(solve_doc, "solve(up, down, times, translations, rotations, valid)\n--\n\n"
+"Write the poses of a path at many moments, NaN where a link has no data. Returns how many rows\n"
+"have none, or None where a link is not plain. Other threads of Python run meanwhile; the records\n"
+"must not change.");
+
+static PyObject *solve(PyObject *module, PyObject *args) {
+    static const Py_ssize_t sizes[4] = {8, 24, 32, 1};
+    const Types *types = PyModule_GetState(module);
+    Py_buffer views[4];
+    PyObject *up, *down, *result = NULL;
+    Way way;
+    if (!PyArg_ParseTuple(args, "O!O!y*w*w*w*:solve", &PyTuple_Type, &up, &PyTuple_Type, &down,
+                          &views[0], &views[1], &views[2], &views[3]))
+        return NULL;
+    const Py_ssize_t rows = views[0].len / sizes[0];
+    int fits = 1;
+    for (int i = 0; i < 4; i++)
+        fits &= views[i].len == rows * sizes[i] && (i == 3 || (uintptr_t)views[i].buf % 8 == 0);
+    if (!fits)
+        PyErr_SetString(PyExc_ValueError, "moments, translations, rotations and valid are "
+            "aligned rows of 8, 24, 32 and 1 bytes, of each equally many");
+    else if (open_way(&way, types->fields, up, down, 0)) {
+        const int64_t *times = views[0].buf;
+        double *places = views[1].buf, *turns = views[2].buf;
+        unsigned char *valid = views[3].buf;
+        Py_ssize_t missing = 0;
+        Py_BEGIN_ALLOW_THREADS
+        for (Py_ssize_t row = 0; row < rows; row += BLOCK) {
+            const int n = rows - row < BLOCK ? (int)(rows - row) : BLOCK;
+            solve_block(&way, times + row, n, places + 3 * row, turns + 4 * row, valid + row);
+            for (int i = 0; i < n; i++)
+                missing += !valid[row + i];
+        }
+        Py_END_ALLOW_THREADS
+        result = PyLong_FromSsize_t(missing);
+    }
+    else
+        result = Py_NewRef(Py_None);
+    if (fits)
+        close_way(&way);
+    for (int i = 0; i < 4; i++)
+        PyBuffer_Release(&views[i]);
+    return result;
+}
+
+/* The module ------------------------------------------------------------- */
+
+#define MEMBER(type, name, kind) {#name, kind, offsetof(type, name), 0, NULL}
+#define PRIVATE(type, name, kind) {"_" #name, kind, offsetof(type, name), 0, NULL}
+static PyMemberDef link_members[] = {
+    MEMBER(Link, records, T_OBJECT_EX), MEMBER(Link, origins, T_OBJECT_EX),
+    MEMBER(Link, newest_stamp, T_LONGLONG), MEMBER(Link, oldest_stamp, T_LONGLONG),
+    MEMBER(Link, limit, T_LONGLONG), MEMBER(Link, start, T_LONGLONG),
+    MEMBER(Link, count, T_LONGLONG), MEMBER(Link, origin, T_LONGLONG),
+    MEMBER(Link, parent, T_LONGLONG), MEMBER(Link, is_static, T_BOOL),
+    MEMBER(Link, mixed, T_BOOL), PRIVATE(Link, newest, T_OBJECT_EX),
+    PRIVATE(Link, newest_pair, T_OBJECT_EX), {NULL, 0, 0, 0, NULL},
+};
+static PyMemberDef door_members[] = {
+    PRIVATE(Door, paths, T_OBJECT_EX), PRIVATE(Door, senders, T_OBJECT_EX),
+    PRIVATE(Door, listening, T_OBJECT_EX), PRIVATE(Door, pending, T_OBJECT_EX),
+    {NULL, 0, 0, 0, NULL},
+};
+
+/* Links and doors both begin with so many objects. */
+#define HELD 4
+#define HELD_OF(self) ((PyObject **)((char *)(self) + sizeof(PyObject)))
+
+static int held_traverse(PyObject *self, visitproc visit, void *arg) {
+    Py_VISIT(Py_TYPE(self));
+    for (int i = 0; i < HELD; i++)
+        Py_VISIT(HELD_OF(self)[i]);
+    return 0;
+}
+
+static int held_clear(PyObject *self) {
+    for (int i = 0; i < HELD; i++)
+        Py_CLEAR(HELD_OF(self)[i]);
+    return 0;
+}
+
+static void held_dealloc(PyObject *self) {
+    PyTypeObject *type = Py_TYPE(self);
+    PyObject_GC_UnTrack(self);
+    held_clear(self);
+    ((freefunc)PyType_GetSlot(type, Py_tp_free))(self);
+    Py_DECREF(type);
+}
+
 #define CALL METH_METHOD | METH_FASTCALL | METH_KEYWORDS
 #define ENTRY(name, doc) {#name, (PyCFunction)(void (*)(void))name, CALL, #name doc}
 static PyMethodDef door_methods[] = {
@@ -831,160 +819,26 @@ static PyMethodDef door_methods[] = {
         "Whether `lookup_transform` would answer; it never raises for a name or a time."),
     {NULL, NULL, 0, NULL},
 };
-
-#define HOLDER(name, what, ...)                                                                   \
-    static PyType_Slot name##_slots[] = {                                                         \
-        {Py_tp_doc, what}, {Py_tp_members, name##_members}, {Py_tp_traverse, held_traverse},      \
-        {Py_tp_clear, held_clear}, {Py_tp_dealloc, held_dealloc}, __VA_ARGS__, {0, NULL},         \
-    }
-HOLDER(link, "The fields of a link, laid out so that the kernel can read them.", {0, NULL});
-HOLDER(door, "The methods of a buffer that are called most.", {Py_tp_methods, door_methods});
-
-#define FLAGS Py_TPFLAGS_DEFAULT | Py_TPFLAGS_BASETYPE | Py_TPFLAGS_HAVE_GC
-static PyType_Spec link_spec = {"tftool.frames._kernel.Fields", sizeof(Link), 0, FLAGS, link_slots};
-static PyType_Spec door_spec = {"tftool.frames._kernel.Door", sizeof(Door), 0, FLAGS, door_slots};
-
-/* A batch ---------------------------------------------------------------- */
-
-/* The links from source upward, and from target upward. */
-typedef struct {
-    Edge *up, *down;
-    Py_ssize_t ups, downs;
-} Way;
-
-/* One block: poses of source in target, or NaN where `valid` becomes 0. */
-INLINE void solve_block(const Way *way, const int64_t *times, int n, double *places, double *turns,
-                        unsigned char *valid) {
-    Rows pose, other;
-    for (int i = 0; i < n; i++)
-        valid[i] = times[i] != 0;
-    climb(way->up, way->ups, times, n, BLOCK, pose, 0, valid);
-    climb(way->down, way->downs, times, n, BLOCK, other, 0, valid);
-    if (way->downs)
-        between(other, pose, n, BLOCK);
-    for (int i = 0; i < n; i++) {
-        const double *turn = pose + 3 * BLOCK + i, known = valid[i] ? 1.0 : NAN;
-        const double sign = leading(turn[0], turn[BLOCK], turn[2 * BLOCK], turn[3 * BLOCK]) < 0.0 ? -known : known;
-        for (int k = 0; k < 3; k++)
-            places[3 * i + k] = pose[k * BLOCK + i] * known;
-        for (int k = 0; k < 4; k++)
-            turns[4 * i + k] = turn[k * BLOCK] * sign;
-    }
-}
-
-typedef void Solve(const Way *, const int64_t *, int, double *, double *, unsigned char *);
-
-static void solve_plain(const Way *way, const int64_t *times, int n, double *places, double *turns,
-                        unsigned char *valid) {
-    solve_block(way, times, n, places, turns, valid);
-}
-
-#if defined(__GNUC__) && (defined(__x86_64__) || defined(__i386__))
-/* The same, where the processor works on four numbers at once. */
-__attribute__((target("avx2"))) static void
-solve_avx2(const Way *way, const int64_t *times, int n, double *places, double *turns, unsigned char *valid) {
-    solve_block(way, times, n, places, turns, valid);
-}
-#define SOLVE (__builtin_cpu_supports("avx2") ? solve_avx2 : solve_plain)
-#else
-#define SOLVE solve_plain
-#endif
-
-static void release_edges(Edge *edges, Py_ssize_t count) {
-    for (Py_ssize_t i = 0; edges != NULL && i < count; i++) {
-        PyBuffer_Release(&edges[i].view);
-        PyBuffer_Release(&edges[i].origins_view);
-    }
-    PyMem_Free(edges);
-}
-
-/* Make the links of a batch ready: each a sample of seven floats, or records and the origins of
-   each (None: all alike). NULL with an error set if one is neither. */
-static Edge *read_edges(PyObject *links) {
-    const Py_ssize_t count = PyTuple_Size(links);
-    Edge *edges = PyMem_Calloc(count ? count : 1, sizeof(Edge));
-    if (edges == NULL)
-        return (Edge *)PyErr_NoMemory();
-    for (Py_ssize_t i = 0; i < count; i++) {
-        PyObject *link = PyTuple_GetItem(links, i);
-        Edge *edge = &edges[i];
-        if (read_floats(link, edge->fixed, 7))
-            continue;
-        if (!PyTuple_Check(link) || PyTuple_Size(link) != 2) {
-            PyErr_SetString(PyExc_TypeError, "a link is a pose of seven floats, or records and origins");
-            goto failed;
-        }
-        PyObject *origins = PyTuple_GetItem(link, 1);
-        if (PyObject_GetBuffer(PyTuple_GetItem(link, 0), &edge->view, PyBUF_SIMPLE) < 0
-            || (origins != Py_None && PyObject_GetBuffer(origins, &edge->origins_view, PyBUF_SIMPLE) < 0))
-            goto failed;
-        edge->records = edge->view.buf;
-        edge->origins = edge->origins_view.buf;
-        edge->last = edge->view.len / RECORD - 1;
-        if (edge->last < 0 || edge->view.len % RECORD
-            || (edge->origins != NULL && edge->origins_view.len / WORD <= edge->last)) {
-            PyErr_SetString(PyExc_ValueError, "records are rows of 64 bytes, one or more, an origin for each");
-            goto failed;
-        }
-        edge->oldest = stamp_of(edge->records, 0);
-        edge->newest = stamp_of(edge->records, edge->last);
-    }
-    return edges;
-failed:
-    release_edges(edges, count);
-    return NULL;
-}
-
-PyDoc_STRVAR(solve_doc, "solve(up, down, times, translations, rotations, valid)\n--\n\n"
-"Write the poses of a path at many moments, NaN where a link has no data. Returns how many rows\n"
-"have none. Other threads of Python run meanwhile; the records must not change.");
-
-static PyObject *solve(PyObject *Py_UNUSED(module), PyObject *args) {
-    static const Py_ssize_t sizes[4] = {8, 24, 32, 1};
-    Py_buffer views[4];
-    PyObject *links[2], *result = NULL;
-    Way way = {NULL, NULL, 0, 0};
-    if (!PyArg_ParseTuple(args, "O!O!y*w*w*w*:solve", &PyTuple_Type, &links[0], &PyTuple_Type, &links[1],
-                          &views[0], &views[1], &views[2], &views[3]))
-        return NULL;
-    way.ups = PyTuple_Size(links[0]);
-    way.downs = PyTuple_Size(links[1]);
-    const Py_ssize_t rows = views[0].len / WORD;
-    for (int i = 0; i < 4; i++)
-        if (views[i].len != rows * sizes[i] || (sizes[i] > 1 && (uintptr_t)views[i].buf % WORD)) {
-            PyErr_SetString(PyExc_ValueError, "moments, translations, rotations and valid are "
-                "aligned rows of 8, 24, 32 and 1 bytes, of each equally many");
-            goto done;
-        }
-    if ((way.up = read_edges(links[0])) == NULL || (way.down = read_edges(links[1])) == NULL)
-        goto done;
-    Solve *const solve_rows = SOLVE;
-    const int64_t *times = views[0].buf;
-    double *places = views[1].buf, *turns = views[2].buf;
-    unsigned char *valid = views[3].buf;
-    Py_ssize_t missing = 0;
-    Py_BEGIN_ALLOW_THREADS
-    for (Py_ssize_t row = 0; row < rows; row += BLOCK) {
-        const int n = rows - row < BLOCK ? (int)(rows - row) : BLOCK;
-        solve_rows(&way, times + row, n, places + 3 * row, turns + 4 * row, valid + row);
-        for (int i = 0; i < n; i++)
-            missing += !valid[row + i];
-    }
-    Py_END_ALLOW_THREADS
-    result = PyLong_FromSsize_t(missing);
-done:
-    release_edges(way.up, way.ups);
-    release_edges(way.down, way.downs);
-    for (int i = 0; i < 4; i++)
-        PyBuffer_Release(&views[i]);
-    return result;
-}
-
-/* The module ------------------------------------------------------------- */
-
-static PyMethodDef methods[] = {
+static PyMethodDef no_methods[] = {{NULL, NULL, 0, NULL}};
+static PyMethodDef module_methods[] = {
     {"solve", solve, METH_VARARGS, solve_doc}, {NULL, NULL, 0, NULL},
 };
+
+/* A new class of the module, under its name there; NULL with an error set on failure. */
+static PyTypeObject *holder(PyObject *module, const char *name, size_t size, const char *doc,
+                            PyMemberDef *members, PyMethodDef *methods) {
+    PyType_Slot slots[] = {
+        {Py_tp_doc, (void *)doc}, {Py_tp_members, members}, {Py_tp_methods, methods},
+        {Py_tp_traverse, held_traverse}, {Py_tp_clear, held_clear},
+        {Py_tp_dealloc, held_dealloc}, {0, NULL},
+    };
+    PyType_Spec spec = {name, (int)size, 0,
+                        Py_TPFLAGS_DEFAULT | Py_TPFLAGS_BASETYPE | Py_TPFLAGS_HAVE_GC, slots};
+    PyObject *made = PyType_FromModuleAndSpec(module, &spec, NULL);
+    if (made != NULL && PyModule_AddType(module, (PyTypeObject *)made) < 0)
+        Py_CLEAR(made);
+    return (PyTypeObject *)made;
+}
 
 /* A class of a module of ours that is a kind of tuple; NULL with an error set if not. */
 static PyTypeObject *tuple_type(const char *module, const char *name) {
@@ -1001,26 +855,26 @@ static PyTypeObject *tuple_type(const char *module, const char *name) {
 
 static int module_exec(PyObject *module) {
     Types *types = PyModule_GetState(module);
-    PyObject *door = PyType_FromModuleAndSpec(module, &door_spec, NULL);
-    const int added = door == NULL ? -1 : PyModule_AddType(module, (PyTypeObject *)door);
-    Py_XDECREF(door);
-    types->fields = (PyTypeObject *)PyType_FromSpec(&link_spec);
-    if (added < 0 || types->fields == NULL || PyModule_AddType(module, types->fields) < 0
-        || PyModule_AddIntConstant(module, "INTERFACE", INTERFACE) < 0
-        || (types->empty = PyUnicode_InternFromString("")) == NULL
-        || (types->vector = tuple_type("tftool.geometry.rigid", "Vector3")) == NULL
-        || (types->quaternion = tuple_type("tftool.geometry.rigid", "Quaternion")) == NULL
-        || (types->transform = tuple_type("tftool.geometry.rigid", "Transform")) == NULL
-        || (types->stamped = tuple_type("tftool.frames.sample", "TransformStamped")) == NULL)
+    PyTypeObject *door = holder(module, "tftool.frames._kernel.Door", sizeof(Door),
+        "The methods of a buffer that are called most.", door_members, door_methods);
+    Py_XDECREF((PyObject *)door);
+    types->fields = holder(module, "tftool.frames._kernel.Fields", sizeof(Link),
+        "The fields of a link, laid out so that the kernel can read them.", link_members, no_methods);
+    types->empty = PyUnicode_InternFromString("");
+    types->vector = tuple_type("tftool.geometry.rigid", "Vector3");
+    types->quaternion = tuple_type("tftool.geometry.rigid", "Quaternion");
+    types->transform = tuple_type("tftool.geometry.rigid", "Transform");
+    types->stamped = tuple_type("tftool.frames.sample", "TransformStamped");
+    if (PyErr_Occurred())
         return -1;
-    return 0;
+    return PyModule_AddIntConstant(module, "INTERFACE", INTERFACE);
 }
 
 static PyModuleDef_Slot module_slots[] = {{Py_mod_exec, module_exec}, {0, NULL}};
 
 static PyModuleDef definition = {
     PyModuleDef_HEAD_INIT, "tftool.frames._kernel", "The native kernel; see `_kernel.pyi`.",
-    sizeof(Types), methods, module_slots, NULL, NULL, NULL,
+    sizeof(Types), module_methods, module_slots, NULL, NULL, NULL,
 };
 
 PyMODINIT_FUNC

@@ -1,7 +1,5 @@
 """What the native kernel offers; each function says what it is the twin of."""
 
-from typing import Any
-
 from tftool.frames.sample import TransformStamped
 
 INTERFACE: int
@@ -17,7 +15,7 @@ class Door:
     """
 
     def set_transform(self, transform: TransformStamped, authority: str = "") -> bool:
-        """`Buffer.set_transform` of a sample newer than the link's others."""
+        """`Buffer.set_transform` of a sample of a known link that has room."""
 
     def lookup_transform(
         self, target_frame: str, source_frame: str, time: int = 0
@@ -38,12 +36,12 @@ class Door:
         """`Buffer.can_transform` by a known path; it says no in plain Python."""
 
 def solve(
-    up: tuple[Any, ...],
-    down: tuple[Any, ...],
+    up: tuple[object, ...],
+    down: tuple[object, ...],
     times: object,
     translations: object,
     rotations: object,
     valid: object,
     /,
-) -> int:
-    """Poses of a path at many moments; how many rows have none."""
+) -> int | None:
+    """Poses of a path at many moments; how many rows have none. None if a link is not plain."""

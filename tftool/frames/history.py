@@ -98,10 +98,8 @@ if TYPE_CHECKING or not IS_NATIVE:
         """What either kind of link keeps; natively the same, where C code can read it."""
 
         __slots__ = (
-            "_compact_at",
             "_newest",
             "_newest_pair",
-            "_prune_after",
             "count",
             "is_static",
             "limit",
@@ -116,20 +114,7 @@ if TYPE_CHECKING or not IS_NATIVE:
         )
 
 else:
-    from tftool.frames import _kernel
-
-    class Fields(_kernel.Fields):
-        """The kernel's, and what it leaves to be worked out when it is needed."""
-
-        __slots__ = ()
-
-        @property
-        def _prune_after(self) -> Stamp:
-            return self.oldest_stamp + self.limit
-
-        @_prune_after.setter
-        def _prune_after(self, stamp: Stamp) -> None:
-            pass
+    from tftool.frames._kernel import Fields
 
 
 class StaticLink(Fields):
@@ -208,7 +193,7 @@ class History(Fields):
             from it.
     """
 
-    __slots__ = ("_newest_parent_start", "period")
+    __slots__ = ("_compact_at", "_newest_parent_start", "period")
 
     def __init__(self, limit: Duration) -> None:
         self.is_static: Literal[False] = False
@@ -226,8 +211,6 @@ class History(Fields):
         self.oldest_stamp: Stamp = 0
         # The newest sample, read when it is first asked for.
         self._newest: Sample | None = None
-        # A newest stamp beyond this means that the oldest sample is to be pruned.
-        self._prune_after: Stamp = 0
         # The last two samples as they lie in `records`; read when they are first asked for.
         self._newest_pair: poses.Pair | None = None
         self.parent: int = NO_PARENT
@@ -435,17 +418,16 @@ class History(Fields):
             late = array("q", _pack(stamp, x, y, z, qx, qy, qz, qw))
             return self._insert_late(stamp, origin, late)
         record = _pack(stamp, x, y, z, qx, qy, qz, qw)
-        if newest > self._prune_after:
+        oldest_kept = newest - self.limit
+        if self.oldest_stamp < oldest_kept:
             # As a rule every sample that comes prunes one.
             start = self.start + 1
             oldest = self.records[WORDS * start]
-            prune_after = oldest + self.limit
-            if newest > prune_after or self.mixed or start >= self._compact_at:
-                self._prune(newest - self.limit)
+            if oldest < oldest_kept or self.mixed or start >= self._compact_at:
+                self._prune(oldest_kept)
             else:
                 self.start = start
                 self.oldest_stamp = oldest
-                self._prune_after = prune_after
         if IS_NATIVE:
             self._have_room()
             self.records[WORDS * self.count : WORDS * (self.count + 1)] = array("q", record)
@@ -510,11 +492,12 @@ class History(Fields):
             self.parent = parent
             self.origin = origin
             return PARENT_CHANGED
-        if newest > self._prune_after:
-            self._prune(newest - self.limit)
+        oldest_kept = newest - self.limit
+        if self.oldest_stamp < oldest_kept:
+            self._prune(oldest_kept)
         if IS_NATIVE:
             self._have_room()
-        if stamp < newest - self.limit:
+        if stamp < oldest_kept:
             return TOO_OLD
         place = self._after(stamp)
         behind = place - 1
@@ -717,8 +700,7 @@ class History(Fields):
     def _begin(self, start: int) -> None:
         """Have the samples begin at a record."""
         self.start = start
-        self.oldest_stamp = oldest = self._stamp(start)
-        self._prune_after = oldest + self.limit
+        self.oldest_stamp = self._stamp(start)
 
 
 def _copied(records: Words, start: int, stop: int) -> "array[int]":

@@ -11,13 +11,13 @@ from tftool.errors import TransformException
 from tftool.frames.batch import kernel
 from tftool.frames.batch.arrays import TransformArray
 from tftool.frames.batch.columns import Column, Columns, Indices, Stamps, stamps_of
-from tftool.frames.history import Link, Sample
+from tftool.frames.history import History, Link, Sample, StaticLink
 from tftool.frames.native import IS_NATIVE
 from tftool.frames.path import Path, path_of
 from tftool.frames.solver import Solver
 from tftool.frames.tree import ARRIVED, FrameTree
 from tftool.geometry.batch import Floats
-from tftool.stamps import Stamp
+from tftool.stamps import LAST_STAMP, Stamp
 
 if IS_NATIVE:
     from tftool.frames import _kernel
@@ -182,8 +182,11 @@ class _Batch:
         rows = slice(start, start + self.rows_at_once)
         times = self.times[rows]
         self.stamps[rows] = times
+        missing = None
         if IS_NATIVE and self.path is not None and self.first <= self.last:
-            if self.solve_natively(self.path, times, rows) == 0:
+            missing = self.solve_natively(self.path, times, rows)
+        if missing is not None:
+            if missing == 0:
                 return
             rest = np.flatnonzero(~self.valid[rows] & (times != 0))
         else:
@@ -226,8 +229,7 @@ class _Batch:
         times = self.times[rows]
         if not len(times):
             return
-        if IS_NATIVE:
-            self.solve_natively(path, times, rows)
+        if IS_NATIVE and self.solve_natively(path, times, rows) is not None:
             return
         up, down = self.edges(path.up), self.edges(path.down)
         in_order = bool(np.all(times[1:] >= times[:-1]))
@@ -253,29 +255,38 @@ class _Batch:
         self.valid[rows] = True
         self.rooms.append(room)
 
-    def solve_natively(self, path: Path, times: Stamps, rows: "slice | Indices") -> int:
-        """Answer rows by a path; those that it has no data for are NaN. How many these are."""
-        up, down = self.native_edges(path.up), self.native_edges(path.down)
+    def solve_natively(self, path: Path, times: Stamps, rows: "slice | Indices") -> int | None:
+        """Answer rows by a path; those that it has no data for are NaN.
+
+        Returns:
+            How many these are; None, and nothing was done, if the kernel cannot go this way.
+        """
+        up, down = self.held(path.up), self.held(path.down)
         if isinstance(rows, slice):
             place, turn, valid = self.translations[rows], self.rotations[rows], self.valid[rows]
             return _kernel.solve(up, down, times, place, turn, valid)
         n = len(times)
         place, turn, valid = np.empty((n, 3)), np.empty((n, 4)), np.empty(n, dtype=np.bool_)
         missing = _kernel.solve(up, down, np.ascontiguousarray(times), place, turn, valid)
-        self.translations[rows], self.rotations[rows], self.valid[rows] = place, turn, valid
+        if missing is not None:
+            self.translations[rows], self.rotations[rows], self.valid[rows] = place, turn, valid
         return missing
 
-    def native_edges(self, links: Iterable[Link]) -> tuple[object, ...]:
-        """Links as the kernel takes them: records and the origin of each, or one sample."""
-        edges: list[object] = []
+    def held(self, links: Iterable[Link]) -> tuple[Link, ...]:
+        """Links as they were when they were asked for, which stay so."""
+        found: list[Link] = []
         for link in links:
             held = self.columns.of(link)
-            assert held is not None
             if isinstance(held, Column):
-                edges.append((held.records, None if held.parents is None else held.origins))
+                copy = History(LAST_STAMP)
+                copy.borrow(held.records.reshape(-1).data, held.origin)
+                copy.mixed = held.parents is not None
+                found.append(copy)
             else:
-                edges.append(tuple(map(float, held)))
-        return tuple(edges)
+                assert held is not None
+                x, y, z, qx, qy, qz, qw = map(float, held)
+                found.append(StaticLink((x, y, z, qx, qy, qz, qw)))
+        return tuple(found)
 
     def room(self) -> Floats:
         """Some that no thread works in."""
