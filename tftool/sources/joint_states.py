@@ -100,7 +100,7 @@ def read_joint_states(source: Source, topics: Sequence[str]) -> RecordedJoints:
         for topic in source.topics
         if topic.name in topics
     }
-    groups: dict[tuple[str, ...], _Group] = {}
+    groups: dict[tuple[str, ...], _NameGroup] = {}
     ignored: dict[str, int] = {}
     last: dict[str, _Template] = {}
     known: dict[tuple[str, bytes], _Template] = {}
@@ -124,7 +124,7 @@ def read_joint_states(source: Source, topics: Sequence[str]) -> RecordedJoints:
             last[topic] = template
         group = groups.get(template.names)
         if group is None:
-            group = groups[template.names] = _Group(template.names)
+            group = groups[template.names] = _NameGroup(template.names)
         group.add(template, payload)
     return RecordedJoints(tuple(group.columns() for group in groups.values()), ignored)
 
@@ -235,7 +235,7 @@ class _Ros1(_Layout):
     stamp = 4
 
 
-class _Group:
+class _NameGroup:
     """Messages that name the same joints."""
 
     def __init__(self, names: tuple[str, ...]) -> None:

@@ -101,7 +101,7 @@ def play(
     recording = connection.open_stored(found)
     assert isinstance(recording, Recording)
     timeline = Timeline(recording.source, recording.transforms)
-    showing = _Showing(
+    playing = _Playing(
         recording,
         timeline,
         _span(recording, timeline, begin, until),
@@ -117,7 +117,7 @@ def play(
     if link is not None and connection.dds is not None and not force:
         _refuse_to_mix(link)
     pace = connection.providers.wall_clock()
-    run(pace, showing.play(pace, link))
+    run(pace, playing.play(pace, link))
     return ExitStatus.DONE
 
 
@@ -161,7 +161,7 @@ def _span(
 
 
 @dataclass(frozen=True, slots=True)
-class _Showing:
+class _Playing:
     """What is to be played, and how; the fields are those of `Player`."""
 
     recording: "Recording"

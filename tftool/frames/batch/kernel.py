@@ -213,7 +213,7 @@ def room(count: int) -> Floats:
     return numbers[-address // 8 % _LINE :]
 
 
-class Workspace:
+class BlockArrays:
     """The arrays in which a block of moments is worked on, and what is done in them."""
 
     def __init__(self, room: Floats, count: int) -> None:

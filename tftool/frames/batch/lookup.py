@@ -238,18 +238,18 @@ class _Batch:
             rows = order + rows.start if isinstance(rows, slice) else rows[order]
             times, in_order = times[order], True
         room = self.room()
-        workspace = None
+        arrays = None
         for part in kernel.blocks(len(times), self.block):
             block = times[part]
-            if workspace is None or workspace.count != len(block):
-                workspace = kernel.Workspace(room, len(block))
+            if arrays is None or arrays.count != len(block):
+                arrays = kernel.BlockArrays(room, len(block))
             if isinstance(rows, slice):
                 here = slice(rows.start + part.start, rows.start + part.stop)
                 translations, rotations = self.translations[here], self.rotations[here]
-                workspace.solve(up, down, block, in_order, translations, rotations)
+                arrays.solve(up, down, block, in_order, translations, rotations)
             else:
                 translations, rotations = np.empty((len(block), 3)), np.empty((len(block), 4))
-                workspace.solve(up, down, block, in_order, translations, rotations)
+                arrays.solve(up, down, block, in_order, translations, rotations)
                 self.translations[rows[part]] = translations
                 self.rotations[rows[part]] = rotations
         self.valid[rows] = True
