@@ -343,6 +343,42 @@ def test_a_reader_that_goes_away_ends_it_quietly():
     assert "Broken" not in err
 
 
+CHATTY = """import rclpy
+rclpy.init()
+node = rclpy.create_node("chatty")
+node.create_timer(0.05, lambda: print("tick", flush=True))
+rclpy.spin(node)
+"""
+
+ELSEWHERE = """import rclpy
+rclpy.init()
+raise BrokenPipeError("the robot has hung up")
+"""
+
+
+@pytest.mark.skipif(sys.platform == "win32", reason="asks the pipe who reads it")
+def test_a_reader_that_has_seen_enough_of_a_node_ends_it_quietly(tmp_path):
+    (tmp_path / "chatty.py").write_text(CHATTY)
+    for words in (["run", tmp_path / "chatty.py"], ["ros2", "topic", "hz", "/tf"]):
+        with start(*words) as process:
+            process.stdout.readline()
+            process.stdout.close()
+            err = process.stderr.read()
+            process.wait(timeout=PATIENCE)
+
+        assert process.returncode == 0
+        assert "Broken" not in err
+
+
+def test_a_pipe_of_the_nodes_own_that_breaks_is_its_failure(tmp_path):
+    (tmp_path / "elsewhere.py").write_text(ELSEWHERE)
+    with start("run", tmp_path / "elsewhere.py") as process:
+        _, err = process.communicate(timeout=PATIENCE)
+
+    assert process.returncode == 1
+    assert "the robot has hung up" in err
+
+
 def test_a_stdout_that_breaks_is_no_failure(monkeypatch):
     class Broken(io.StringIO):
         def write(self, text):

@@ -288,6 +288,7 @@ def _run(argv: list[str], providers: "Providers | None") -> int:
 
     import typer
 
+    from tftool.cli import streams
     from tftool.errors import InputError, TftoolError, TransformException, UsageError
 
     # typer carries its own click since 0.26: its base classes are reached through what it
@@ -317,6 +318,9 @@ def _run(argv: list[str], providers: "Providers | None") -> int:
         _complain("tftool", str(error))
         return ExitStatus.NO_TRANSFORM
     except TftoolError as error:
+        if isinstance(error.__cause__, BrokenPipeError) and streams.has_no_reader():
+            # A node of one's own prints, too, and its reader may have seen enough.
+            raise error.__cause__ from None
         _complain("tftool", str(error))
         return ExitStatus.FAILED
     return result if isinstance(result, int) else ExitStatus.DONE

@@ -67,6 +67,20 @@ def require_descriptors() -> None:
             os.close(probe)
 
 
+def has_no_reader() -> bool:
+    """Whether stdout is a pipe that nobody reads any more."""
+    import select
+
+    if not hasattr(select, "poll"):
+        return True
+    watched = select.poll()
+    try:
+        watched.register(sys.stdout.fileno(), 0)
+    except (OSError, ValueError):  # a stdout that is no file has no number
+        return False
+    return any(event & select.POLLERR for _, event in watched.poll(0))
+
+
 def forget_output() -> None:
     """Let what is still buffered for stdout go nowhere."""
     with suppress(OSError, ValueError):  # a stdout that is no file has no number

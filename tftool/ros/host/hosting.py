@@ -243,7 +243,7 @@ def status_of(program: Program) -> int:
     failure = program.failure
     if failure is None or isinstance(failure, SystemExit):
         return program.status
-    raise ProgramFailed(program.label, failure)
+    raise ProgramFailed(program.label, failure) from failure
 
 
 class ProgramFailed(NodeFailed):
