@@ -22,7 +22,7 @@ def near_names(word: str, known: Iterable[str], most: int = 1, *, alike: float =
     return [by_lower[name] for name in found]
 
 
-def did_you_mean(word: str, known: Iterable[str], *, alike: float = 0.6) -> str:
+def did_you_mean(word: str, known: Iterable[str]) -> str:
     """The end of a sentence about an unknown name: the likest one; empty where none is like it."""
-    near = near_names(word, known, alike=alike)
+    near = near_names(word, known)
     return f"; did you mean '{near[0]}'?" if near else ""

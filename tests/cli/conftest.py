@@ -17,8 +17,8 @@ class Result:
 class Simulated(Providers):
     """Worlds live on simulated time, from the end of their head start on, and unshared."""
 
-    def wall_clock(self, rate=1.0, *, epoch=None, head_start=0):
-        return SimClock() if epoch is None else SimClock(epoch)
+    def wall_clock(self, rate=1.0, *, head_start=0):
+        return SimClock()
 
     def still_clock(self, epoch, now):
         return SimClock(epoch)

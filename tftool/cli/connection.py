@@ -103,13 +103,11 @@ class Providers:
     A test derives from it, and hands its own to `app.main`.
     """
 
-    def wall_clock(
-        self, rate: float = 1.0, *, epoch: "Stamp | None" = None, head_start: "Duration" = 0
-    ) -> "Clock":
+    def wall_clock(self, rate: float = 1.0, *, head_start: "Duration" = 0) -> "Clock":
         """Make a clock for a world that others may share; see `WallClock`."""
         from tftool.runtime.clock import WallClock
 
-        return WallClock(rate, epoch=epoch, head_start=head_start)
+        return WallClock(rate, head_start=head_start)
 
     def still_clock(self, epoch: "Stamp", now: "Stamp") -> "Clock":
         """Make a clock that stands still at the end of something that is all there.

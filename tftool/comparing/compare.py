@@ -14,7 +14,6 @@ from tftool.frames.buffer import Buffer
 from tftool.geometry import batch
 from tftool.geometry.conversions import rpy_from_quaternion
 from tftool.geometry.rigid import Transform
-from tftool.sources.contract import Progress
 from tftool.stamps import SIMULATED_BELOW, Duration, Stamp
 
 Stamps: TypeAlias = npt.NDArray[np.int64]
@@ -194,7 +193,6 @@ def compare(
     tolerance: Allowance | None = None,
     *,
     align_starts: bool = False,
-    progress: Progress | None = None,
 ) -> Differences:
     """Compare two sets of frames, link by link.
 
@@ -208,7 +206,6 @@ def compare(
         second: B.
         tolerance: What may differ.
         align_starts: Whether both count from their own start in any case.
-        progress: Is told how many links of how many are compared.
 
     Raises:
         InputError: If one of the two has no frames.
@@ -227,11 +224,7 @@ def compare(
         shift = second.start - first.start
         notes.append("The two count on different clocks: each from its own start.")
     children = list(dict.fromkeys([*held[0], *held[1]]))
-    links = []
-    for number, child in enumerate(children):
-        links.append(_compared(child, first, second, held, shift, tolerance))
-        if progress is not None:
-            progress(number + 1, len(children))
+    links = [_compared(child, first, second, held, shift, tolerance) for child in children]
     if any(one.note == APART for one in links):
         notes.append("Moving links that share no time were not compared: try --align start.")
     return Differences(

@@ -29,19 +29,17 @@ def block(
     precision: int = 3,
     with_distance: bool = False,
     quaternion_tag: str = "",
-    pads_time: bool = False,
 ) -> str:
     """Write a transform as tf2_echo does, line by line.
 
     The nanoseconds are not padded with zeros, as tf2_echo's are not: 5 s and 12 ns
-    is `5.12`. `as_object` has the exact stamp, and so has a block that pads.
+    is `5.12`. `as_object` has the exact stamp.
 
     Args:
         found: What a lookup gave.
         precision: Decimals of every number.
         with_distance: Whether a last line gives the length of the translation.
         quaternion_tag: What newer releases add after "Quaternion": " (xyzw)".
-        pads_time: Whether 5 s and 12 ns is `5.000000012`, for who need not read as tf2_echo's.
 
     Returns:
         Lines, each with its newline.
@@ -50,7 +48,7 @@ def block(
     rpy = rpy_from_quaternion(pose.rotation)
     whole, rest = divmod(found.stamp, NANOSECONDS)
     lines = [
-        f"At time {whole}.{rest:0{9 if pads_time else 1}}",
+        f"At time {whole}.{rest}",
         f"- Translation: {_list(pose.translation, precision)}",
         f"- Rotation: in Quaternion{quaternion_tag} {_list(pose.rotation, precision)}",
         f"- Rotation: in RPY (radian) {_list(rpy, precision)}",

@@ -15,6 +15,9 @@ from tftool.views.braille_trail import Stroke
 EDGE: Final = 11.088889122009277
 """Metres along one side of turtlesim's field."""
 
+_APART: Final = 3.4
+"""Rows of the terminal between two lines of a grid, at the least."""
+
 FARTHEST: Final = 1e9
 """Metres from the fixed frame beyond which nothing is drawn."""
 
@@ -158,9 +161,9 @@ def fitted_view(box: Box, columns: int, rows: int) -> Viewport:
     return Viewport(middle_x - 0.25 * columns * per_row, middle_y - 0.5 * rows * per_row, per_row)
 
 
-def grid_step(per_row: float, least: float = 3.4) -> float:
+def grid_step(per_row: float) -> float:
     """Metres between two lines of a grid: 1, 2 or 5 of a power of ten, some rows apart."""
-    wanted = least * per_row
+    wanted = _APART * per_row
     power = 10.0 ** math.floor(math.log10(wanted))
     return next(power * step for step in (1.0, 2.0, 5.0, 10.0) if power * step >= wanted * 0.999)
 

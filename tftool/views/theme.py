@@ -92,24 +92,23 @@ LIGHT = Palette(
 )
 
 
-def is_stale(age: float, timeout: float = FRAME_TIMEOUT) -> bool:
-    """Whether a frame was silent for so long that its age is worth saying: a third of `timeout`."""
+def is_stale(age: float) -> bool:
+    """Whether a frame was silent for a third of `FRAME_TIMEOUT`, so that its age is worth saying."""
     # Asked this way round, an age that is not a number is stale.
-    return not age <= timeout / 3.0
+    return not age <= FRAME_TIMEOUT / 3.0
 
 
-def of_age(color: Color, age: float, palette: Palette, timeout: float = FRAME_TIMEOUT) -> Color:
+def of_age(color: Color, age: float, palette: Palette) -> Color:
     """The colour of a frame without news: its own, then amber, and red when it counts as dead.
 
     Args:
         color: Its own.
         age: Seconds since its latest stamp last changed; 0 for static frames.
         palette: Of the screen.
-        timeout: Seconds after which the frame is dead.
     """
-    if not is_stale(age, timeout):
+    if not is_stale(age):
         return color
-    return palette.warning if age <= timeout else palette.error
+    return palette.warning if age <= FRAME_TIMEOUT else palette.error
 
 
 def readable(color: Color, palette: Palette) -> Color:

@@ -154,8 +154,6 @@ class Participant:
         quality: Quality,
         on_sample: Callable[[DdsSample], object],
         on_refused: Callable[[int], object] | None = None,
-        *,
-        hears_own: bool = False,
     ) -> "TopicReader":
         """Have `on_sample` called on the loop with what others write.
 
@@ -165,7 +163,6 @@ class Participant:
             quality: What is asked for.
             on_sample: Called with every message.
             on_refused: Called with the number of the policy by which a writer does not fit.
-            hears_own: Whether what this process writes comes in, too.
         """
         from cyclonedds.core import Listener, Policy
         from cyclonedds.sub import DataReader
@@ -183,8 +180,7 @@ class Participant:
 
         # All that waits is kept: it is taken at once, and bounds are those of the inbox.
         policies = _policies(quality, Policy.History.KeepAll)
-        if not hears_own:
-            policies.append(Policy.IgnoreLocal.Participant)
+        policies.append(Policy.IgnoreLocal.Participant)
         made = DataReader(
             self.entity, self._topic(topic, kind), qos=_qos(policies), listener=Taking()
         )

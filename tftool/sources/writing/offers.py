@@ -35,15 +35,14 @@ _POLICY = re.compile(
 )
 
 
-def offers_text(static: bool, *, depth: int = 1) -> str:
+def offers_text(static: bool) -> str:
     """The offer of a publisher of transforms, in words.
 
     Args:
         static: Whether late subscribers get the last message too.
-        depth: How many messages are kept for them.
     """
     durability = "transient_local" if static else "volatile"
-    return _WORDS.format(depth=depth if static else 100, durability=durability)
+    return _WORDS.format(depth=1 if static else 100, durability=durability)
 
 
 def restyled(text: str, version: int) -> str:

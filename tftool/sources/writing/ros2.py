@@ -9,20 +9,19 @@ from tftool.sources.writing.offers import offers_text
 TRANSFORMS: Final = "tf2_msgs/msg/TFMessage"
 
 
-def ros2_channel(topic: str, kind: str, *, static: bool = False, depth: int = 1) -> Channel:
+def ros2_channel(topic: str, kind: str, *, static: bool = False) -> Channel:
     """A stream of messages of a type we know, as ROS 2 records it.
 
     Args:
         topic: Its name.
         kind: The type: "tf2_msgs/msg/TFMessage".
         static: Whether late subscribers get the last message too.
-        depth: How many messages are kept for them.
 
     Raises:
         InputError: If the type is not known.
     """
     metadata = (
-        ("offered_qos_profiles", offers_text(static, depth=depth)),
+        ("offered_qos_profiles", offers_text(static)),
         ("topic_type_hash", known_hash(kind)),
     )
     return Channel(topic, kind, "cdr", "ros2msg", ros2_definition(kind).encode(), metadata)
