@@ -273,15 +273,13 @@ def test_what_was_opened_is_closed_again(tftool, recording, outside):
     assert [stored.closed for stored in outside["providers"].opened] == [1, 1]
 
 
-def test_what_is_recorded_is_observed_up_to_the_moment_or_whole(recording, outside):
+def test_what_is_recorded_is_observed_up_to_the_moment(recording, outside):
     connection = Connection(providers=outside["providers"])
 
     seen = observe(connection, recording, At(seconds(2)))
-    whole = observe(connection, recording, At(seconds(2)), whole=True)
 
-    assert seen.moment == whole.moment == seen.now == seconds(52)
+    assert seen.moment == seen.now == seconds(52)
     assert seen.buffer.get_latest_common_time("world", "a") == seconds(52)
-    assert whole.buffer.get_latest_common_time("world", "a") == seconds(60)
     assert seen.buffer.lookup_transform("a", "laser").transform.translation.z == 1.0
 
 
@@ -305,11 +303,12 @@ def test_a_recording_is_no_scenario(tftool, recording, command):
     assert result.err == f"tftool: '{recording}' is an MCAP recording: a scenario is needed here.\n"
 
 
-def test_a_scenario_is_played_on_for_what_comes_late(simulated):
-    seen = observe(simulated, "turtles", At(seconds(4)), whole=True)
+def test_a_scenario_is_played_up_to_the_moment(simulated):
+    seen = observe(simulated, "turtles", At(seconds(4)))
 
     assert seen.moment == seen.epoch + seconds(4)
     assert seen.buffer.can_transform("turtle2", "turtle1", seen.moment)
+    assert not seen.buffer.can_transform("turtle2", "turtle1", seen.moment + seconds(0.1))
 
 
 def test_a_scenario_is_read_with_its_arguments():

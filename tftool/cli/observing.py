@@ -54,9 +54,6 @@ LISTEN = seconds(5)
 LISTEN_LIVE = seconds(2)
 """How long a session that runs is listened to: enough for a rate."""
 
-AHEAD = seconds(1)
-"""How long past the moment asked about a scenario is played, for what comes late."""
-
 
 @dataclass(frozen=True, slots=True)
 class Observed:
@@ -96,7 +93,6 @@ def observe(
     word: str | None = None,
     at: At | None = None,
     *,
-    whole: bool = False,
     cache_time: Duration | None = None,
 ) -> Observed:
     """Give what is known of the frames of FROM at a moment.
@@ -109,8 +105,6 @@ def observe(
         connection: What the command's options say.
         word: What FROM names; None for the session that runs, else the turtle world.
         at: The moment; None for the latest.
-        whole: Whether to read on past the moment: to the end of a recording, for `AHEAD` in
-            what is simulated. A lookup between two samples needs the second one.
         cache_time: How far back a simulated world's or session's buffer remembers.
 
     Raises:
@@ -124,7 +118,7 @@ def observe(
         stored = connection.open_stored(found)
         name, start = f"{kind_word(found)} '{visible(stored.name)}'", stored.start
         moment = LATEST if at is None else checked_moment(at, name, start, stored.end - start)
-        buffer = stored.buffer if whole or not moment else _up_to(stored.buffer, moment)
+        buffer = _up_to(stored.buffer, moment) if moment else stored.buffer
         moving = stored.moving if isinstance(stored, RobotAtRest) else None
         return Observed(name, buffer, start, moment or stored.end, moment, moving)
     refuse_options_of_files(connection, word)
@@ -144,7 +138,7 @@ def observe(
         because=NO_SESSION if at is None else A_MOMENT,
     )
     end = session.moment(at or At(LISTEN))
-    session.live_until(end + AHEAD if whole else end)
+    session.live_until(end)
     world = session.world
     return Observed(
         session.name, world.buffer, world.clock.epoch, end, LATEST if at is None else end

@@ -93,7 +93,7 @@ LIGHT = Palette(
 
 
 def is_stale(age: float) -> bool:
-    """Whether a frame was silent for a third of `FRAME_TIMEOUT`, so that its age is worth saying."""
+    """Whether a frame was silent for a third of `FRAME_TIMEOUT`: its age is worth saying."""
     # Asked this way round, an age that is not a number is stale.
     return not age <= FRAME_TIMEOUT / 3.0
 
