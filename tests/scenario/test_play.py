@@ -15,15 +15,17 @@ from tftool.runtime.clock import SimClock, run
 from tftool.runtime.node import Node
 from tftool.runtime.world import TransformMessage
 from tftool.scenario import builtin
+from tftool.scenario.actions import left_to_a_person
 from tftool.scenario.load import load, parse
 from tftool.scenario.play import build, run_scenario
 from tftool.stamps import seconds
 
 
-def play(text, **options):
+def play(text, *, by_hand=False):
     """Live through a scenario on simulated time."""
     clock = SimClock()
-    played = build(parse(text, "s.yaml"), clock, **options)
+    scenario = parse(text, "s.yaml")
+    played = build(left_to_a_person(scenario) if by_hand else scenario, clock)
     run(clock, played.live())
     return played
 
@@ -160,7 +162,7 @@ def test_without_its_script_a_person_drives_and_the_world_goes_on():
         "  - {at: 1 s, drive: {linear: 1 m/s}, for: 1 s}\n"
         "  - {at: 2 s, spawn: bob}\n"
         "expect: [{at: 1 s, turtles: []}]\n",
-        script=False,
+        by_hand=True,
     )
 
     assert [node.name for node in played.world.nodes] == ["turtlesim", "script"]
@@ -171,7 +173,7 @@ def test_without_its_script_a_person_drives_and_the_world_goes_on():
 
 def test_a_scenario_whose_script_only_drives_has_none_without_it():
     played = play(
-        "duration: 1 s\nnodes: [turtlesim]\nscript: [{at: 0 s, keys: up}]\n", script=False
+        "duration: 1 s\nnodes: [turtlesim]\nscript: [{at: 0 s, keys: up}]\n", by_hand=True
     )
 
     assert [node.name for node in played.world.nodes] == ["turtlesim"]

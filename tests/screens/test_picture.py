@@ -9,11 +9,12 @@ from pathlib import Path
 import pytest
 
 from tests.screens.moving_picture import animated
-from tftool.cli.naming import left_to_a_person, scenario_named
+from tftool.cli.naming import scenario_named
 from tftool.cli.onscreen import simulator_of
 from tftool.nodes.idle_drawing import IdleDrawing
 from tftool.runtime.clock import Phase, SimClock, run
 from tftool.runtime.node import Node
+from tftool.scenario.actions import left_to_a_person
 from tftool.scenario.play import build
 from tftool.screens.scene import Scene
 from tftool.screens.setting import Setting

@@ -22,7 +22,7 @@ from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Protocol
 
 from tftool.cli.connection import Connection, Mode
-from tftool.cli.naming import kind_in_words, kind_word, left_to_a_person, named, scenario_named
+from tftool.cli.naming import kind_in_words, kind_word, named, scenario_named
 from tftool.cli.notices import notice
 from tftool.cli.session import Session, lived, shared
 from tftool.errors import LinkError, UsageError
@@ -212,6 +212,8 @@ def open_session(
             hosted = "a turtlesim alone" if alone else f"scenario '{HOME}'"
             notice(f"{because}: hosting {hosted}.")
         if by_hand:
+            from tftool.scenario.actions import left_to_a_person
+
             scenario = left_to_a_person(scenario)
         # Nothing judges what happens in it.
         scenario = replace(scenario, expect=(), cache_time=cache_time or scenario.cache_time)

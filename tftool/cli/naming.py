@@ -1,7 +1,6 @@
 """What FROM names, by its content: a scenario, a recording, a robot description."""
 
 from collections.abc import Mapping
-from dataclasses import replace
 from typing import TYPE_CHECKING
 
 from tftool.errors import InputError, UsageError
@@ -60,11 +59,3 @@ def kind_in_words(found: Found) -> str:
 def kind_word(found: Found) -> str:
     """What FROM names, in a word: whatever is recorded is a recording."""
     return "recording" if found.kind.is_recording else found.kind.value
-
-
-def left_to_a_person(scenario: "Scenario") -> "Scenario":
-    """The scenario without what a person at the keys does better, and without a judge."""
-    from tftool.scenario.actions import Drive, Press
-
-    script = tuple(step for step in scenario.script if not isinstance(step.action, Drive | Press))
-    return replace(scenario, script=script, expect=())

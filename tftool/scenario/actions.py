@@ -6,7 +6,7 @@ scenario calls it, and `do` does it. To add one: write it, and name it in `ACTIO
 
 from abc import ABC, abstractmethod
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from types import MappingProxyType
 from typing import TYPE_CHECKING, ClassVar
 
@@ -36,6 +36,7 @@ from tftool.scenario.values import RelativeMoment
 from tftool.stamps import Duration, seconds
 
 if TYPE_CHECKING:
+    from tftool.scenario.schema import Scenario
     from tftool.scenario.script import Script
 
 REFRESH: Duration = seconds(0.5)
@@ -352,3 +353,12 @@ ACTIONS: Mapping[str, type[Action]] = MappingProxyType(
     }
 )
 """Every action, by its key."""
+
+
+def left_to_a_person(scenario: "Scenario") -> "Scenario":
+    """The scenario without what a person at the keys does better: keys and drives.
+
+    What happens to the world still does. With a person in it, it promises nothing.
+    """
+    script = tuple(step for step in scenario.script if not isinstance(step.action, Drive | Press))
+    return replace(scenario, script=script, expect=())

@@ -10,7 +10,7 @@ from tftool.runtime.clock import Clock, SimClock, run
 from tftool.runtime.supervisor import live
 from tftool.runtime.world import World
 from tftool.scenario import load
-from tftool.scenario.actions import Drive, Press
+from tftool.scenario.actions import Press
 from tftool.scenario.expectations import Expectations
 from tftool.scenario.kinds import KINDS
 from tftool.scenario.load import NO_ARGUMENTS
@@ -46,7 +46,6 @@ class Play:
         scenario: Scenario,
         clock: Clock,
         *,
-        script: bool = True,
         stand_ins: Mapping[str, StandIn] = NO_STAND_INS,
     ) -> None:
         """Build the world; nothing moves before `live`.
@@ -54,8 +53,6 @@ class Play:
         Args:
             scenario: What to play.
             clock: On whose time.
-            script: Whether all of the scenario's own script is played. Without it a person
-                drives: keys and drives are left out, what happens to the world still does.
             stand_ins: What is started in place of some of its nodes, by their names.
         """
         self.scenario = scenario
@@ -69,16 +66,12 @@ class Play:
             else:
                 stand_in(self.world)
         steps = scenario.script
-        if not script:
-            steps = tuple(step for step in steps if not isinstance(step.action, Press | Drive))
         presses = any(isinstance(step.action, Press) for step in steps)
         if presses and not any(entry.kind == "teleop" for entry in scenario.nodes):
             KINDS["teleop"].build(self.world, TELEOP, KINDS["teleop"].defaults())
         self._script = Script(self.world, steps) if steps else None
-        # With a person in it a scenario promises nothing.
-        expected = scenario.expect if script else ()
         self._expectations = (
-            Expectations(self.world, expected, scenario.doctor) if expected else None
+            Expectations(self.world, scenario.expect, scenario.doctor) if scenario.expect else None
         )
 
     async def live(self, until: Stamp | None = None, *, endless: bool = False) -> None:
@@ -132,8 +125,6 @@ def build(
     scenario: Scenario,
     clock: Clock,
     arguments: Mapping[str, str] = NO_ARGUMENTS,
-    *,
-    script: bool = True,
 ) -> Play:
     """Build a play.
 
@@ -141,7 +132,6 @@ def build(
         scenario: What to play.
         clock: On whose time.
         arguments: Values for arguments the scenario declares.
-        script: Whether all of its own script is played, or a person drives.
 
     Raises:
         UsageError: If an argument is given that the scenario does not declare.
@@ -149,7 +139,7 @@ def build(
     """
     if arguments:
         scenario = load.parse(scenario.source, scenario.file, arguments)
-    return Play(scenario, clock, script=script)
+    return Play(scenario, clock)
 
 
 def run_scenario(

@@ -157,10 +157,10 @@ class _Showing:
             wanted: Its name, where it was asked for; None to show what runs here, if it does.
         """
         from tftool.cli.hosting import look_around
-        from tftool.cli.naming import left_to_a_person
         from tftool.cli.onscreen import driver_of, run_app, simulator_of
         from tftool.cli.session import shared
         from tftool.scenario import builtin
+        from tftool.scenario.actions import left_to_a_person
         from tftool.scenario.play import Watch, build
         from tftool.screens.setting import Setting
 
