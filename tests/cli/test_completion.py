@@ -48,6 +48,15 @@ def test_a_value_that_is_one_of_a_few_is_offered(offered):
     assert offered("doctor", "--fail-on", "") == ["error", "warning", "note", "never"]
 
 
+def test_words_of_ros_2_and_ids_of_checks_are_offered(offered):
+    assert offered("ros2", "to") == ["topic"]
+    assert offered("ros2", "topic", "e") == ["echo"]
+    assert offered("ros2", "topik", "") == offered("ros2", "topic", "echo", "") == []
+    assert "loop\t" in offered("doctor", "--explain", "loo", shell="fish")[0]
+    assert offered("doctor", "--select", "split") == ["split-tree"]
+    assert offered("new", "here", "--example", "ti") == ["time_travel"]
+
+
 def test_scenarios_are_offered_where_one_may_stand_and_again_where_several_may(offered):
     assert offered("demo", "tur") == ["turtles"]
     assert offered("check", "turtles", "carr") == ["carrot"]

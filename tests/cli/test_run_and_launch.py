@@ -451,6 +451,19 @@ def test_ros2s_words_ask_the_session_and_are_refused_with_a_sentence(capsys):
     assert "invalid choice: 'topik'" in capsys.readouterr().err
     assert main(["ros2", "run", "turtlesim", "turtlesim_node"]) == 2
     assert "'ros2 run' is 'tftool run' here" in capsys.readouterr().err
+    assert main(["ros2", "bag", "info", "run.mcap"]) == 2
+    assert "'ros2 bag info' is 'tftool info' here" in capsys.readouterr().err
+
+
+@pytest.mark.parametrize(
+    ("words", "told"), [(["topic"], "list, echo, hz"), (["topic", "echo"], "--once")]
+)
+def test_a_word_of_ros2s_has_help_as_there(capsys, words, told):
+    with pytest.raises(SystemExit) as ended:
+        main(["ros2", *words, "--help"])
+
+    assert ended.value.code == 0
+    assert told in capsys.readouterr().out
 
 
 @pytest.mark.parametrize(

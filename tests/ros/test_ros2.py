@@ -168,6 +168,8 @@ def test_what_is_not_there_is_named(ros_runtime, tmp_path):
         ),
         (["service", "call", "/spawn", "turtlesim/srv/Spawn", "7"], "takes fields"),
         (["topic", "pub", "/a", "geometry_msgs/msg/Polygon", "{points: 3}"], "it takes a list"),
+        (["topic", "pub", "/a", "std_msgs/msg/Empty", "-r", "0"], "0 is no number of Hz above 0"),
+        (["topic", "pub", "/a", "std_msgs/msg/Empty", "-r", "nan"], "nan is no number"),
         (["interface", "show", "std_msgs/msg/Strin"], "did you mean 'std_msgs/msg/String'"),
     ],
 )

@@ -57,6 +57,9 @@ FRAMES: Final = {"TARGET", "SOURCE", "A", "B", "FRAME", "LEADER", "PARENT", "CHI
 SOURCES: Final = {"FROM", "SCENARIO"}
 """What the help calls words that may be a built-in scenario, beside a file."""
 
+CHECK_IDS: Final = {"ID", "FINDING"}
+"""What the help calls words that are ids of the doctor's checks."""
+
 Offer = tuple[str, str]
 """A word, and what it stands for; "" where the word says it."""
 
@@ -174,6 +177,14 @@ def _values(kind: Any, called: str, before: Sequence[str]) -> Iterator[Offer]:
         from tftool.scenario import builtin
 
         yield from ((name, "scenario") for name in builtin.names())
+    elif bare.partition(",")[0] in CHECK_IDS:
+        from tftool.diagnostics.catalogue import CHECKS
+
+        yield from ((one.id, one.summary) for one in CHECKS.values())
+    elif bare == "STEP":
+        from tftool.cli.commands.new import EXAMPLES
+
+        yield from ((step, "") for step in EXAMPLES)
 
 
 def _frames(before: Sequence[str]) -> list[str]:
@@ -252,11 +263,21 @@ def _launches(before: Sequence[str]) -> Iterator[Offer]:
         yield from ((path.name, "") for path in sorted(folder.glob("*launch.*")))
 
 
+def _ros2(before: Sequence[str]) -> Iterator[Offer]:
+    """The commands of ROS 2's own command line, then the verbs of the one that is named."""
+    from tftool.ros.host import ros2_words
+
+    verbs = ros2_words.verbs()
+    if len(before) < 2:
+        yield from ((word, "") for word in (verbs.get(before[0], []) if before else verbs))
+
+
 _WORDS: Final[dict[str, Callable[[Sequence[str]], Iterator[Offer]]]] = {
+    "ros2": _ros2,
     "run": _packages,
     "launch": _launches,
 }
-"""Commands whose words are names of the workspace."""
+"""Commands whose words are looked up: names of the workspace, words of ROS 2."""
 
 
 def shell_here() -> str:

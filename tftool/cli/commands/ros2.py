@@ -9,6 +9,19 @@ from tftool.cli.options import RunFor
 if TYPE_CHECKING:
     from tftool.cli.connection import Connection
 
+_ELSEWHERE = {
+    "run": "run",
+    "launch": "launch",
+    "bag info": "info",
+    "bag play": "play",
+    "bag record": "record",
+    "bag convert": "edit",
+    "doctor": "doctor",
+    "wtf": "doctor",
+    "pkg create": "new",
+}
+"""Words of ROS 2's command line that are commands of their own."""
+
 
 def ros2(
     connection: "Connection",
@@ -41,8 +54,10 @@ def ros2(
     from tftool.ros.host import hosting, user_code
     from tftool.ros.host.program import Program
 
-    if words[0] in ("run", "launch"):
-        raise UsageError(f"'ros2 {words[0]}' is 'tftool {words[0]}' here")
+    for length in (2, 1):
+        asked = " ".join(words[:length])
+        if asked in _ELSEWHERE:
+            raise UsageError(f"'ros2 {asked}' is 'tftool {_ELSEWHERE[asked]}' here")
     workspace = hosting.Workspace(Path.cwd())
     body = ros2_command.body(words, workspace, typer.echo)
     if words[0] in ("interface", "pkg"):

@@ -1,7 +1,9 @@
 """The words of ROS 2's own command line, read: `ros2 topic list`, `ros2 service call` and so on."""
 
 import argparse
+import math
 from collections.abc import Mapping, Sequence
+from contextlib import suppress
 from typing import Any, NoReturn
 
 from tftool.errors import InputError, UsageError
@@ -24,23 +26,30 @@ def parse(words: Sequence[str]) -> argparse.Namespace:
     Raises:
         UsageError: If there is no such command, or its words are wrong.
     """
-    return _parser().parse_args(list(words))
+    parser, _ = _parser()
+    return parser.parse_args(list(words))
 
 
-def _parser() -> _Parser:
+def verbs() -> dict[str, list[str]]:
+    """The verbs there are of each command, in the order of the help."""
+    return _parser()[1]
+
+
+def _parser() -> tuple[_Parser, dict[str, list[str]]]:
+    listed_verbs: list[Any] = []
     parser = _Parser(prog="ros2", add_help=False)
     nouns = parser.add_subparsers(dest="noun", required=True, metavar="COMMAND")
 
     def noun(name: str) -> Any:
-        return nouns.add_parser(name, add_help=False).add_subparsers(
-            dest="verb", required=True, metavar="VERB"
-        )
+        verbs = nouns.add_parser(name).add_subparsers(dest="verb", required=True, metavar="VERB")
+        listed_verbs.append(verbs)
+        return verbs
 
     def verb(of: Any, name: str, *arguments: str) -> Any:
-        made = of.add_parser(name, add_help=False)
+        parser = of.add_parser(name)
         for argument in arguments:
-            made.add_argument(argument, nargs="?" if argument.startswith("[") else None)
-        return made
+            parser.add_argument(argument)
+        return parser
 
     def flag(of: Any, *names: str) -> None:
         of.add_argument(*names, action="store_true")
@@ -57,7 +66,7 @@ def _parser() -> _Parser:
     verb(topic, "type", "topic")
     pub = verb(topic, "pub", "topic", "type")
     pub.add_argument("values", nargs="?", default="{}")
-    pub.add_argument("-r", "--rate", type=float, default=1.0)
+    pub.add_argument("-r", "--rate", type=_rate, default=1.0)
     pub.add_argument("-t", "--times", type=int, default=0)
     pub.add_argument("-w", "--wait-matching-subscriptions", type=int)
     flag(pub, "-1", "--once")
@@ -87,7 +96,18 @@ def _parser() -> _Parser:
 
     verb(noun("interface"), "show", "type")
     verb(noun("pkg"), "list")
-    return parser
+    for of in (nouns, *listed_verbs):
+        of.help = ", ".join(of.choices)
+    return parser, {
+        name: list(of.choices) for name, of in zip(nouns.choices, listed_verbs, strict=True)
+    }
+
+
+def _rate(text: str) -> float:
+    with suppress(ValueError):
+        if 0.0 < (rate := float(text)) < math.inf:
+            return rate
+    raise argparse.ArgumentTypeError(f"{text} is no number of Hz above 0")
 
 
 def interface(name: str, kind: str) -> Any:
