@@ -6,6 +6,7 @@ import pickle
 
 import pytest
 
+import tftool
 from tftool import Buffer, Transform, TransformStamped, errors, seconds
 from tftool.errors import (
     BackwardExtrapolationException,
@@ -91,3 +92,19 @@ def test_the_remedy_of_a_timeout_is_that_of_its_refusal_from_the_beginning():
 
     assert late.remedy == LOOKUP.remedy
     assert late.__cause__ is LOOKUP
+
+
+@pytest.mark.parametrize(
+    "ask",
+    [
+        tftool.diagnose,
+        tftool.view,
+        lambda given: tftool.explain(given, "map", "base"),
+        lambda given: tftool.export(given, "run.csv", "map", "base"),
+    ],
+)
+def test_a_path_where_a_recording_is_wanted_is_told_how_to_open_it(ask):
+    with pytest.raises(TypeError, match=r"not 'run.mcap': tftool.open_recording\('run.mcap'\)"):
+        ask("run.mcap")
+    with pytest.raises(TypeError, match="a Recording or a Buffer is wanted, not 42"):
+        ask(42)

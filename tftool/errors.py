@@ -431,3 +431,11 @@ class MalformedMessage(InputError):
 
 class LinkError(InputError):
     """A session with other processes cannot be opened, or one of them does not answer."""
+
+
+def without_frames(given: object) -> TypeError:
+    """What to raise where a recording or a buffer is wanted, and something else was given."""
+    hint = ""
+    if isinstance(given, str | os.PathLike):
+        hint = f": tftool.open_recording({os.fspath(given)!r}) opens one"
+    return TypeError(f"a Recording or a Buffer is wanted, not {given!r:.80}{hint}")

@@ -153,6 +153,7 @@ def view(
         InputError: If nothing of the recording can be read.
         TypeError: If it is neither a buffer nor a recording.
     """
+    from tftool.errors import without_frames
     from tftool.frames.buffer import Buffer
     from tftool.screens.beginning import first_moment
     from tftool.screens.browser.meshes import MeshFolders
@@ -167,7 +168,7 @@ def view(
     elif isinstance(shown, Buffer):
         name, buffer, span = "a buffer", shown, reach(shown.snapshot(0).frames)
     else:
-        raise TypeError(f"a Buffer or a Recording is shown, not {shown!r:.80}")
+        raise without_frames(shown)
     begin, end = span or (1, 1)
     begin = max(1, begin)
     drawn = None if robot is None else ShownRobot(robot, MeshFolders(given=[*map(Path, meshes)]))

@@ -265,11 +265,10 @@ def _launches(before: Sequence[str]) -> Iterator[Offer]:
 
 def _ros2(before: Sequence[str]) -> Iterator[Offer]:
     """The commands of ROS 2's own command line, then the verbs of the one that is named."""
-    from tftool.ros.host import ros2_words
+    from tftool.cli.commands.ros2 import verbs_of
 
-    verbs = ros2_words.verbs()
     if len(before) < 2:
-        yield from ((word, "") for word in (verbs.get(before[0], []) if before else verbs))
+        yield from ((word, "") for word in verbs_of(before))
 
 
 _WORDS: Final[dict[str, Callable[[Sequence[str]], Iterator[Offer]]]] = {

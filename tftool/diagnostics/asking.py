@@ -13,6 +13,7 @@ from tftool.diagnostics.model import Model, Settings
 from tftool.diagnostics.recorded import described_by
 from tftool.diagnostics.scope import Readable, Scope
 from tftool.diagnostics.tracing import Question
+from tftool.errors import without_frames
 from tftool.frames.buffer import Buffer
 from tftool.stamps import CACHE_TIME, LATEST, Duration, Stamp
 
@@ -41,6 +42,7 @@ def diagnose(
 
     Raises:
         InputError: If nothing of the recording can be read.
+        TypeError: If it is neither a recording nor a buffer.
         UsageError: If there is no such check or area, or the description needs xacro, which is
             not installed.
     """
@@ -73,6 +75,7 @@ def explain(
 
     Raises:
         InputError: If nothing of the recording can be read.
+        TypeError: If it is neither a recording nor a buffer.
     """
     settings = Settings(cache_time=cache_time)
     model = Model(_material(recording, Scope()), settings)
@@ -83,6 +86,8 @@ def explain(
 
 def _material(recording: Readable | Buffer, scope: Scope) -> Material:
     if not isinstance(recording, Buffer):
+        if not hasattr(recording, "source"):
+            raise without_frames(recording)
         return scope.material(recording)
     material = of_buffer(recording)
     if scope.described is None:

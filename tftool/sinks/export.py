@@ -9,7 +9,7 @@ from typing import Protocol
 import numpy as np
 import numpy.typing as npt
 
-from tftool.errors import UsageError
+from tftool.errors import UsageError, without_frames
 from tftool.frames.buffer import Buffer
 from tftool.sinks import frame_messages, static_files, trajectory_files
 from tftool.sinks.digits import DECIMALS
@@ -87,6 +87,8 @@ def buffer_of(frames: Framed) -> Buffer:
     """The buffer that holds some frames."""
     if isinstance(frames, Buffer):
         return frames
+    if not hasattr(frames, "buffer"):
+        raise without_frames(frames)
     held = frames.buffer
     return held if isinstance(held, Buffer) else held()
 
@@ -144,6 +146,7 @@ def export(
     Raises:
         InputError: If it cannot be written.
         TransformException: If a frame is unknown, or a pair is joined at no moment.
+        TypeError: If what is to be written has no frames.
         UsageError: If what is asked for does not fit together, or an extra is missing.
     """
     place = Path(path)

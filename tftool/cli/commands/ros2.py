@@ -7,6 +7,8 @@ import typer
 from tftool.cli.options import RunFor
 
 if TYPE_CHECKING:
+    from collections.abc import Collection, Sequence
+
     from tftool.cli.connection import Connection
 
 _ELSEWHERE = {
@@ -76,3 +78,11 @@ def ros2(
 
     session.run(work())
     return ending.judge()
+
+
+def verbs_of(words: "Sequence[str]") -> "Collection[str]":
+    """What there is of ROS 2's commands; behind one of them, its verbs."""
+    from tftool.ros.host import ros2_words
+
+    verbs = ros2_words.verbs()
+    return verbs.get(words[0], []) if words else verbs
