@@ -4,7 +4,8 @@ from rich.segment import Segment
 
 from tftool.screens.camera import Camera
 from tftool.screens.look import Look
-from tftool.views.canvas import Canvas, Line
+from tftool.views.canvas import Canvas
+from tftool.views.cells import Line
 from tftool.views.fixed_width import padded
 from tftool.views.plane import PlanePicture, fitted_view
 

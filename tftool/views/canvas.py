@@ -9,18 +9,26 @@ nothing here knows a buffer or a simulator.
 import math
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
-from functools import lru_cache
-from typing import Final, NamedTuple, TypeAlias
+from typing import Final, TypeAlias
 
-from rich.cells import cell_len
 from rich.segment import Segment
-from rich.style import Style
 
 from tftool.messages import Color
 from tftool.views import sprites, theme
 from tftool.views.braille_trail import Ink, LooseInk, Stroke, sign_of
+from tftool.views.cells import Line, cells_of, line_of, style_of
 from tftool.views.fixed_width import fitted
 from tftool.views.labels import Label, PlacedLabel, Placer
+from tftool.views.paper import (
+    LINK,
+    ROLES,
+    X_AXIS,
+    Y_AXIS,
+    Z_AXIS,
+    PaperColors,
+    on_field,
+    paper,
+)
 from tftool.views.plane import (
     EDGE,
     FARTHEST,
@@ -34,7 +42,6 @@ from tftool.views.plane import (
 )
 from tftool.views.sprites import Cell
 
-Line: TypeAlias = list[Segment]
 _Overlay: TypeAlias = dict[int, dict[int, Cell]]
 
 MOST_NAMED: Final = 80
@@ -49,53 +56,6 @@ WITH_SCALE: Final = (26, 9)
 
 THICK_FROM: Final = 26
 """Rows from which axes are two dots wide."""
-
-
-class PaperColors(NamedTuple):
-    """What is drawn on a ground: its colours for all that is no frame's own."""
-
-    ground: Color
-    grid: Color
-    link: Color
-    x_axis: Color
-    y_axis: Color
-    z_axis: Color
-    accent: Color
-
-
-_BRIGHT: Final = (Color(255, 85, 85), Color(80, 230, 120), Color(110, 170, 255))
-_DEEP: Final = (Color(205, 20, 30), Color(0, 135, 50), Color(20, 90, 230))
-
-# Stand for colours that depend on the ground below; no real colour is negative.
-_LINK, _X, _Y, _Z, _PAIR = (Color(-1, -1, -1 - number) for number in range(5))
-_ROLES: Final = {_LINK: 2, _X: 3, _Y: 4, _Z: 5, _PAIR: 6}
-
-
-def paper(palette: theme.Palette) -> PaperColors:
-    """The colours on a screen's own ground."""
-    red, green, blue = _DEEP if palette is theme.LIGHT else _BRIGHT
-    return PaperColors(
-        palette.panel,
-        theme.blend(palette.panel, palette.dim, 0.25),
-        theme.blend(palette.panel, palette.dim, 0.85),
-        red,
-        green,
-        blue,
-        palette.accent,
-    )
-
-
-def on_field(ground: Color) -> PaperColors:
-    """The colours on the turtles' field, turtlesim's blue unless it is repainted."""
-    return PaperColors(
-        ground,
-        theme.blend(ground, theme.WHITE, 0.13),
-        theme.blend(ground, theme.WHITE, 0.45),
-        Color(255, 110, 110),
-        Color(95, 255, 135),
-        Color(170, 205, 255),
-        theme.DARK.accent,
-    )
 
 
 @dataclass(frozen=True, slots=True)
@@ -273,18 +233,18 @@ class Canvas:
         for one in picture.frames:
             if one.parent is not None:
                 for ends in _dashes((one.x, one.y), one.parent, 0.25 * view.per_row):
-                    ink.draw((*ends, _LINK, 0))
+                    ink.draw((*ends, LINK, 0))
         if picture.field is not None:
             # Without a colour of its own the field has an edge.
             for ends in _edges(picture.field, _SIDES) if self._plain else ():
-                ink.draw((*ends, _LINK, 0))
+                ink.draw((*ends, LINK, 0))
             for ends in _edges(picture.field, picture.field.walls):
                 ink.draw((*ends, theme.WALL, 0))
         length = axis_length(view, self.rows)
         for one in picture.frames:
             if not one.is_frame:
                 continue
-            for (along, up), color in zip(one.axes, (_X, _Y, _Z), strict=False):
+            for (along, up), color in zip(one.axes, (X_AXIS, Y_AXIS, Z_AXIS), strict=False):
                 if math.hypot(along, up) > 0.05:
                     end = one.x + length * along, one.y + length * up
                     ink.draw((one.x, one.y, *end, color, 0))
@@ -383,7 +343,7 @@ class Canvas:
     def _write(self, signs: _Overlay, placed: PlacedLabel) -> None:
         label = placed.label
         cells = signs.setdefault(placed.row, {})
-        for offset, sign in _cells(label.text):
+        for offset, sign in cells_of(label.text):
             cells[placed.column + offset] = Cell(sign, label.color)
 
     # Cells to lines
@@ -392,7 +352,7 @@ class Canvas:
         """Give a line with nothing on it that moves, kept until a trail changes there."""
         kept = self._base(row)
         if kept.line is None:
-            kept.line = _line(kept.cells)
+            kept.line = line_of(kept.cells)
         return kept.line
 
     def _base(self, row: int) -> "_KeptRow":
@@ -413,13 +373,13 @@ class Canvas:
         cells = list(self._base(row).cells)
         for column, (mask, color) in dots.items():
             colors = self._colors(row, column)
-            role = _ROLES.get(color)
+            role = ROLES.get(color)
             ink = color if role is None else colors[role]
             cells[column] = Cell(sign_of(mask, ascii_only=self._ascii), ink, cells[column].ground)
         for column, cell in signs.items():
             ground = cell.ground or cells[column].ground
             cells[column] = Cell(cell.text, cell.ink, ground, cell.bold)
-        return _line(cells)
+        return line_of(cells)
 
     def _cells(self, row: int) -> list[Cell]:
         """A row of grid, pens and trails, every cell with its ground."""
@@ -487,7 +447,7 @@ class Canvas:
         for y in _multiples(view.bottom, view.bottom + self._high, step):
             if math.floor(self.place(0.0, y)[1]) == row:
                 text = metres(y, step)
-        style = _style(theme.blend(self._palette.panel, self._palette.dim, 0.9), None, False)
+        style = style_of(theme.blend(self._palette.panel, self._palette.dim, 0.9), None, False)
         return [Segment(f"{text[: self.gutter - 1]:>{self.gutter - 1}} ", style)]
 
     def _below(self, step: float) -> Line:
@@ -502,7 +462,7 @@ class Canvas:
             if free <= start and start + len(text) <= len(signs):
                 signs[start : start + len(text)] = text
                 free = start + len(text) + 1
-        style = _style(theme.blend(self._palette.panel, self._palette.dim, 0.9), None, False)
+        style = style_of(theme.blend(self._palette.panel, self._palette.dim, 0.9), None, False)
         return [Segment("".join(signs), style)]
 
 
@@ -572,50 +532,3 @@ def _dashes(start: Point, end: Point, dot: float) -> Iterator[tuple[float, float
 def _carried(stroke: Stroke, field: TurtleField) -> Stroke:
     x0, y0, x1, y1, color, width = stroke
     return (*field.place(x0, y0), *field.place(x1, y1), color, width)
-
-
-def _cells(text: str) -> Iterator[tuple[int, str]]:
-    """Share a text out over cells; the cell after a wide sign holds nothing."""
-    offset = 0
-    shown: list[tuple[int, str]] = []
-    for sign in text:
-        width = cell_len(sign)
-        if width == 0:
-            # A mark stands on the sign before it; one with nothing to stand on has no cell.
-            if shown:
-                start, before = shown[-1]
-                shown[-1] = start, before + sign
-            continue
-        shown.append((offset, sign))
-        shown.extend((offset + more, "") for more in range(1, width))
-        offset += width
-    yield from shown
-
-
-def _line(cells: list[Cell]) -> Line:
-    """Join cells that look the same into segments."""
-    line: Line = []
-    text: list[str] = []
-    look: tuple[Color | None, Color | None, bool] = (None, None, False)
-    for cell in cells:
-        mine = cell.ink, cell.ground, cell.bold
-        if cell.text == " " and text and cell.ground == look[1]:
-            # A blank has no ink: it needs no segment, and a terminal no code, of its own.
-            mine = look
-        if mine != look and cell.text:
-            if text:
-                line.append(Segment("".join(text), _style(*look)))
-            text, look = [], mine
-        text.append(cell.text)
-    if text:
-        line.append(Segment("".join(text), _style(*look)))
-    return line
-
-
-@lru_cache(maxsize=4096)
-def _style(ink: Color | None, ground: Color | None, bold: bool) -> Style:
-    return Style(
-        color=None if ink is None else theme.hexadecimal(ink),
-        bgcolor=None if ground is None else theme.hexadecimal(ground),
-        bold=bold or None,
-    )
