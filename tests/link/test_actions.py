@@ -7,27 +7,21 @@ import pytest
 from tests.link.conftest import new_world, until
 from tests.patience import PATIENCE
 from tftool.interfaces.classes import INTERFACES
-from tftool.link import actions
 from tftool.link.actions import ActionServer
 from tftool.link.graph import Role
 from tftool.link.options import Options
 from tftool.link.session import Link
 from tftool.messages import Rotated
+from tftool.runtime import action_parts
 from tftool.runtime.clock import WallClock, run
-from tftool.wire.codec import codec
 
 ROTATE = "turtlesim/action/RotateAbsolute"
 CANCEL = "action_msgs/srv/CancelGoal"
 UNKNOWN = 2
 
 
-def packed(ros_type, **fields):
-    kind = INTERFACES.part(ros_type)
-    return codec(kind).encode(kind(**fields))
-
-
-def unpacked(ros_type, payload):
-    return codec(INTERFACES.part(ros_type)).decode(payload)
+def message(ros_type, **fields):
+    return INTERFACES.part(ros_type)(**fields)
 
 
 def goal_id(number):
@@ -36,7 +30,7 @@ def goal_id(number):
 
 
 class Stranger:
-    """Talks to the server of an action in the bytes that came in; goals are ended by hand."""
+    """Talks to the server of an action in what came in; goals are ended by hand."""
 
     def __init__(self, link, world, *, decides=False):
         self.goals = []
@@ -52,15 +46,14 @@ class Stranger:
             goal.decided = asyncio.get_running_loop().create_future()
 
     async def send(self, number):
-        goal = INTERFACES.part(f"{ROTATE}_Goal")(theta=1.5)
-        asked = packed(f"{ROTATE}_SendGoal_Request", goal_id=goal_id(number), goal=goal)
-        answer = await self.server._send_goal(asked)
-        return unpacked(f"{ROTATE}_SendGoal_Response", answer).accepted
+        goal = message(f"{ROTATE}_Goal", theta=1.5)
+        asked = message(f"{ROTATE}_SendGoal_Request", goal_id=goal_id(number), goal=goal)
+        return (await self.server.parts.send_goal(asked)).accepted
 
     async def cancel(self, number):
-        info = INTERFACES.part("action_msgs/msg/GoalInfo")(goal_id=goal_id(number))
-        answer = await self.server._cancel_goal(packed(f"{CANCEL}_Request", goal_info=info))
-        return unpacked(f"{CANCEL}_Response", answer).return_code
+        info = message("action_msgs/msg/GoalInfo", goal_id=goal_id(number))
+        asked = message(f"{CANCEL}_Request", goal_info=info)
+        return (await self.server.parts.cancel_goal(asked)).return_code
 
 
 def meet(coroutine, **kwargs):
@@ -77,7 +70,7 @@ def meet(coroutine, **kwargs):
 
 @pytest.fixture(autouse=True)
 def three_are_kept(monkeypatch):
-    monkeypatch.setattr(actions, "KEPT", 3)
+    monkeypatch.setattr(action_parts, "KEPT", 3)
 
 
 def test_a_goal_under_way_is_never_forgotten_and_more_than_are_kept_are_refused():

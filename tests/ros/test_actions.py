@@ -303,3 +303,85 @@ def test_who_serves_an_action_and_who_asks_for_it_are_known(node):
     assert get_action_client_names_and_types_by_node(node, "other", "/far") == count
     with pytest.raises(NodeNameNonExistentError, match="'/nobody'"):
         get_action_client_names_and_types_by_node(node, "nobody", "/")
+
+
+def test_the_services_and_topics_that_ros_2_makes_of_an_action_are_there(client):
+    import rclpy
+    from action_msgs.msg import GoalInfo
+    from action_msgs.srv import CancelGoal
+    from action_tutorials_interfaces.action import Fibonacci
+    from rclpy.qos import qos_profile_action_status_default
+    from unique_identifier_msgs.msg import UUID
+
+    node, made = rclpy.create_node("looks_behind"), Fibonacci.Impl
+    fed, states = [], []
+    node.create_subscription(made.FeedbackMessage, "fibonacci/_action/feedback", fed.append, 10)
+    node.create_subscription(
+        made.GoalStatusMessage,
+        "fibonacci/_action/status",
+        lambda message: states.append([one.status for one in message.status_list]),
+        qos_profile_action_status_default,
+    )
+    send = node.create_client(made.SendGoalService, "fibonacci/_action/send_goal")
+    ask = node.create_client(made.GetResultService, "fibonacci/_action/get_result")
+    stop = node.create_client(CancelGoal, "fibonacci/_action/cancel_goal")
+    goal_id = UUID(uuid=[7] * 16)
+
+    def answer(future):
+        rclpy.spin_until_future_complete(node, future, timeout_sec=30)
+        return future.result()
+
+    # One's own client's goal is seen there too, under the id that its handle has.
+    handle = finish(client, client.send_goal_async(order(2)))
+    assert answer(ask.call_async(made.GetResultService.Request(goal_id=handle.goal_id))).status == 4
+    assert [one.goal_id for one in fed] == [handle.goal_id]
+    assert states == [[2], [4]]
+
+    asked = made.SendGoalService.Request(goal_id=goal_id, goal=order(9))
+    assert answer(send.call_async(asked)).accepted
+    assert not answer(send.call_async(asked)).accepted
+    result = ask.call_async(made.GetResultService.Request(goal_id=goal_id))
+    canceled = answer(stop.call_async(CancelGoal.Request(goal_info=GoalInfo(goal_id=goal_id))))
+    assert [one.goal_id for one in canceled.goals_canceling] == [goal_id]
+    assert answer(result).status == 5
+    assert list(answer(result).result.sequence)[:2] == [0, 1]
+    assert {one.goal_id.uuid.tobytes() for one in fed[1:]} == {bytes([7] * 16)}
+    assert states[-1] == [4, 5]
+    names = dict(node.get_service_names_and_types())
+    assert names["/fibonacci/_action/send_goal"] == [
+        "action_tutorials_interfaces/action/Fibonacci_SendGoal"
+    ]
+
+
+def test_both_ends_of_an_action_know_a_goal_by_one_id(ros_runtime, node):
+    import rclpy
+    from action_tutorials_interfaces.action import Fibonacci
+    from rclpy.action import ActionClient, ActionServer
+    from unique_identifier_msgs.msg import UUID
+
+    seen = []
+
+    def execute(handle):
+        seen.append(handle.goal_id)
+        states.append(handle.status)
+        handle.succeed()
+        return Fibonacci.Result()
+
+    def take(handle):
+        states.append(handle.status)
+        handle.execute()
+
+    states = []
+    server = ActionServer(node, Fibonacci, "count", execute, handle_accepted_callback=take)
+    client = ActionClient(node, Fibonacci, "count")
+    ids = [None, UUID(uuid=[9] * 16)]
+    for goal_id in ids:
+        future = client.send_goal_async(order(1), goal_uuid=goal_id)
+        rclpy.spin_until_future_complete(node, future)
+        rclpy.spin_until_future_complete(node, future.result().get_result_async())
+        assert seen[-1] == future.result().goal_id
+    assert seen[-1] == ids[-1]
+    assert states == [1, 2, 1, 2]
+    server.destroy()
+    assert not node.get_publishers_info_by_topic("count/_action/status")
+    assert not [name for name, _ in node.get_service_names_and_types() if "_action" in name]

@@ -10,28 +10,11 @@ from tftool.interfaces.classes import INTERFACES
 from tftool.link.context import LinkContext
 from tftool.link.graph import GraphEntity
 from tftool.link.seam import WireRequest
+from tftool.runtime.action_parts import Tasks
 from tftool.wire.codec import codec
 
 LONGEST: Final = 3600.0
 """Seconds to wait for an answer: a user's node may have work for hours done by a service."""
-
-
-class Tasks:
-    """Tasks that are held until they end, and cancelled when their owner closes."""
-
-    def __init__(self) -> None:
-        self._tasks: set[asyncio.Task[None]] = set()
-
-    def start(self, work: Coroutine[Any, Any, None]) -> None:
-        """Let something run beside everything else."""
-        task = asyncio.get_running_loop().create_task(work)
-        self._tasks.add(task)
-        task.add_done_callback(self._tasks.discard)
-
-    def cancel(self) -> None:
-        """End whatever still runs."""
-        for task in tuple(self._tasks):
-            task.cancel()
 
 
 class Answering:

@@ -209,7 +209,7 @@ class Link(LinkContext):
             self._bridges.pop(name).close()
         for name in topics.keys() - self._bridges.keys():
             topic = topics[name]
-            if not is_plain(name):
+            if not is_plain(name) or self._is_part_of_our_action(name):
                 continue
             if topic.kind is TransformMessage:
                 made = StaticBridge if name == "tf_static" else TransformBridge
@@ -225,7 +225,9 @@ class Link(LinkContext):
             return
         offers: dict[str, Offer[Any]] = {**self.world.services(), **self.world.actions()}
         own = {
-            name: offer for name, offer in offers.items() if not offer.is_remote and is_plain(name)
+            name: offer
+            for name, offer in offers.items()
+            if not offer.is_remote and is_plain(name) and not self._is_part_of_our_action(name)
         }
         for name, (offer, server) in list(self._servers.items()):
             if own.get(name) is not offer:
@@ -239,6 +241,12 @@ class Link(LinkContext):
             elif hasattr(offer.kind, "Request"):
                 self._servers[name] = offer, ServiceServer(self, name, offer.node, offer.kind)
                 self._warn_of_rival(name, name)
+
+    def _is_part_of_our_action(self, name: str) -> bool:
+        """Whether a name is one that ROS 2 makes of an action, which is offered as a whole."""
+        action, found, _ = name.partition("/_action/")
+        offer = self.world.actions().get(action) if found else None
+        return offer is not None and not offer.is_remote
 
     def _match_clients(self) -> None:
         if self.options.read_only:

@@ -5,6 +5,7 @@ subscribed, when it returns.
 """
 
 import asyncio
+import itertools
 from collections import deque
 from collections.abc import AsyncIterator, Awaitable, Callable
 from dataclasses import dataclass
@@ -196,6 +197,14 @@ class GoalResult:
     value: Any
 
 
+_NUMBERS = itertools.count(1)
+
+
+def new_goal_id() -> bytes:
+    """Sixteen bytes for a goal; they are counted, so that two runs are the same run."""
+    return next(_NUMBERS).to_bytes(16, "big")
+
+
 class GoalHandle:
     """One goal of an action, as both its client and its server hold it.
 
@@ -209,6 +218,8 @@ class GoalHandle:
             takes every goal.
         patience: Seconds to wait for the server of another process to take the goal or a
             cancellation; None for as long as it takes.
+        goal_id: Its sixteen bytes.
+        feeds: Who is given each feedback.
     """
 
     def __init__(
@@ -216,14 +227,16 @@ class GoalHandle:
         request: Any,
         on_feedback: Callable[[Any], object] | None = None,
         patience: float | None = None,
+        goal_id: bytes | None = None,
     ) -> None:
         self.request = request
+        self.goal_id = goal_id or new_goal_id()
+        self.feeds = [] if on_feedback is None else [on_feedback]
         self.cancel_requested = False
         self.feedback: Any = None
         self.on_cancel: Callable[[], object] | None = None
         self.decided: asyncio.Future[bool] | None = None
         self.patience = patience
-        self._on_feedback = on_feedback
         self._cancellation: asyncio.Future[bool] | None = None
         self._result: asyncio.Future[GoalResult] = asyncio.get_running_loop().create_future()
 
@@ -267,8 +280,8 @@ class GoalHandle:
     def publish_feedback(self, value: Any) -> None:
         """Tell the client how far it is."""
         self.feedback = value
-        if self._on_feedback is not None:
-            self._on_feedback(value)
+        for feed in self.feeds:
+            feed(value)
 
     def decide_cancel(self, accepted: bool) -> None:
         """Say whether the goal will be stopped; the first answer to a cancellation counts."""

@@ -152,6 +152,7 @@ class World:
         self._doors: dict[str, ValueTopic[Any]] = {}
         self._services: NamedOffers[Handler] = NamedOffers("service", self._changed)
         self._actions: NamedOffers[Acceptor] = NamedOffers("action", self._changed)
+        self._goal_watchers: dict[str, list[Callable[[GoalHandle], object]]] = {}
         # How often the buffer refused the same, by what it says.
         self._refused: dict[str, int] = {}
         self._statics: dict[str, dict[str, TransformStamped]] = {}
@@ -418,6 +419,39 @@ class World:
         """Every action by its name, read-only."""
         return self._actions.by_name
 
+    def watch_goals(
+        self, name: str, callback: Callable[[GoalHandle], object]
+    ) -> Callable[[], None]:
+        """Have `callback` called with each goal of an action, before its server has it."""
+        watching = self._goal_watchers.setdefault(name, [])
+        watching.append(callback)
+        return lambda: watching.remove(callback)
+
+    async def hand_over(
+        self,
+        name: str,
+        goal: Any,
+        on_feedback: Callable[[Any], object] | None = None,
+        goal_id: bytes | None = None,
+    ) -> GoalHandle:
+        """Hand a goal in messages to an action's server; see `send_goal`."""
+        handle = GoalHandle(goal, on_feedback, goal_id=goal_id)
+        self._take_goal(name, self._server_for(name, goal), handle)
+        return handle
+
+    def _take_goal(self, name: str, offer: Offer[Acceptor], handle: GoalHandle) -> None:
+        for watcher in tuple(self._goal_watchers.get(name, ())):
+            watcher(handle)
+        offer.take(handle)
+
+    def _server_for(self, name: str, goal: Any) -> Offer[Acceptor]:
+        offer = self._actions.get(name)
+        if offer is None:
+            raise TftoolError(f"no node serves the action '{name}'")
+        if offer.kind is not None:
+            _require(goal, "Goal", offer.kind, f"action '{name}'")
+        return offer
+
     async def send_goal(
         self, name: str, goal: Any, on_feedback: Callable[[Any], object] | None = None
     ) -> Goal:
@@ -431,16 +465,10 @@ class World:
         Raises:
             TftoolError: If no node serves that action, or the goal is of another type.
         """
-        offer = self._actions.get(name)
-        if offer is None:
-            raise TftoolError(f"no node serves the action '{name}'")
+        offer = self._server_for(name, goal)
         kind = offer.kind
-        if kind is not None:
-            _require(goal, "Goal", kind, f"action '{name}'")
         if kind is None or type(goal) not in values.ACTIONS:
-            handle = GoalHandle(goal, on_feedback)
-            offer.take(handle)
-            return handle
+            return await self.hand_over(name, goal, on_feedback)
         said = values.ACTIONS[type(goal)][2]
 
         def fed(feedback: Any) -> None:
@@ -448,7 +476,7 @@ class World:
                 on_feedback(values.as_value(feedback, said))
 
         handle = GoalHandle(values.as_message(goal, kind.Goal), fed, PATIENCE)
-        offer.take(handle)
+        self._take_goal(name, offer, handle)
         return ValueGoal(handle, type(goal))
 
     def watch(self, callback: Callable[[], object], owner: str = "") -> Callable[[], None]:

@@ -7,12 +7,14 @@ from typing import Any
 from tftool.errors import TftoolError
 from tftool.interfaces.classes import INTERFACES, duplicate
 from tftool.ros.host import values
-from tftool.ros.rclpy.action_goals import STATUS, GoalStatus, new_id
+from tftool.ros.rclpy.action_goals import STATUS, GoalStatus
 from tftool.ros.rclpy.entities import Requester
 from tftool.ros.rclpy.executors import wait_for
 from tftool.ros.rclpy.futures import Future
 from tftool.ros.rclpy.seat import seat_of
-from tftool.runtime.doors import Goal as WorldGoal
+from tftool.runtime.action_parts import goal_id_message
+from tftool.runtime.topics import GoalHandle as WorldGoal
+from tftool.runtime.topics import new_goal_id
 
 
 class _Result:
@@ -110,7 +112,7 @@ class ActionClient(Requester):
         if not isinstance(goal, self.type_.Goal):
             raise TypeError(f"Expected {self.type_.Goal}, got {type(goal)}")
         future = Future(executor=self.seat.executor)
-        goal_id = goal_uuid or new_id()
+        goal_id = goal_uuid or goal_id_message(new_goal_id())
         copy = duplicate(goal)
 
         def on_feedback(value: Any) -> None:
@@ -125,7 +127,7 @@ class ActionClient(Requester):
             if self.full not in world.actions():
                 return
             try:
-                handle = await world.send_goal(self.full, copy, on_feedback)
+                handle = await world.hand_over(self.full, copy, on_feedback, bytes(goal_id.uuid))
             except TftoolError as error:
                 refused = error
                 self.put(lambda: future.set_exception(refused))

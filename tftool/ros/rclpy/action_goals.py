@@ -1,12 +1,8 @@
 """What both ends of an action know of a goal."""
 
-import itertools
 from enum import IntEnum
-from typing import Any
 
-from tftool.interfaces.classes import INTERFACES
-
-_numbers = itertools.count(1)
+from tftool.runtime.action_parts import ENDED
 
 
 class GoalStatus(IntEnum):
@@ -21,15 +17,4 @@ class GoalStatus(IntEnum):
     STATUS_ABORTED = 6
 
 
-STATUS: dict[str, GoalStatus] = {
-    "succeeded": GoalStatus.STATUS_SUCCEEDED,
-    "canceled": GoalStatus.STATUS_CANCELED,
-    "aborted": GoalStatus.STATUS_ABORTED,
-}
-
-
-def new_id() -> Any:
-    """A goal's id; they are counted, so that two runs are the same run."""
-    number = next(_numbers)
-    kind = INTERFACES.message("unique_identifier_msgs/UUID")
-    return kind(uuid=list(number.to_bytes(16, "big")))
+STATUS: dict[str, GoalStatus] = {name: GoalStatus(number) for name, number in ENDED.items()}

@@ -10,9 +10,16 @@ from tftool.errors import TftoolError
 from tftool.interfaces.classes import duplicate
 from tftool.ros.host import values
 from tftool.ros.host.error_text import error_sentence
-from tftool.ros.rclpy.action_goals import STATUS, GoalStatus, new_id
+from tftool.ros.rclpy.action_goals import STATUS, GoalStatus
 from tftool.ros.rclpy.entities import WorkQueue
+from tftool.ros.rclpy.qos import (
+    QoSProfile,
+    qos_profile_action_status_default,
+    qos_profile_default,
+)
 from tftool.ros.rclpy.seat import seat_of
+from tftool.ros.rclpy.topics import Publisher
+from tftool.runtime.action_parts import ActionParts, goal_id_message
 from tftool.runtime.topics import GoalHandle as WorldGoal
 from tftool.runtime.topics import Status
 
@@ -40,7 +47,8 @@ class ServerGoalHandle:
         self._request = request
         self._status: Status | None = None
         self._canceling = False
-        self.goal_id = new_id()
+        self._executing = False
+        self.goal_id = goal_id_message(goal.goal_id)
 
     @property
     def request(self) -> Any:
@@ -62,7 +70,9 @@ class ServerGoalHandle:
         """How far it is, as a number of GoalStatus."""
         if self._status is not None:
             return int(STATUS[self._status])
-        return int(GoalStatus.STATUS_CANCELING if self._canceling else GoalStatus.STATUS_EXECUTING)
+        if self._canceling:
+            return int(GoalStatus.STATUS_CANCELING)
+        return int(GoalStatus.STATUS_EXECUTING if self._executing else GoalStatus.STATUS_ACCEPTED)
 
     def publish_feedback(self, feedback: Any) -> None:
         """Tell the client how far it is.
@@ -90,6 +100,7 @@ class ServerGoalHandle:
 
     def execute(self, execute_callback: Any = None) -> None:
         """Start working on it."""
+        self._executing = True
         self._server.execute(self, execute_callback)
 
     def destroy(self) -> None:
@@ -123,6 +134,8 @@ class ActionServer(WorkQueue):
         goal_callback: Callable[[Any], Any] | None = None,
         handle_accepted_callback: Callable[[ServerGoalHandle], Any] | None = None,
         cancel_callback: Callable[[ServerGoalHandle], Any] | None = None,
+        feedback_pub_qos_profile: QoSProfile = qos_profile_default,
+        status_pub_qos_profile: QoSProfile = qos_profile_action_status_default,
         **profiles: Any,
     ) -> None:
         seat = seat_of(node)
@@ -135,16 +148,48 @@ class ActionServer(WorkQueue):
         self._on_accepted = handle_accepted_callback or (lambda handle: handle.execute())
         self._on_cancel = cancel_callback or (lambda handle: CancelResponse.REJECT)
         self.full = seat.full(action_name)
-        self._stop: Callable[[], None] = lambda: None
+        self._stops: list[Callable[[], None]] = []
         self._goals: set[WorldGoal] = set()
 
         def serve() -> "ActionServer":
-            self._stop = seat.world.serve_action(
+            stop = seat.world.serve_action(
                 self.full, self.arrived, action_type, node=seat.authority
             )
+            self._stops = [stop]
+            self._show_parts(feedback_pub_qos_profile, status_pub_qos_profile)
             return self
 
         seat.keep(serve)
+
+    def _show_parts(self, feedback_profile: QoSProfile, status_profile: QoSProfile) -> None:
+        """Serve and publish what ROS 2 makes of an action, as nodes that look behind it expect."""
+        seat, made = self.seat, self.type_.Impl
+
+        def publisher(what: str, kind: Any, profile: QoSProfile) -> Publisher:
+            full = f"{self.full}/_action/{what}"
+            return Publisher(seat, kind, f"/{full}", full, profile)
+
+        feedback = publisher("feedback", made.FeedbackMessage, feedback_profile)
+        status = publisher("status", made.GoalStatusMessage, status_profile)
+        parts = ActionParts(
+            seat.world,
+            self.full,
+            self.type_.interface__,
+            on_feedback=feedback.publish,
+            on_status=status.publish,
+            warn=lambda text: seat.program.say("WARN", seat.authority, text),
+        )
+        self._stops += [feedback.withdraw, status.withdraw, parts.close]
+        for what, kind, answer in (
+            ("send_goal", made.SendGoalService, parts.send_goal),
+            ("cancel_goal", made.CancelGoalService, parts.cancel_goal),
+            ("get_result", made.GetResultService, parts.get_result),
+        ):
+            self._stops.append(
+                seat.world.serve(
+                    f"{self.full}/_action/{what}", answer, kind, node=seat.authority, shares=True
+                )
+            )
 
     def register_goal_callback(self, callback: Callable[[Any], Any]) -> None:
         """Have `callback` decide about goals."""
@@ -181,7 +226,8 @@ class ActionServer(WorkQueue):
     def withdraw(self) -> None:
         """Take no more goals; what is not decided yet is refused."""
         super().withdraw()
-        self._stop()
+        for stop in self._stops:
+            stop()
         for goal in self._goals:
             self._decide(goal, False)
             goal.decide_cancel(False)
