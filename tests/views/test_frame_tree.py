@@ -1,4 +1,5 @@
 import json
+from dataclasses import replace
 from io import StringIO
 
 import pytest
@@ -143,6 +144,8 @@ def test_the_deepest_chain_is_drawn():
 
 def test_programs_get_every_fact_and_null_where_there_is_none():
     data = frame_tree.as_object(WORLD)
+    assert data["shown_at_ns"] is None
+    assert frame_tree.as_object(replace(WORLD, at=5))["shown_at_ns"] == 5
 
     assert json.loads(json.dumps(data, allow_nan=False)) == data
     turtle, world, carrot, lone = data["frames"]

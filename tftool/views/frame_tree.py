@@ -103,7 +103,7 @@ def as_object(
         return told
     return {
         "recorded_at_ns": snapshot.now,
-        "shown_at_ns": snapshot.at,
+        "shown_at_ns": snapshot.at or None,
         "roots": list(snapshot.roots()),
         "frames": [
             _frame_object(info) | {"marks": list(marks.get(info.frame, ()))}
