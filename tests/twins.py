@@ -86,8 +86,12 @@ def _outcome(call, words, options):
         return type(error), str(error), vars(error)
 
 
-def worst(count: int) -> tuple[int, float, float]:
-    """The largest difference of both in so many lookups of one batch, five links deep.
+def worst(count: int, links: int = 5) -> tuple[int, float, float]:
+    """The largest difference of both in so many lookups of one batch.
+
+    Args:
+        count: How many.
+        links: How many lie between the two frames.
 
     Returns:
         How many were compared, and the difference: of places, by the length of the way, and of
@@ -96,7 +100,7 @@ def worst(count: int) -> tuple[int, float, float]:
     import numpy as np
 
     random = np.random.default_rng(19)
-    twins, samples, links, way = Twins(2**62), 1000, 5, 0.0
+    twins, samples, way = Twins(2**62), 1000, 0.0
     for link in range(links):
         stamps = 10**9 + np.arange(samples) * 10**7 + random.integers(0, 10**6, samples)
         places = np.cumsum(random.normal(0.0, 0.1, (samples, 3)), axis=0)
@@ -123,6 +127,7 @@ def worst(count: int) -> tuple[int, float, float]:
 
 
 if __name__ == "__main__":
-    found = worst(int(sys.argv[1]) if len(sys.argv) > 1 else 10**7)
-    told = "{} lookups: places differ by {:.1e} of the way at most, rotations by {:.1e}"
-    print(told.format(*found))  # noqa: T201
+    told = "{} lookups of {} links: places differ by {:.1e} of the way at most, rotations by {:.1e}"
+    for links in (1, 5):
+        compared, *most = worst(int(sys.argv[1]) if len(sys.argv) > 1 else 10**7, links)
+        print(told.format(compared, links, *most))  # noqa: T201

@@ -137,68 +137,58 @@ INLINE void fetch(const Edge *edge, const int64_t *times, int n, int width, doub
 
 /* Arithmetic of poses: twins of `geometry.poses` ------------------------- */
 
-/* Arcs up to these values of 1 - cos are turned by so many terms, the error below 1e-17. */
+/* Arcs up to this value of 1 - cos are turned by so many terms, the error below 1e-17. */
 #define SHORT_ARC 1e-3
-#define SHORT_TERMS 4
-#define LONG_ARC 0.1
-#define LONG_TERMS 13
+#define TERMS 4
 
-/* sin(f θ) / sin θ for u = 1 - cos θ, as a product of terms that are all positive:
+/* sin(f θ) / sin θ - f for u = 1 - cos θ: how much more of an end an arc takes than its chord.
+   The whole is a product of terms that are all positive:
    f (1 + b1 (1 + b2 (1 + …))) with b_i = u (i² - f²) / (i (2 i + 1)).
    Eberly, "A Fast and Accurate Algorithm for Computing SLERP", JGT 2011. */
-INLINE double weight(double f, double u, int terms) {
-    double sum = 1.0;
-    for (int i = terms; i > 0; i--) {
+INLINE double bend(double f, double u) {
+    double sum = 1.0, more = 0.0;
+    const double less = u * f * f;
+    for (int i = TERMS; i > 0; i--) {
         const double scale = 1.0 / (i * (2.0 * i + 1.0));
-        sum = 1.0 + sum * u * (i * i * scale - f * f * scale);
+        more = sum * (u * (i * i * scale) - less * scale);
+        sum = 1.0 + more;
     }
-    return f * sum;
+    return f * more;
 }
 
 /* The poses on the way from `a` to `b`, to be written to `out`. */
 INLINE void interpolate(const double *a, const double *b, const double *share, int n, int width,
                         double *out) {
     double near[BLOCK], sign[BLOCK], keep[BLOCK], take[BLOCK];
-    int longer = 0, longest = 0;
+    int longest = 0;
     for (int i = 0; i < n; i++) {
         const double *first = a + 3 * width + i, *second = b + 3 * width + i;
         const double cosine = first[0] * second[0] + first[width] * second[width]
             + first[2 * width] * second[2 * width] + first[3 * width] * second[3 * width];
         sign[i] = cosine < 0.0 ? -1.0 : 1.0;
-        near[i] = fabs(cosine);
-        longer += 1.0 - near[i] > SHORT_ARC;
-        longest += 1.0 - near[i] > LONG_ARC;
+        near[i] = fabs(cosine) < 1.0 ? fabs(cosine) : 1.0;
+        longest += 1.0 - near[i] > SHORT_ARC;
     }
-    if (longer == 0)
+    for (int i = 0; i < n; i++) {
+        keep[i] = bend(1.0 - share[i], 1.0 - near[i]);
+        take[i] = sign[i] * bend(share[i], 1.0 - near[i]);
+    }
+    for (int k = 0; k < 7; k++)
         for (int i = 0; i < n; i++) {
-            keep[i] = weight(1.0 - share[i], 1.0 - near[i], SHORT_TERMS);
-            take[i] = weight(share[i], 1.0 - near[i], SHORT_TERMS);
-        }
-    else
-        for (int i = 0; i < n; i++) {
-            keep[i] = weight(1.0 - share[i], 1.0 - near[i], LONG_TERMS);
-            take[i] = weight(share[i], 1.0 - near[i], LONG_TERMS);
+            /* Where a sample is met it is taken as it is: no way leads to infinity. Between equals
+               the rotation stays to the last bit. */
+            const double here = a[k * width + i], there = b[k * width + i];
+            const double chord = here + share[i] * ((k < 3 ? there : sign[i] * there) - here);
+            const double arc = k < 3 ? chord : chord + (keep[i] * here + take[i] * there);
+            out[k * width + i] = share[i] == 0.0 ? here : arc;
         }
     for (int i = 0; longest > 0 && i < n; i++)
-        if (1.0 - near[i] > LONG_ARC) {
+        if (1.0 - near[i] > SHORT_ARC && share[i] > 0.0) {
             const double angle = acos(near[i]), sine = sin(angle);
-            keep[i] = sin((1.0 - share[i]) * angle) / sine;
-            take[i] = sin(share[i] * angle) / sine;
-        }
-    for (int k = 0; k < 3; k++)
-        for (int i = 0; i < n; i++) {
-            /* Where a sample is met it is taken as it is: no way leads to infinity. */
-            const double here = a[k * width + i];
-            const double moved = here + share[i] * (b[k * width + i] - here);
-            out[k * width + i] = share[i] == 0.0 ? here : moved;
-        }
-    for (int k = 3; k < 7; k++)
-        for (int i = 0; i < n; i++) {
-            const double here = a[k * width + i], there = sign[i] * b[k * width + i];
-            const double turned = keep[i] * here + take[i] * there;
-            const double straight = here + share[i] * (there - here);
-            /* Between equals the rotation stays to the last bit. */
-            out[k * width + i] = near[i] < 1.0 ? turned : straight;
+            const double kept = sin((1.0 - share[i]) * angle) / sine;
+            const double taken = sign[i] * (sin(share[i] * angle) / sine);
+            for (int k = 3; k < 7; k++)
+                out[k * width + i] = kept * a[k * width + i] + taken * b[k * width + i];
         }
 }
 

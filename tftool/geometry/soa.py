@@ -175,13 +175,14 @@ def chain(
 ) -> None:
     """Multiply quaternions: `second` is applied first; `spare` is three rows to overwrite."""
     xyz, w = out.xyz, out.w
-    multiply(first.yzx, second.zxy, xyz)
-    multiply(first.zxy, second.yzx, spare)
-    subtract(xyz, spare, xyz)
-    multiply(second.xyz, first.w, spare)
-    add(xyz, spare, xyz)
+    # In the order of `poses.compose`: where nothing is turned on the way, to its last bit.
+    multiply(second.xyz, first.w, xyz)
     multiply(first.xyz, second.w, spare)
     add(xyz, spare, xyz)
+    multiply(first.yzx, second.zxy, spare)
+    add(xyz, spare, xyz)
+    multiply(first.zxy, second.yzx, spare)
+    subtract(xyz, spare, xyz)
     out.close()
     multiply(first.xyz, second.xyz, spare)
     multiply(first.w, second.w, w)

@@ -9,7 +9,7 @@ from typing import TypeAlias, TypeVar
 
 import numpy as np
 import numpy.typing as npt
-from numpy import add, copyto, multiply, subtract
+from numpy import add, copyto, divide, multiply, subtract
 
 from tftool.frames.batch.columns import (
     Buckets,
@@ -50,7 +50,7 @@ class Intervals:
 
     Attributes:
         stamps: Where each interval begins, int64, shape (k,).
-        rates: 1 over its length in nanoseconds, shape (k,).
+        lengths: How many nanoseconds it is long, shape (k,); endless where nothing moves.
         half_angle_squared: θ² of the arcs, shape (k,).
         places: P, shape (k, 4); the last number is of no use, as in `paths`.
         paths: D, shape (k, 4).
@@ -65,9 +65,9 @@ class Intervals:
         "directions",
         "endless",
         "half_angle_squared",
+        "lengths",
         "paths",
         "places",
-        "rates",
         "row_by_row",
         "stamps",
         "starts",
@@ -97,7 +97,7 @@ class Intervals:
         self.places: Floats = np.zeros((k, 4))
         self.paths: Floats = np.zeros((k, 4))
         self.places[:, :3] = begin[:, :3]
-        self.rates: Floats = np.where(still, 0.0, 1.0 / np.where(still, 1.0, length))
+        self.lengths: Floats = np.where(still, np.inf, length)
         np.subtract(end[:, :3], begin[:, :3], out=self.paths[:, :3])
         self.paths[still] = 0.0
         self.endless = not np.isfinite(self.paths[:, :3]).all()
@@ -305,8 +305,8 @@ class BlockArrays:
         subtract(times, whole, whole)
         copyto(shares, whole)
         for intervals, index, row in zip(found, self._index, squares, strict=False):
-            intervals.fetch(intervals.rates, index, row)
-        multiply(shares, squares, shares)
+            intervals.fetch(intervals.lengths, index, row)
+        divide(shares, squares, shares)
         for intervals, index, row in zip(found, self._index, squares, strict=False):
             intervals.fetch(intervals.half_angle_squared, index, row)
         multiply(squares, shares, squares)
@@ -320,7 +320,7 @@ class BlockArrays:
         multiply(ratios, shares, ratios)
         for row in squares:
             multiply(side.square, row, side.square)
-        np.divide(2.0, squares, squares)
+        divide(2.0, squares, squares)
         return list(zip(found, self._index, shares, ratios, squares, strict=False))
 
     def _find(self, edge: MovingEdge, times: Stamps, in_order: bool, index: Indices) -> Intervals:
@@ -370,7 +370,7 @@ class BlockArrays:
         up, down, scale = self._up, self._down, self._squares[0]
         place, turn, square = up.place, up.turn, up.square
         if not down.empty:
-            np.divide(2.0, down.square, scale)
+            divide(2.0, down.square, scale)
             back = down.turn
             back.conjugate()
             if up.empty:
@@ -388,10 +388,9 @@ class BlockArrays:
             rotate(back, scale, place, self._cross, self._spare)
         copyto(translations.T, place.xyz)
         np.sqrt(square, scale)
-        np.divide(1.0, scale, scale)
         np.copysign(scale, self._lead(turn, square), scale)
-        multiply(turn.xyz, scale, rotations.T[:3])
-        multiply(turn.w, scale, rotations.T[3])
+        divide(turn.xyz, scale, rotations.T[:3])
+        divide(turn.w, scale, rotations.T[3])
 
     def _lead(self, turn: QuaternionRows, square: Floats) -> Floats:
         """The numbers whose sign tf2 makes positive; see `quaternions.canonical`."""
