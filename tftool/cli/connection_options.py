@@ -9,6 +9,8 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
+from tftool.cli.options import option
+
 if TYPE_CHECKING:
     from tftool.cli.connection import Providers
 
@@ -19,11 +21,9 @@ FLAGS = ("join", "host", "read_only", "dds", "with_odometry", "no_cache")
 
 SESSION_OPTIONS: dict[str, Any] = {
     "join": Annotated[
-        bool, typer.Option("--join", help="Join the session that runs here; fail if none does.")
+        bool, option("Join the session that runs here; fail if none does.", "--join")
     ],
-    "host": Annotated[
-        bool, typer.Option("--host", help="Host a world of its own, whatever runs here.")
-    ],
+    "host": Annotated[bool, option("Host a world of its own, whatever runs here.", "--host")],
     "domain": Annotated[
         int | None,
         typer.Option(
@@ -36,53 +36,49 @@ SESSION_OPTIONS: dict[str, Any] = {
     ],
     "listen": Annotated[
         list[str] | None,
-        typer.Option(
+        option(
+            "Let other machines in, at tcp/0.0.0.0:7448 for example. All who reach "
+            "that port can see and drive everything: use tls/ in a network you share.",
             "--listen",
             metavar="ENDPOINT",
-            help="Let other machines in, at tcp/0.0.0.0:7448 for example. All who reach "
-            "that port can see and drive everything: use tls/ in a network you share.",
         ),
     ],
     "connect": Annotated[
         list[str] | None,
-        typer.Option(
+        option(
+            "Join another machine's session, or ROS 2's zenoh router: tcp/localhost:7447.",
             "--connect",
             metavar="ENDPOINT",
-            help="Join another machine's session, or ROS 2's zenoh router: tcp/localhost:7447.",
         ),
     ],
     "tls_cert": Annotated[
-        Path | None, typer.Option("--tls-cert", metavar="FILE", help="Our certificate, for tls/.")
+        Path | None, option("Our certificate, for tls/.", "--tls-cert", metavar="FILE")
     ],
-    "tls_key": Annotated[
-        Path | None, typer.Option("--tls-key", metavar="FILE", help="Its private key.")
-    ],
+    "tls_key": Annotated[Path | None, option("Its private key.", "--tls-key", metavar="FILE")],
     "tls_ca": Annotated[
-        Path | None,
-        typer.Option("--tls-ca", metavar="FILE", help="Who signed the other side's certificate."),
+        Path | None, option("Who signed the other side's certificate.", "--tls-ca", metavar="FILE")
     ],
     "zenoh_config": Annotated[
-        Path | None,
-        typer.Option("--zenoh-config", metavar="FILE", help="A zenoh configuration, as it is."),
+        Path | None, option("A zenoh configuration, as it is.", "--zenoh-config", metavar="FILE")
     ],
     "read_only": Annotated[
-        bool, typer.Option("--read-only", help="Only look: publish nothing, serve nothing.")
+        bool, option("Only look: publish nothing, serve nothing.", "--read-only")
     ],
     "dds": Annotated[
         bool,
-        typer.Option(
-            "--dds",
-            help="A ROS 2 robot over DDS, not zenoh: what is sent stays on this machine's loopback "
+        option(
+            "A ROS 2 robot over DDS, not zenoh: what is sent stays on this machine's loopback "
             "(DDS receives on 0.0.0.0 all the same).",
+            "--dds",
         ),
     ],
     "dds_on": Annotated[
         list[str] | None,
-        typer.Option(
+        option(
+            "The same on an interface (eth0), or with a machine (192.168.1.5); again for "
+            "more. DDS here has no TLS: all of that network can read and write.",
             "--dds-on",
             metavar="PLACE",
-            help="The same on an interface (eth0), or with a machine (192.168.1.5); again for "
-            "more. DDS here has no TLS: all of that network can read and write.",
         ),
     ],
 }
@@ -94,21 +90,21 @@ ROBOT = "Robot descriptions"
 ROBOT_OPTIONS: dict[str, Any] = {
     "joint": Annotated[
         list[str] | None,
-        typer.Option(
+        option(
+            "Position of a joint in rad or m (30deg too); again for more.",
             "--joint",
             metavar="NAME=VALUE",
-            rich_help_panel=ROBOT,
-            help="Position of a joint in rad or m (30deg too); again for more.",
+            panel=ROBOT,
         ),
     ],
     "argument": Annotated[
         list[str] | None,
-        typer.Option(
+        option(
+            "A xacro argument; NAME:=VALUE alone does too. xacro evaluates expressions of the "
+            "file: expand none from strangers.",
             "--argument",
             metavar="NAME:=VALUE",
-            rich_help_panel=ROBOT,
-            help="A xacro argument; NAME:=VALUE alone does too. xacro evaluates expressions of the "
-            "file: expand none from strangers.",
+            panel=ROBOT,
         ),
     ],
 }
@@ -120,18 +116,18 @@ RECORDING = "Recordings"
 RECORDING_OPTIONS: dict[str, Any] = {
     "with_odometry": Annotated[
         bool,
-        typer.Option(
+        option(
+            "Take Odometry and PoseStamped for transforms, of frames that tf lacks.",
             "--with-odometry",
-            rich_help_panel=RECORDING,
-            help="Take Odometry and PoseStamped for transforms, of frames that tf lacks.",
+            panel=RECORDING,
         ),
     ],
     "no_cache": Annotated[
         bool,
-        typer.Option(
+        option(
+            "Read all of it anew, and keep no columns for the next question.",
             "--no-cache",
-            rich_help_panel=RECORDING,
-            help="Read all of it anew, and keep no columns for the next question.",
+            panel=RECORDING,
         ),
     ],
 }
@@ -140,11 +136,11 @@ RECORDING_OPTIONS: dict[str, Any] = {
 URDF_OPTION: dict[str, Any] = {
     "urdf": Annotated[
         Path | None,
-        typer.Option(
+        option(
+            "Description of the robot in a recording that has none inside.",
             "--urdf",
             metavar="FILE",
-            rich_help_panel=ROBOT,
-            help="Description of the robot in a recording that has none inside.",
+            panel=ROBOT,
         ),
     ],
 }

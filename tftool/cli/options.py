@@ -215,9 +215,21 @@ MANY = "Many recordings"
 """Headings of the help under which options are listed; "Options" is that of all others."""
 
 
+def option(words: str, *names: str, metavar: str | None = None, panel: str | None = None) -> Any:
+    """An option of a command.
+
+    Args:
+        words: What the help says of it.
+        names: What it is called; by its parameter where none is given.
+        metavar: What stands for its value in the help.
+        panel: The heading it is listed under; None for that of all others.
+    """
+    return typer.Option(*names, metavar=metavar, rich_help_panel=panel, help=words)
+
+
 def output_file(words: str) -> Any:
     """The option `-o FILE` of a command; `words` say what it writes there."""
-    return typer.Option("-o", "--output", metavar="FILE", rich_help_panel=OUTPUT, help=words)
+    return option(words, "-o", "--output", metavar="FILE", panel=OUTPUT)
 
 
 def seconds_option(
@@ -285,10 +297,7 @@ FromOption = Annotated[
     ),
 ]
 
-ToOption = Annotated[
-    At | None,
-    moment_option("Leave out what is after; likewise.", "--to"),
-]
+ToOption = Annotated[At | None, moment_option("Leave out what is after; likewise.", "--to")]
 
 Every = Annotated[
     Duration | None,
@@ -297,18 +306,16 @@ Every = Annotated[
 
 Pairs = Annotated[
     list[str] | None,
-    typer.Option(
-        "--pair", metavar="TARGET:SOURCE", help="A pair of frames; again and again for several."
-    ),
+    option("A pair of frames; again and again for several.", "--pair", metavar="TARGET:SOURCE"),
 ]
 
 StampsOf = Annotated[
     str | None,
-    typer.Option(
+    option(
+        "Ask at the stamps of a recorded topic's messages.",
         "--at-stamps-of",
         metavar="TOPIC",
-        rich_help_panel=WHEN,
-        help="Ask at the stamps of a recorded topic's messages.",
+        panel=WHEN,
     ),
 ]
 
@@ -329,38 +336,30 @@ CacheTime = Annotated[
     seconds_option("How far back the buffer remembers; 10 unless the scenario says otherwise."),
 ]
 
-RunFor = Annotated[
-    Duration | None,
-    seconds_option("Stop after so long.", "--for"),
-]
+RunFor = Annotated[Duration | None, seconds_option("Stop after so long.", "--for")]
 
-SkippedFolders = Annotated[
-    bool, typer.Option("--verbose", "-v", help="Say which folders are skipped.")
-]
+SkippedFolders = Annotated[bool, option("Say which folders are skipped.", "--verbose", "-v")]
 
-Force = Annotated[
-    bool, typer.Option("--force", rich_help_panel=OUTPUT, help="Replace what is there.")
-]
+Force = Annotated[bool, option("Replace what is there.", "--force", panel=OUTPUT)]
 
-Json = Annotated[bool, typer.Option("--json", rich_help_panel=OUTPUT, help="Print JSON.")]
+Json = Annotated[bool, option("Print JSON.", "--json", panel=OUTPUT)]
 
 Ascii = Annotated[
-    bool, typer.Option("--ascii", help="Draw with plain characters, for fonts that have no others.")
+    bool, option("Draw with plain characters, for fonts that have no others.", "--ascii")
 ]
 
 Light = Annotated[
-    bool,
-    typer.Option("--light", help="For a terminal with a light ground; on a screen m changes it."),
+    bool, option("For a terminal with a light ground; on a screen m changes it.", "--light")
 ]
 
 Rows = Annotated[
     Path | None,
-    typer.Option(
+    option(
+        "Write rows to a .jsonl, .csv or .parquet file, whatever the number of recordings.",
         "--output",
         "-o",
         metavar="FILE",
-        rich_help_panel=MANY,
-        help="Write rows to a .jsonl, .csv or .parquet file, whatever the number of recordings.",
+        panel=MANY,
     ),
 ]
 Jobs = Annotated[
@@ -375,15 +374,12 @@ Jobs = Annotated[
         help="Work on so many recordings at once.",
     ),
 ]
-Resume = Annotated[
-    bool,
-    typer.Option("--resume", rich_help_panel=MANY, help="Pass over what the file already holds."),
-]
+Resume = Annotated[bool, option("Pass over what the file already holds.", "--resume", panel=MANY)]
 Scheduler = Annotated[
     str,
-    typer.Option(
+    option(
+        "Let a cluster of Dask workers do it that you trust: tcp://HOST:8786.",
         metavar="ADDRESS",
-        rich_help_panel=MANY,
-        help="Let a cluster of Dask workers do it that you trust: tcp://HOST:8786.",
+        panel=MANY,
     ),
 ]

@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 import typer
 
 from tftool.cli.app import ExitStatus
-from tftool.cli.options import Json
+from tftool.cli.options import Json, option
 from tftool.errors import UsageError
 
 if TYPE_CHECKING:
@@ -35,42 +35,41 @@ def check(
     ],
     programs: Annotated[
         list[str] | None,
-        typer.Option(
+        option(
+            "What follows 'tftool run': a program of yours in place of that node, or beside "
+            "all of them.",
             "--run",
             metavar="[NODE=]WORDS",
-            help="What follows 'tftool run': a program of yours in place of that node, or beside "
-            "all of them.",
         ),
     ] = None,
     launched: Annotated[
         str | None,
-        typer.Option(
+        option(
+            "What follows 'tftool launch': a launch file in place of all nodes.",
             "--launch",
             metavar="WORDS",
-            help="What follows 'tftool launch': a launch file in place of all nodes.",
         ),
     ] = None,
     force: Annotated[
-        bool, typer.Option("--ros-free", help="Run them also where a real ROS 2 is sourced.")
+        bool, option("Run them also where a real ROS 2 is sourced.", "--ros-free")
     ] = False,
     junit: Annotated[
-        Path | None,
-        typer.Option(metavar="FILE", help="Write a JUnit report for a build server."),
+        Path | None, option("Write a JUnit report for a build server.", metavar="FILE")
     ] = None,
     recordings: Annotated[
         Path | None,
-        typer.Option(
+        option(
+            "Keep a recording of each scenario in which something did not hold: NAME.mcap.",
             "--record",
             metavar="FOLDER",
-            help="Keep a recording of each scenario in which something did not hold: NAME.mcap.",
         ),
     ] = None,
     verbose: Annotated[
         bool,
-        typer.Option(
+        option(
+            "Show what held, every line of the nodes' logs, and which folders are skipped.",
             "--verbose",
             "-v",
-            help="Show what held, every line of the nodes' logs, and which folders are skipped.",
         ),
     ] = False,
     for_programs: Json = False,

@@ -7,7 +7,7 @@ from typing import Annotated
 import typer
 
 from tftool.cli.app import ExitStatus
-from tftool.cli.options import OUTPUT, Json
+from tftool.cli.options import OUTPUT, Json, option
 from tftool.errors import UsageError
 
 
@@ -22,40 +22,38 @@ def convert(
     ] = None,
     form: Annotated[
         str | None,
-        typer.Option(
+        option(
+            "What bare numbers are: xyzw, wxyz, rpy, ypr, axis-angle, rotvec, matrix, or an "
+            "order of axes: s (fixed) or r (rotating) and three axes, as in sxyz or rzyx.",
             "--as",
             metavar="FORM",
-            help="What bare numbers are: xyzw, wxyz, rpy, ypr, axis-angle, rotvec, matrix, or an "
-            "order of axes: s (fixed) or r (rotating) and three axes, as in sxyz or rzyx.",
         ),
     ] = None,
     degrees: Annotated[
-        bool,
-        typer.Option("--degrees", help="Angles are degrees: what is read, and what --into prints."),
+        bool, option("Angles are degrees: what is read, and what --into prints.", "--degrees")
     ] = False,
     then: Annotated[
         list[str] | None,
-        typer.Option(
-            metavar="ROTATION",
-            help="Chain another one behind it: the pose of its child in the first one's parent. "
+        option(
+            "Chain another one behind it: the pose of its child in the first one's parent. "
             "May be repeated.",
+            metavar="ROTATION",
         ),
     ] = None,
     inverse: Annotated[
-        bool, typer.Option("--inverse", help="Turn the result round: the parent in the child.")
+        bool, option("Turn the result round: the parent in the child.", "--inverse")
     ] = False,
     target: Annotated[
         str | None,
-        typer.Option(
+        option(
+            "Print this form alone, in full precision: one of --as, matrix4, urdf or static.",
             "--into",
             metavar="FORM",
-            rich_help_panel=OUTPUT,
-            help="Print this form alone, in full precision: one of --as, matrix4, urdf or static.",
+            panel=OUTPUT,
         ),
     ] = None,
     all_orders: Annotated[
-        bool,
-        typer.Option("--all", rich_help_panel=OUTPUT, help="Add all 24 orders of Euler angles."),
+        bool, option("Add all 24 orders of Euler angles.", "--all", panel=OUTPUT)
     ] = False,
     for_programs: Json = False,
 ) -> ExitStatus:

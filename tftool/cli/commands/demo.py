@@ -12,6 +12,7 @@ from tftool.cli.options import (
     Ascii,
     Json,
     Light,
+    option,
     refuse_long_simulation,
     seconds_option,
     within,
@@ -36,8 +37,7 @@ def demo(
         ),
     ] = None,
     source_frame: Annotated[
-        str | None,
-        typer.Option(metavar="FRAME", help="Whom turtle2 follows: turtle1, carrot1, ..."),
+        str | None, option("Whom turtle2 follows: turtle1, carrot1, ...", metavar="FRAME")
     ] = None,
     rate: Annotated[
         float,
@@ -50,25 +50,19 @@ def demo(
         seconds_option("End after so many seconds of the world's time.", "--for", panel=None),
     ] = None,
     settings: Annotated[
-        list[str] | None,
-        typer.Option("--set", metavar="NAME=VALUE", help="Set any argument of the scenario."),
+        list[str] | None, option("Set any argument of the scenario.", "--set", metavar="NAME=VALUE")
     ] = None,
     recording: Annotated[
         Path | None,
-        typer.Option(
-            "--record", metavar="FILE", help="Record the world of the demo to an .mcap file."
-        ),
+        option("Record the world of the demo to an .mcap file.", "--record", metavar="FILE"),
     ] = None,
     still: Annotated[
         bool,
-        typer.Option(
-            "--still",
-            help="Leave turtle1 alone: it does not draw by itself where no key is pressed.",
+        option(
+            "Leave turtle1 alone: it does not draw by itself where no key is pressed.", "--still"
         ),
     ] = False,
-    listing: Annotated[
-        bool, typer.Option("--list", help="List the built-in scenarios, and end.")
-    ] = False,
+    listing: Annotated[bool, option("List the built-in scenarios, and end.", "--list")] = False,
     ascii_only: Ascii = False,
     light: Light = False,
     for_programs: Json = False,

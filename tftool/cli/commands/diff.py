@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Annotated, Literal
 import typer
 
 from tftool.cli.app import ExitStatus
-from tftool.cli.options import OUTPUT, Json, RunFor, not_negative
+from tftool.cli.options import OUTPUT, Json, RunFor, not_negative, option
 from tftool.errors import UsageError
 from tftool.stamps import Duration, seconds
 
@@ -52,21 +52,15 @@ def diff(
     ] = None,
     align: Annotated[
         Literal["start"] | None,
-        typer.Option(
-            metavar="start", help="Compare what moves from each one's own start, not by stamps."
-        ),
+        option("Compare what moves from each one's own start, not by stamps.", metavar="start"),
     ] = None,
     everything: Annotated[
-        bool,
-        typer.Option("--all", rich_help_panel=OUTPUT, help="List links that do not differ, too."),
+        bool, option("List links that do not differ, too.", "--all", panel=OUTPUT)
     ] = False,
     lasting: RunFor = None,
     for_programs: Json = False,
     markdown: Annotated[
-        bool,
-        typer.Option(
-            "--markdown", rich_help_panel=OUTPUT, help="Print it for an issue on the web."
-        ),
+        bool, option("Print it for an issue on the web.", "--markdown", panel=OUTPUT)
     ] = False,
 ) -> ExitStatus:
     """Say what differs between two sets of frames, link by link.

@@ -19,6 +19,7 @@ from tftool.cli.options import (
     RunFor,
     Scheduler,
     moment,
+    option,
 )
 from tftool.errors import InputError, UsageError
 from tftool.stamps import Duration, seconds
@@ -53,26 +54,22 @@ def doctor(
         ),
     ] = None,
     select: Annotated[
-        list[str] | None,
-        typer.Option(metavar="ID,...", help="Run only these checks or areas."),
+        list[str] | None, option("Run only these checks or areas.", metavar="ID,...")
     ] = None,
     ignore: Annotated[
-        list[str] | None, typer.Option(metavar="ID,...", help="Leave these checks or areas out.")
+        list[str] | None, option("Leave these checks or areas out.", metavar="ID,...")
     ] = None,
-    fail_on: Annotated[
-        FailOn, typer.Option(help="From what on the exit status is 1.")
-    ] = FailOn.warning,
+    fail_on: Annotated[FailOn, option("From what on the exit status is 1.")] = FailOn.warning,
     limits: Annotated[
         list[str] | None,
-        typer.Option("--limit", metavar="ID.NAME=VALUE", help="Another threshold: gap.seconds=2."),
+        option("Another threshold: gap.seconds=2.", "--limit", metavar="ID.NAME=VALUE"),
     ] = None,
     cache_time: CacheTime = None,
     fixed_frame: Annotated[
-        str, typer.Option(metavar="FRAME", help="Where sensors are to be placed; odom, else map.")
+        str, option("Where sensors are to be placed; odom, else map.", metavar="FRAME")
     ] = "",
     tf_topic: Annotated[
-        list[str] | None,
-        typer.Option(metavar="TOPIC", help="Look at these transforms alone: /robot1/tf."),
+        list[str] | None, option("Look at these transforms alone: /robot1/tf.", metavar="TOPIC")
     ] = None,
     begin: Annotated[
         At | None,
@@ -86,26 +83,24 @@ def doctor(
     ] = None,
     lasting: RunFor = None,
     statistics: Annotated[
-        bool, typer.Option("--statistics", help="Print rate, latency and gaps of everything, too.")
+        bool, option("Print rate, latency and gaps of everything, too.", "--statistics")
     ] = False,
     verbose: Annotated[
-        bool, typer.Option("--verbose", "-v", help="Print all evidence, and what was skipped.")
+        bool, option("Print all evidence, and what was skipped.", "--verbose", "-v")
     ] = False,
     for_programs: Json = False,
-    markdown: Annotated[
-        bool, typer.Option("--markdown", help="Print it for an issue on the web.")
-    ] = False,
+    markdown: Annotated[bool, option("Print it for an issue on the web.", "--markdown")] = False,
     junit: Annotated[
-        Path | None, typer.Option(metavar="FILE", help="Write a JUnit report for a build server.")
+        Path | None, option("Write a JUnit report for a build server.", metavar="FILE")
     ] = None,
     output: Rows = None,
     processes: Jobs = 1,
     resume: Resume = False,
     scheduler: Scheduler = "",
     explain: Annotated[
-        str, typer.Option("--explain", metavar="ID", help="Tell all about one check, and stop.")
+        str, option("Tell all about one check, and stop.", "--explain", metavar="ID")
     ] = "",
-    listed: Annotated[bool, typer.Option("--list", help="List all checks, and stop.")] = False,
+    listed: Annotated[bool, option("List all checks, and stop.", "--list")] = False,
 ) -> ExitStatus:
     """Say what is wrong with the frames, and what mends it: cause, evidence, consequence, fix.
 

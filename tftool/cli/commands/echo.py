@@ -17,6 +17,7 @@ from tftool.cli.options import (
     decimals,
     finite,
     not_negative,
+    option,
     seconds_option,
     within,
 )
@@ -54,9 +55,7 @@ def echo(
             help="How often; once a second if not said.",
         ),
     ] = None,
-    once: Annotated[
-        bool, typer.Option("--once", rich_help_panel=WHEN, help="Print one transform and stop.")
-    ] = False,
+    once: Annotated[bool, option("Print one transform and stop.", "--once", panel=WHEN)] = False,
     count: Annotated[
         int | None,
         typer.Option(
@@ -71,25 +70,17 @@ def echo(
     ] = None,
     fixed_frame: Annotated[
         str | None,
-        typer.Option(
-            metavar="FRAME",
-            rich_help_panel=WHEN,
-            help="With --offset: take only SOURCE from that moment and TARGET from now, "
+        option(
+            "With --offset: take only SOURCE from that moment and TARGET from now, "
             "by way of this frame, which stands still.",
+            metavar="FRAME",
+            panel=WHEN,
         ),
     ] = None,
     distance: Annotated[
-        bool,
-        typer.Option(
-            "--distance",
-            rich_help_panel=OUTPUT,
-            help="Add how far apart the two frames are, in metres.",
-        ),
+        bool, option("Add how far apart the two frames are, in metres.", "--distance", panel=OUTPUT)
     ] = False,
-    precision: Annotated[
-        int,
-        decimals("Decimals."),
-    ] = 3,
+    precision: Annotated[int, decimals("Decimals.")] = 3,
     timeout: Annotated[
         Duration | None,
         seconds_option("Give up waiting after so long (exit status 4).", check=not_negative),

@@ -17,6 +17,7 @@ from tftool.cli.options import (
     finite,
     moment,
     moment_option,
+    option,
     seconds_option,
 )
 from tftool.errors import UsageError
@@ -41,79 +42,71 @@ def edit(
     ],
     output: Annotated[
         Path,
-        typer.Option(
+        option(
+            "What to write: .mcap, .db3 or .bag; a name without a suffix is a folder as "
+            "rosbag2 records it.",
             "--output",
             "-o",
             metavar="FILE",
-            rich_help_panel=OUTPUT,
-            help="What to write: .mcap, .db3 or .bag; a name without a suffix is a folder as "
-            "rosbag2 records it.",
+            panel=OUTPUT,
         ),
     ],
     drop: Annotated[
         list[str] | None,
-        typer.Option(
+        option(
+            "Leave a link out; * stands for any name. Again for more.",
             metavar="PARENT:CHILD",
-            rich_help_panel=LINKS,
-            help="Leave a link out; * stands for any name. Again for more.",
+            panel=LINKS,
         ),
     ] = None,
     poses: Annotated[
         list[str] | None,
-        typer.Option(
+        option(
+            "Give a link these numbers: metres, and roll, pitch, yaw in radians (90deg for "
+            "degrees) or the quaternion x, y, z, w. Again for more.",
             "--set",
             metavar="PARENT:CHILD=X,Y,Z,R,P,Y",
-            rich_help_panel=LINKS,
-            help="Give a link these numbers: metres, and roll, pitch, yaw in radians (90deg for "
-            "degrees) or the quaternion x, y, z, w. Again for more.",
+            panel=LINKS,
         ),
     ] = None,
     reparent: Annotated[
         list[str] | None,
-        typer.Option(
+        option(
+            "Hang a child from another parent; it stays where it is. Again for more.",
             metavar="PARENT:CHILD=NEW",
-            rich_help_panel=LINKS,
-            help="Hang a child from another parent; it stays where it is. Again for more.",
+            panel=LINKS,
         ),
     ] = None,
     statics_first: Annotated[
         bool,
-        typer.Option(
+        option(
+            "Put the latest value of every static at the beginning; cuts always do.",
             "--statics-first",
-            rich_help_panel=LINKS,
-            help="Put the latest value of every static at the beginning; cuts always do.",
+            panel=LINKS,
         ),
     ] = False,
     statics_from: Annotated[
         str | None,
-        typer.Option(
-            metavar="OTHER",
-            rich_help_panel=LINKS,
-            help="Take the statics of another recording or a robot description, in place of "
+        option(
+            "Take the statics of another recording or a robot description, in place of "
             "those of the same frames.",
+            metavar="OTHER",
+            panel=LINKS,
         ),
     ] = None,
     rename: Annotated[
-        list[str] | None,
-        typer.Option(
-            metavar="OLD=NEW", rich_help_panel=NAMES, help="Rename a frame. Again for more."
-        ),
+        list[str] | None, option("Rename a frame. Again for more.", metavar="OLD=NEW", panel=NAMES)
     ] = None,
-    prefix: Annotated[
-        str, typer.Option(metavar="TEXT", rich_help_panel=NAMES, help="Put r1/ before every frame.")
-    ] = "",
+    prefix: Annotated[str, option("Put r1/ before every frame.", metavar="TEXT", panel=NAMES)] = "",
     strip_slash: Annotated[
-        bool,
-        typer.Option(
-            "--strip-slash", rich_help_panel=NAMES, help="Take the slash off /base_link and others."
-        ),
+        bool, option("Take the slash off /base_link and others.", "--strip-slash", panel=NAMES)
     ] = False,
     everywhere: Annotated[
         bool,
-        typer.Option(
+        option(
+            "Change names and stamps in all messages with a header, not in tf alone.",
             "--everywhere",
-            rich_help_panel=NAMES,
-            help="Change names and stamps in all messages with a header, not in tf alone.",
+            panel=NAMES,
         ),
     ] = False,
     start: Annotated[
@@ -128,22 +121,21 @@ def edit(
     ] = None,
     by_record_time: Annotated[
         bool,
-        typer.Option(
+        option(
+            "--from and --to say when messages were received, not what is in their headers.",
             "--record-time",
-            rich_help_panel=WHEN,
-            help="--from and --to say when messages were received, not what is in their headers.",
+            panel=WHEN,
         ),
     ] = False,
     shift: Annotated[
-        Duration,
-        seconds_option("Add this to the stamps of transforms that move.", check=finite),
+        Duration, seconds_option("Add this to the stamps of transforms that move.", check=finite)
     ] = 0,
     restamp: Annotated[
         str | None,
-        typer.Option(
+        option(
+            "Stamp transforms that move with the time they were received.",
             metavar="log",
-            rich_help_panel=WHEN,
-            help="Stamp transforms that move with the time they were received.",
+            panel=WHEN,
         ),
     ] = None,
     split_every: Annotated[
@@ -155,10 +147,7 @@ def edit(
     ] = 0,
     force: Force = False,
     dry_run: Annotated[
-        bool,
-        typer.Option(
-            "--dry-run", rich_help_panel=OUTPUT, help="Say what would be done, and write nothing."
-        ),
+        bool, option("Say what would be done, and write nothing.", "--dry-run", panel=OUTPUT)
     ] = False,
     for_programs: Json = False,
 ) -> ExitStatus:

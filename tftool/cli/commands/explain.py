@@ -18,6 +18,7 @@ from tftool.cli.options import (
     moment,
     moment_option,
     not_negative,
+    option,
 )
 from tftool.errors import UsageError
 from tftool.stamps import LATEST, Duration, seconds
@@ -35,10 +36,10 @@ def explain(
     at: AtOption = None,
     message: Annotated[
         str,
-        typer.Option(
-            metavar="TOPIC[@MOMENT]",
-            help="Ask for the stamp of a message of this topic, when it arrived: the first one, "
+        option(
+            "Ask for the stamp of a message of this topic, when it arrived: the first one, "
             "or the nearest to --at or to the moment behind its @.",
+            metavar="TOPIC[@MOMENT]",
         ),
     ] = "",
     asked_at: Annotated[

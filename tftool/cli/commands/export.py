@@ -18,6 +18,7 @@ from tftool.cli.options import (
     StampsOf,
     ToOption,
     decimals,
+    option,
     output_file,
 )
 from tftool.errors import UsageError
@@ -49,11 +50,11 @@ def export(
     ] = None,
     form: Annotated[
         Format | None,
-        typer.Option(
+        option(
+            "What to write; if not said, what -o ends in. EuRoC is written where it is said.",
             "--format",
             "-f",
-            rich_help_panel=OUTPUT,
-            help="What to write; if not said, what -o ends in. EuRoC is written where it is said.",
+            panel=OUTPUT,
         ),
     ] = None,
     pairs: Pairs = None,
@@ -65,33 +66,26 @@ def export(
     at: AtOption = None,
     lasting: RunFor = None,
     rpy: Annotated[
-        bool,
-        typer.Option(
-            "--rpy", rich_help_panel=OUTPUT, help="Add roll, pitch and yaw to CSV and Parquet."
-        ),
+        bool, option("Add roll, pitch and yaw to CSV and Parquet.", "--rpy", panel=OUTPUT)
     ] = False,
     precision: Annotated[
-        int,
-        decimals("Decimals; 17 writes each number as short as it can be read back."),
+        int, decimals("Decimals; 17 writes each number as short as it can be read back.")
     ] = 9,
     root: Annotated[
-        str | None,
-        typer.Option(metavar="FRAME", help="Of links, take what hangs below this frame."),
+        str | None, option("Of links, take what hangs below this frame.", metavar="FRAME")
     ] = None,
     with_moving: Annotated[
         bool,
-        typer.Option(
-            "--with-moving",
-            help="Put links that move into a URDF, as floating joints (robot_state_publisher "
+        option(
+            "Put links that move into a URDF, as floating joints (robot_state_publisher "
             "skips them); where they are at --at, else at last.",
+            "--with-moving",
         ),
     ] = False,
     foxglove: Annotated[
         bool,
-        typer.Option(
-            "--foxglove",
-            rich_help_panel=OUTPUT,
-            help="Write .mcap as foxglove.FrameTransforms, not as tf2_msgs.",
+        option(
+            "Write .mcap as foxglove.FrameTransforms, not as tf2_msgs.", "--foxglove", panel=OUTPUT
         ),
     ] = False,
     force: Force = False,

@@ -10,6 +10,7 @@ from tftool.cli.options import (
     RunFor,
     finite,
     not_negative,
+    option,
     positive,
     seconds_option,
 )
@@ -36,8 +37,7 @@ def follow(
         typer.Argument(metavar="[FROM]", help="World to host: a scenario's name or file."),
     ] = None,
     period: Annotated[
-        Duration,
-        seconds_option("Time between two commands; 1 if not said.", panel=None),
+        Duration, seconds_option("Time between two commands; 1 if not said.", panel=None)
     ] = seconds(1),
     delay: Annotated[
         Duration,
@@ -48,7 +48,7 @@ def follow(
         ),
     ] = 0,
     fixed_frame: Annotated[
-        str, typer.Option(metavar="FRAME", help="Frame that stands still over the delay.")
+        str, option("Frame that stands still over the delay.", metavar="FRAME")
     ] = "world",
     kp_distance: Annotated[
         float, typer.Option(callback=finite, metavar="GAIN", help="Speed per metre of distance.")

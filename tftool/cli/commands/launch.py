@@ -6,7 +6,7 @@ import typer
 
 from tftool.cli.app import ExitStatus
 from tftool.cli.connection import Connection, Mode
-from tftool.cli.options import RunFor, SkippedFolders, refuse_long_simulation
+from tftool.cli.options import RunFor, SkippedFolders, option, refuse_long_simulation
 
 if TYPE_CHECKING:
     from tftool.runtime.log import LogRecord
@@ -22,15 +22,12 @@ def launch(
         ),
     ],
     show_args: Annotated[
-        bool,
-        typer.Option("-s", "--show-args", "--show-arguments", help="Show what the file takes."),
+        bool, option("Show what the file takes.", "-s", "--show-args", "--show-arguments")
     ] = False,
-    force: Annotated[
-        bool, typer.Option("--ros-free", help="Also where a real ROS 2 is sourced.")
-    ] = False,
+    force: Annotated[bool, option("Also where a real ROS 2 is sourced.", "--ros-free")] = False,
     run_for: RunFor = None,
     simulated: Annotated[
-        bool, typer.Option("--simulated", help="On simulated time: at once, the same every time.")
+        bool, option("On simulated time: at once, the same every time.", "--simulated")
     ] = False,
     verbose: SkippedFolders = False,
 ) -> ExitStatus:

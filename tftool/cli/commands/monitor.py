@@ -9,13 +9,7 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 from tftool.cli.app import ExitStatus
-from tftool.cli.options import (
-    OUTPUT,
-    CacheTime,
-    Json,
-    RunFor,
-    seconds_option,
-)
+from tftool.cli.options import OUTPUT, CacheTime, Json, RunFor, option, seconds_option
 from tftool.errors import InputError, TransformException, UsageError
 from tftool.frames.sample import TransformStamped
 from tftool.frames.traffic import NetDelay, Traffic
@@ -44,16 +38,10 @@ def monitor(
     ] = None,
     run_for: RunFor = None,
     every: Annotated[
-        Duration | None,
-        seconds_option("Time between two reports: 1 on a terminal, 10 elsewhere."),
+        Duration | None, seconds_option("Time between two reports: 1 on a terminal, 10 elsewhere.")
     ] = None,
     as_tf2: Annotated[
-        bool,
-        typer.Option(
-            "--tf2",
-            rich_help_panel=OUTPUT,
-            help="Print tf2_monitor's own numbers, its flaws included.",
-        ),
+        bool, option("Print tf2_monitor's own numbers, its flaws included.", "--tf2", panel=OUTPUT)
     ] = False,
     for_programs: Json = False,
     cache_time: CacheTime = None,

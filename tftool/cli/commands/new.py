@@ -12,6 +12,7 @@ from typing import Annotated
 import typer
 
 from tftool.cli.app import ExitStatus
+from tftool.cli.options import option
 from tftool.errors import InputError, UsageError
 from tftool.scenario.builtin import shipped
 
@@ -38,12 +39,10 @@ def new(
     ],
     example: Annotated[
         str,
-        typer.Option(
-            "--example", metavar="STEP", help=f"Which step of the tutorial: {', '.join(EXAMPLES)}."
-        ),
+        option(f"Which step of the tutorial: {', '.join(EXAMPLES)}.", "--example", metavar="STEP"),
     ] = "follower",
     scenario: Annotated[
-        bool, typer.Option("--scenario", help="Make a scenario of that name, and nothing else.")
+        bool, option("Make a scenario of that name, and nothing else.", "--scenario")
     ] = False,
 ) -> ExitStatus:
     """Make a package of nodes to begin with (ros2 pkg create).

@@ -6,12 +6,7 @@ from typing import TYPE_CHECKING, Annotated, Literal
 import typer
 
 from tftool.cli.app import ExitStatus
-from tftool.cli.options import (
-    At,
-    RunFor,
-    moment_option,
-    within,
-)
+from tftool.cli.options import At, RunFor, moment_option, option, within
 from tftool.errors import UsageError
 from tftool.stamps import Duration, Stamp, as_seconds
 
@@ -30,8 +25,7 @@ if TYPE_CHECKING:
 def play(
     connection: "Connection",
     file: Annotated[
-        str,
-        typer.Argument(metavar="RECORDING", help="What to play: a file, a folder, a glob."),
+        str, typer.Argument(metavar="RECORDING", help="What to play: a file, a folder, a glob.")
     ],
     rate: Annotated[
         float,
@@ -44,32 +38,25 @@ def play(
         ),
     ] = 1.0,
     begin: Annotated[
-        At | None,
-        moment_option("Where to begin: seconds since the start, or a stamp.", "--from"),
+        At | None, moment_option("Where to begin: seconds since the start, or a stamp.", "--from")
     ] = None,
-    until: Annotated[
-        At | None,
-        moment_option("Where to end, likewise.", "--to"),
-    ] = None,
-    loop: Annotated[bool, typer.Option("--loop", help="Start over at the end.")] = False,
-    paused: Annotated[bool, typer.Option("--paused", help="Begin standing still.")] = False,
+    until: Annotated[At | None, moment_option("Where to end, likewise.", "--to")] = None,
+    loop: Annotated[bool, option("Start over at the end.", "--loop")] = False,
+    paused: Annotated[bool, option("Begin standing still.", "--paused")] = False,
     restamp: Annotated[
         Literal["now"] | None,
-        typer.Option(
+        option(
+            "Give transforms stamps of the present, and publish no /clock.",
             "--restamp",
             metavar="now",
-            help="Give transforms stamps of the present, and publish no /clock.",
         ),
     ] = None,
     everything: Annotated[
         bool,
-        typer.Option(
-            "--all", help="Send every other topic too whose type is known, with its own stamps."
-        ),
+        option("Send every other topic too whose type is known, with its own stamps.", "--all"),
     ] = False,
     force: Annotated[
-        bool,
-        typer.Option("--force", help="Over --dds: play beside publishers of /tf that are there."),
+        bool, option("Over --dds: play beside publishers of /tf that are there.", "--force")
     ] = False,
     run_for: RunFor = None,
 ) -> ExitStatus:

@@ -20,6 +20,7 @@ from tftool.cli.options import (
     RunFor,
     StampsOf,
     ToOption,
+    option,
     output_file,
     seconds_option,
 )
@@ -49,20 +50,17 @@ def plot(
         ),
     ] = None,
     pairs: Pairs = None,
-    output: Annotated[
-        Path | None,
-        output_file("Write a picture: .svg, .pdf or .png."),
-    ] = None,
+    output: Annotated[Path | None, output_file("Write a picture: .svg, .pdf or .png.")] = None,
     only: Annotated[
         list[str] | None,
-        typer.Option(
-            metavar="WHAT,...",
-            help="Draw these alone: position (x, y, z), rotation (roll, pitch, yaw), distance, "
+        option(
+            "Draw these alone: position (x, y, z), rotation (roll, pitch, yaw), distance, "
             "speed, turn-rate, or single ones.",
+            metavar="WHAT,...",
         ),
     ] = None,
     from_above: Annotated[
-        bool, typer.Option("--xy", help="Draw the path from above, in place of time.")
+        bool, option("Draw the path from above, in place of time.", "--xy")
     ] = False,
     first: FromOption = None,
     last: ToOption = None,
@@ -70,15 +68,12 @@ def plot(
     rate: Rate = None,
     stamps_of: StampsOf = None,
     window: Annotated[
-        Duration,
-        seconds_option("How far back a live plot reaches; 20 if not said."),
+        Duration, seconds_option("How far back a live plot reaches; 20 if not said.")
     ] = seconds(20),
     lasting: RunFor = None,
     ascii_only: Ascii = False,
     light: Light = False,
-    dark: Annotated[
-        bool, typer.Option("--dark", rich_help_panel=OUTPUT, help="With -o: on a dark ground.")
-    ] = False,
+    dark: Annotated[bool, option("With -o: on a dark ground.", "--dark", panel=OUTPUT)] = False,
     force: Force = False,
 ) -> ExitStatus:
     """Plot where SOURCE is in TARGET over time, in the terminal or as a picture.

@@ -12,14 +12,7 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 from tftool.cli.app import ExitStatus
-from tftool.cli.options import (
-    OUTPUT,
-    WHEN,
-    Force,
-    Json,
-    RunFor,
-    seconds_option,
-)
+from tftool.cli.options import OUTPUT, WHEN, Force, Json, RunFor, option, seconds_option
 from tftool.errors import UsageError
 from tftool.near_names import near_names
 from tftool.stamps import Duration, seconds
@@ -42,12 +35,12 @@ def record(
     connection: "Connection",
     output: Annotated[
         Path,
-        typer.Option(
+        option(
+            "What to write: a name ending in .mcap, or without a suffix a folder.",
             "--output",
             "-o",
             metavar="FILE",
-            rich_help_panel=OUTPUT,
-            help="What to write: a name ending in .mcap, or without a suffix a folder.",
+            panel=OUTPUT,
         ),
     ],
     topics: Annotated[
@@ -56,12 +49,10 @@ def record(
             metavar="[TOPIC]...", help="Topics beside /tf and /tf_static.", show_default=False
         ),
     ] = None,
-    everything: Annotated[bool, typer.Option("--all", help="Record every topic.")] = False,
+    everything: Annotated[bool, option("Record every topic.", "--all")] = False,
     place: Annotated[
         str | None,
-        typer.Option(
-            "--in", metavar="SCENARIO", help="Host this scenario, and record what it does."
-        ),
+        option("Host this scenario, and record what it does.", "--in", metavar="SCENARIO"),
     ] = None,
     run_for: RunFor = None,
     ring: Annotated[
@@ -70,24 +61,19 @@ def record(
     ] = None,
     finding: Annotated[
         str | None,
-        typer.Option(
+        option(
+            "Write the last minute (--ring) when the doctor finds this, and stop.",
             "--on",
             metavar="FINDING",
-            rich_help_panel=WHEN,
-            help="Write the last minute (--ring) when the doctor finds this, and stop.",
+            panel=WHEN,
         ),
     ] = None,
     max_size: Annotated[
         str | None,
-        typer.Option(
-            metavar="SIZE",
-            rich_help_panel=OUTPUT,
-            help="Begin a new file from a size on: 500M, 2G.",
-        ),
+        option("Begin a new file from a size on: 500M, 2G.", metavar="SIZE", panel=OUTPUT),
     ] = None,
     max_duration: Annotated[
-        Duration | None,
-        seconds_option("Begin a new file after so long.", panel=OUTPUT),
+        Duration | None, seconds_option("Begin a new file after so long.", panel=OUTPUT)
     ] = None,
     force: Force = False,
     for_programs: Json = False,

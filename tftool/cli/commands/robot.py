@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 import typer
 
 from tftool.cli.app import ExitStatus
-from tftool.cli.options import Ascii, Light, RunFor, within
+from tftool.cli.options import Ascii, Light, RunFor, option, within
 from tftool.errors import UsageError
 from tftool.near_names import did_you_mean
 from tftool.stamps import Duration
@@ -26,15 +26,13 @@ def robot(
     ],
     link: Annotated[
         str | None,
-        typer.Option(
-            "--link", metavar="LINK", help="Link whose pose is shown; the farthest if not said."
-        ),
+        option("Link whose pose is shown; the farthest if not said.", "--link", metavar="LINK"),
     ] = None,
     follow: Annotated[
-        bool, typer.Option("--follow", help="Move no joint; follow the /joint_states of others.")
+        bool, option("Move no joint; follow the /joint_states of others.", "--follow")
     ] = False,
     no_screen: Annotated[
-        bool, typer.Option("--no-screen", help="Publish until stopped, without sliders.")
+        bool, option("Publish until stopped, without sliders.", "--no-screen")
     ] = False,
     rate: Annotated[
         float,
@@ -47,7 +45,7 @@ def robot(
         ),
     ] = 20.0,
     frame_prefix: Annotated[
-        str, typer.Option(metavar="PREFIX", help="What to put before every link: left/.")
+        str, option("What to put before every link: left/.", metavar="PREFIX")
     ] = "",
     run_for: RunFor = None,
     ascii_only: Ascii = False,

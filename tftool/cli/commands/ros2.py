@@ -4,7 +4,7 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from tftool.cli.options import RunFor
+from tftool.cli.options import RunFor, option
 
 if TYPE_CHECKING:
     from collections.abc import Collection, Sequence
@@ -32,8 +32,7 @@ def ros2(
         typer.Argument(metavar="COMMAND VERB …", help="What stands behind ros2 with ROS."),
     ],
     place: Annotated[
-        str | None,
-        typer.Option("--in", metavar="SCENARIO", help="World to host: a scenario's name or file."),
+        str | None, option("World to host: a scenario's name or file.", "--in", metavar="SCENARIO")
     ] = None,
     run_for: RunFor = None,
 ) -> int:

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from tftool.cli.options import RunFor, SkippedFolders, refuse_long_simulation
+from tftool.cli.options import RunFor, SkippedFolders, option, refuse_long_simulation
 from tftool.views.escaping import visible, visible_lines
 
 ROBOTS = ("robot_state_publisher", "joint_state_publisher")
@@ -72,16 +72,12 @@ def run(
     ] = None,
     place: Annotated[
         str | None,
-        typer.Option(
-            "--in", metavar="SCENARIO", help="World to host for it: a scenario's name or file."
-        ),
+        option("World to host for it: a scenario's name or file.", "--in", metavar="SCENARIO"),
     ] = None,
-    force: Annotated[
-        bool, typer.Option("--ros-free", help="Also where a real ROS 2 is sourced.")
-    ] = False,
+    force: Annotated[bool, option("Also where a real ROS 2 is sourced.", "--ros-free")] = False,
     run_for: RunFor = None,
     simulated: Annotated[
-        bool, typer.Option("--simulated", help="On simulated time: at once, the same every time.")
+        bool, option("On simulated time: at once, the same every time.", "--simulated")
     ] = False,
     verbose: SkippedFolders = False,
 ) -> int:

@@ -3,14 +3,9 @@
 import sys
 from typing import TYPE_CHECKING, Annotated, Any
 
-import typer
-
 from tftool.cli.app import ExitStatus
 from tftool.cli.connection import Connection, Mode
-from tftool.cli.options import (
-    Json,
-    seconds_option,
-)
+from tftool.cli.options import Json, option, seconds_option
 from tftool.stamps import Duration, as_seconds, seconds
 
 if TYPE_CHECKING:
@@ -28,8 +23,7 @@ def session(
         ),
     ] = seconds(1),
     verbose: Annotated[
-        bool,
-        typer.Option("--verbose", "-v", help="List the services of parameters and actions, too."),
+        bool, option("List the services of parameters and actions, too.", "--verbose", "-v")
     ] = False,
     for_programs: Json = False,
 ) -> ExitStatus:

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 from tftool.cli.app import ExitStatus
+from tftool.cli.options import option
 
 if TYPE_CHECKING:
     from tftool.cli.connection import Connection
@@ -35,17 +36,17 @@ def static(
     qz: Part = None,
     qw: Part = None,
     frame_id: Annotated[
-        str | None, typer.Option("--frame-id", metavar="PARENT", help="Frame it is given in.")
+        str | None, option("Frame it is given in.", "--frame-id", metavar="PARENT")
     ] = None,
     child_frame_id: Annotated[
-        str | None, typer.Option("--child-frame-id", metavar="CHILD", help="Frame it places.")
+        str | None, option("Frame it places.", "--child-frame-id", metavar="CHILD")
     ] = None,
     once: Annotated[
         bool,
-        typer.Option(
-            "--once",
-            help="Publish, say what, and stop. Who is there keeps it; who comes later does "
+        option(
+            "Publish, say what, and stop. Who is there keeps it; who comes later does "
             "not hear of it.",
+            "--once",
         ),
     ] = False,
 ) -> ExitStatus:

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 from tftool.cli.app import ExitStatus
-from tftool.cli.options import Ascii, Light
+from tftool.cli.options import Ascii, Light, option
 from tftool.errors import UsageError
 from tftool.messages import Pose2D
 from tftool.stamps import seconds
@@ -30,10 +30,10 @@ def teleop(
     turtle: Annotated[str, typer.Argument(metavar="[TURTLE]", help="Whom to drive.")] = "turtle1",
     keys: Annotated[
         str | None,
-        typer.Option(
+        option(
+            'Press these instead of reading any, one after the other: "up up left g".',
             "--keys",
             metavar="KEYS",
-            help='Press these instead of reading any, one after the other: "up up left g".',
         ),
     ] = None,
     ascii_only: Ascii = False,

@@ -5,10 +5,8 @@ from enum import StrEnum
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
-import typer
-
 from tftool.cli.app import ExitStatus
-from tftool.cli.options import OUTPUT, AtOption, CacheTime, From, Json, RunFor, output_file
+from tftool.cli.options import OUTPUT, AtOption, CacheTime, From, Json, RunFor, option, output_file
 from tftool.errors import InputError, UsageError
 from tftool.stamps import Duration, seconds
 
@@ -55,30 +53,21 @@ def tree(
     place: From = None,
     form: Annotated[
         TreeFormat | None,
-        typer.Option(
-            "--format",
-            "-f",
-            rich_help_panel=OUTPUT,
-            help="What to write; if not said, what -o ends in.",
-        ),
+        option("What to write; if not said, what -o ends in.", "--format", "-f", panel=OUTPUT),
     ] = None,
-    output: Annotated[
-        Path | None,
-        output_file("Where to write it; - is stdout."),
-    ] = None,
+    output: Annotated[Path | None, output_file("Where to write it; - is stdout.")] = None,
     as_json: Json = False,
     wide: Annotated[
         bool,
-        typer.Option(
+        option(
+            "All columns and whole names on a terminal too, however long the lines.",
             "--wide",
-            rich_help_panel=OUTPUT,
-            help="All columns and whole names on a terminal too, however long the lines.",
+            panel=OUTPUT,
         ),
     ] = False,
     at: AtOption = None,
     watch: Annotated[
-        bool,
-        typer.Option("--watch", "-w", help="Show it as it changes; keys scroll, sort and filter."),
+        bool, option("Show it as it changes; keys scroll, sort and filter.", "--watch", "-w")
     ] = False,
     run_for: RunFor = None,
     cache_time: CacheTime = None,

@@ -9,7 +9,7 @@ import typer
 
 from tftool.cli.app import ExitStatus
 from tftool.cli.connection_options import ROBOT
-from tftool.cli.options import CacheTime, Force, From, RunFor, output_file, within
+from tftool.cli.options import CacheTime, Force, From, RunFor, option, output_file, within
 from tftool.errors import UsageError
 from tftool.stamps import Duration, as_seconds
 
@@ -39,9 +39,7 @@ def view(
             help="Where to serve the page; the next free one if it is taken.",
         ),
     ] = 8765,
-    open_browser: Annotated[
-        bool, typer.Option("--open", help="Open the page in your browser.")
-    ] = False,
+    open_browser: Annotated[bool, option("Open the page in your browser.", "--open")] = False,
     run_for: RunFor = None,
     rate: Annotated[
         float,
