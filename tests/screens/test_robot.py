@@ -42,7 +42,7 @@ def mover(robot):
 def shown(robot, mover):
     """The screen after some keys."""
 
-    def show(*keys, size=(80, 24), mover=mover, heard=None, **setting):
+    def show(*keys, size=(80, 24), resized=None, mover=mover, heard=None, **setting):
         world = new_world()
         for one in robot.transforms({"turn": 0.5}, stamp=1):
             world.broadcast([one], "me", static=True)
@@ -56,6 +56,9 @@ def shown(robot, mover):
                 await pilot.pause()
                 await pilot.press(*keys)
                 await pilot.pause()
+                if resized is not None:
+                    await pilot.resize_terminal(*resized)
+                    await pilot.pause()
                 app.redraw()
                 await pilot.pause()
                 strips = app.screen._compositor.render_strips(app.size)
@@ -173,6 +176,15 @@ def test_without_a_mover_others_move_the_joints(shown):
 
 def test_plain_characters_are_enough(shown):
     assert "\n".join(shown("question_mark", ascii_only=True)).isascii()
+
+
+@pytest.mark.parametrize(("resized", "left"), [((100, 24), 22), ((40, 12), 0)])
+def test_the_keys_stay_in_the_middle_of_a_window_that_changes(shown, resized, left):
+    lines = shown("question_mark", resized=resized)
+
+    edge = next(line for line in lines if "╭─ Keys" in line)
+    assert edge.index("╭─ Keys") == left
+    assert "╮" in edge
 
 
 def test_a_robot_without_moving_joints_says_so():

@@ -5,9 +5,11 @@ from collections.abc import Callable
 from typing import ClassVar
 
 from rich.text import Text
+from textual import events
 from textual.app import App
 from textual.binding import Binding, BindingType
 from textual.driver import Driver
+from textual.geometry import Size
 
 from tftool.runtime.world import World
 from tftool.screens.keyboard import tolerant
@@ -140,9 +142,20 @@ class PanelApp(WorldApp):
         """Show or hide what every key does."""
         panel = self.panel("keys")
         panel.display = not panel.display
+        self._place_keys(self.size)
+
+    def on_resize(self, event: events.Resize) -> None:
+        """Keep the keys in the middle."""
+        self._place_keys(event.size)
+
+    def _place_keys(self, size: Size) -> None:
+        panel = self.panel("keys")
+        if not panel.display:
+            return
         lines = self.KEYS_TOLD.splitlines()
-        width, height = self.size
-        panel.styles.height = len(lines) + 2
+        width, height = size
+        panel.styles.width = min(self.KEYS_WIDTH, width)
+        panel.styles.height = min(len(lines) + 2, height)
         panel.styles.offset = (
             max(0, (width - self.KEYS_WIDTH) // 2),
             max(0, (height - len(lines) - 2) // 2),
