@@ -111,6 +111,21 @@ def test_one_wild_stamp_makes_no_hundred_million_answers(tftool, tmp_path):
     assert "397,000,001 moments" in result.err
 
 
+@pytest.mark.parametrize("command", [["echo"], ["explain"], ["plot"], ["export", "-o", "a.tum"]])
+def test_a_recording_in_the_place_of_a_frame_is_told(tftool, run, command):
+    result = tftool(*command, "base_link", run)
+
+    assert result.status == 2
+    assert "stands where a frame's name does: FROM comes behind two frames" in result.err
+
+
+def test_topics_there_are_stand_beside_one_there_is_not(tftool, run):
+    result = tftool("echo", "map", "base_link", run, "--at-stamps-of", "/xyz")
+
+    assert result.status == 3
+    assert "No topic '/xyz' was recorded; there are /clock, /scan, /tf, /tf_static." in result.err
+
+
 def test_info_tells_what_is_odd(tftool, tmp_path):
     start = 1_750_000_000 * SECOND
     sent = [

@@ -1,9 +1,12 @@
 """The pairs of frames a command works on, and at which moments: its words become values."""
 
+from pathlib import Path
 from typing import TYPE_CHECKING
 
 from tftool.errors import UsageError
+from tftool.sources.find import METADATA
 from tftool.stamps import Duration, Stamp, seconds
+from tftool.views.escaping import visible
 
 if TYPE_CHECKING:
     from tftool.cli.hosting import StoredFrames
@@ -27,14 +30,11 @@ def pairs_and_place(words: list[str], given: list[str]) -> tuple[list[tuple[str,
             else f"TARGET SOURCE [FROM] are three words at most, not {len(words)}."
         )
     if not given:
-        return (
-            ([], words[0] if words else None)
-            if len(words) < 2
-            else (
-                [(words[0], words[1])],
-                words[2] if len(words) > 2 else None,
-            )
-        )
+        if len(words) < 2:
+            return [], words[0] if words else None
+        place = words[2] if len(words) > 2 else None
+        refuse_file_as_frame(words[0], words[1], place)
+        return [(words[0], words[1])], place
     pairs = []
     for text in given:
         target, colon, source = text.partition(":")
@@ -42,6 +42,23 @@ def pairs_and_place(words: list[str], given: list[str]) -> tuple[list[tuple[str,
             raise UsageError(f"--pair {text}: write TARGET:SOURCE, as in map:base_link.")
         pairs.append((target, source))
     return pairs, words[0] if words else None
+
+
+def refuse_file_as_frame(target: str, source: str, place: str | None) -> None:
+    """See that no file stands where a frame's name is wanted, as where one of three was forgotten.
+
+    Raises:
+        UsageError: If one does.
+    """
+    if place is not None:
+        return
+    for word in (target, source):
+        path = Path(word)
+        if (path.suffix and path.is_file()) or (path / METADATA).is_file():
+            raise UsageError(
+                f"'{visible(word)}' is a recording, or another file, and stands where a frame's "
+                "name does: FROM comes behind two frames, TARGET SOURCE FROM."
+            )
 
 
 def moments_of(

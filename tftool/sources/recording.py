@@ -379,7 +379,9 @@ class Recording:
                 return topic
         known = [topic.name for topic in self.topics]
         near = near_names(name, known, 3)
-        hint = f"did you mean {' or '.join(near)}?" if near else f"there are {len(known)} topics."
+        rest = f" and {len(known) - 8} more" if len(known) > 8 else ""
+        there = f"there are {', '.join(sorted(known)[:8])}{rest}." if known else "there are none."
+        hint = f"did you mean {' or '.join(near)}?" if near else there
         raise InputError(f"No topic '{name}' was recorded; {hint}")
 
     def _children(self) -> str:

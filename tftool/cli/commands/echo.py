@@ -103,6 +103,7 @@ def echo(
     from tftool.cli.hosting import A_MOMENT, NO_SESSION, open_session, refuse_to_share
     from tftool.cli.naming import named
     from tftool.cli.notices import notice
+    from tftool.cli.pairs import refuse_file_as_frame
     from tftool.cli.redrawing import Redrawing, can_redraw
     from tftool.cli.waiting import FramePair
     from tftool.sources.find import Kind
@@ -110,6 +111,7 @@ def echo(
 
     place, rate = _place_or_rate(place, rate)
     _refuse_contradictions(once, count, at, offset, fixed_frame)
+    refuse_file_as_frame(target, source, place)
     for frame in (target, source, *([] if fixed_frame is None else [fixed_frame])):
         _check_name(frame)
 

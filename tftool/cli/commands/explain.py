@@ -72,6 +72,7 @@ def explain(
     # Heavy imports wait until this command is the chosen one.
     from tftool.cli.examining import LIVE, material_of
     from tftool.cli.naming import named
+    from tftool.cli.pairs import refuse_file_as_frame
     from tftool.cli.printing import write
     from tftool.diagnostics.explanation import over_time, traced
     from tftool.diagnostics.model import Model, Settings
@@ -79,6 +80,7 @@ def explain(
     from tftool.sources.find import Kind
     from tftool.views import explanation as view
 
+    refuse_file_as_frame(target, source, place)
     origin = None if place is None else named(place)
     if origin is not None and origin.kind is Kind.DESCRIPTION:
         if message or asked_at is not None:
