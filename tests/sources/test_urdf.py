@@ -1,6 +1,7 @@
 import math
 import shutil
 import subprocess
+from pathlib import Path
 
 import pytest
 
@@ -308,6 +309,36 @@ def test_xacro_that_fails_is_a_sentence(tmp_path):
 
     with pytest.raises(InputError, match="cannot be expanded by xacro"):
         load_description(path)
+
+
+def test_what_xacro_includes_lies_beside_the_file_wherever_it_is_read_from(tmp_path, monkeypatch):
+    pytest.importorskip("xacrodoc", reason="the extra 'xacro' is not installed")
+    named = 'xmlns:xacro="http://www.ros.org/wiki/xacro"'
+    include = '<xacro:include filename="{}"/>'
+    (tmp_path / "parts").mkdir()
+    (tmp_path / "arm.urdf.xacro").write_text(
+        f'<robot name="arm" {named}>{include.format("parts/base.xacro")}'
+        '<link name="${first}"/><link name="${second}"/>'
+        "<xacro:property name='y' value=\"${xacro.load_yaml('parts/far.yaml')}\"/>"
+        '<joint name="j" type="fixed"><parent link="${first}"/><child link="${second}"/>'
+        "<origin xyz=\"${y['x']} 0 0\"/></joint></robot>"
+    )
+    (tmp_path / "parts" / "far.yaml").write_text("x: 2.5\n")
+    (tmp_path / "parts" / "base.xacro").write_text(
+        f"<robot {named}>{include.format('names.xacro')}"
+        '<xacro:property name="first" value="base"/></robot>'
+    )
+    (tmp_path / "parts" / "names.xacro").write_text(
+        f'<robot {named}><xacro:property name="second" value="hand"/></robot>'
+    )
+    elsewhere = tmp_path / "elsewhere"
+    elsewhere.mkdir()
+    monkeypatch.chdir(elsewhere)
+
+    for path in (tmp_path / "arm.urdf.xacro", Path("..", "arm.urdf.xacro")):
+        robot = load_description(path)
+        assert sorted(robot.links) == ["base", "hand"]
+        assert robot.joints["j"].origin.translation == (2.5, 0.0, 0.0)
 
 
 def test_a_package_that_xacro_does_not_find_is_named_with_the_remedy(tmp_path):

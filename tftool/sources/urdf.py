@@ -160,12 +160,14 @@ def _text_of(path: Path) -> str:
 
 def _expanded(path: Path, arguments: Mapping[str, str]) -> str:
     try:
-        from xacrodoc import XacroDoc
+        from xacrodoc import XacroDoc, xacrodoc
     except ImportError:
         raise UsageError(
             f"'{path}' contains xacro, which needs an extra: pip install 'tftool-tf2[xacro]'"
         ) from None
     try:
+        # What a file includes lies beside it, wherever it is read from.
+        xacrodoc.xacro.init_stacks(str(path.resolve()))
         # Names of meshes stay as written: what finds them comes later, or never.
         expanded = XacroDoc.from_file(str(path), subargs=dict(arguments), resolve_packages=False)
         return str(expanded.dom.toprettyxml(indent="  "))
