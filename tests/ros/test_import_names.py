@@ -14,6 +14,8 @@ from tftool.ros.host.importing import ros_free
     [
         ("tf2_ros", "TransformStamped TFMessage Time Duration Node"),
         ("rclpy.time", "CONVERSION_CONSTANT"),
+        ("rclpy.service", "Service ServiceIntrospectionState"),
+        ("rclpy.client", "Client ServiceIntrospectionState"),
         ("std_msgs.msg._string", "String"),
         ("sensor_msgs.msg._point_cloud2", "PointCloud2"),
         ("std_srvs.srv._set_bool", "SetBool"),

@@ -131,6 +131,28 @@ def test_an_action_is_sent_and_its_result_shown(ros_runtime, tmp_path):
     assert any(line.strip().startswith("delta: ") for line in lines)
 
 
+def test_the_feedback_of_an_action_is_echoed(ros_runtime, tmp_path):
+    server = tmp_path / "server.py"
+    server.write_text(
+        "import rclpy\nfrom example_interfaces.action import Fibonacci\n"
+        "from rclpy.action import ActionClient, ActionServer\n"
+        "rclpy.init()\nnode = rclpy.create_node('counts')\n"
+        "def execute(handle):\n"
+        "    handle.publish_feedback(Fibonacci.Feedback(sequence=[4, 2]))\n"
+        "    handle.succeed()\n    return Fibonacci.Result()\n"
+        "server = ActionServer(node, Fibonacci, 'count', execute)\n"
+        "client = ActionClient(node, Fibonacci, 'count')\n"
+        "node.create_timer(0.5, lambda: client.send_goal_async(Fibonacci.Goal()))\n"
+        "rclpy.spin(node)\n"
+    )
+    ros_runtime.start(server)
+    ros_runtime.sleep(0.1)
+    status, lines = ran(ros_runtime, tmp_path, "topic", "echo", "--once", "/count/_action/feedback")
+
+    assert status == 0
+    assert [line.strip() for line in lines][-4:] == ["sequence:", "- 4", "- 2", "---"]
+
+
 def test_interfaces_and_packages_are_shown(ros_runtime, tmp_path):
     assert ran(ros_runtime, tmp_path, "interface", "show", "geometry_msgs/msg/Vector3")[1][-3:] == [
         "float64 x",

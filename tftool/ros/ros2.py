@@ -154,7 +154,9 @@ def _heard(node: Node, asked: argparse.Namespace, callback: Callable[[Any], None
         else DurabilityPolicy.VOLATILE,
         reliability=ReliabilityPolicy.RELIABLE if reliable else ReliabilityPolicy.BEST_EFFORT,
     )
-    kind = ros2_words.interface(name, "msg")
+    # What a topic carries behind an action or a service is no message of its own file.
+    is_derived = "/action/" in name or "/srv/" in name
+    kind = INTERFACES.part(name) if is_derived else ros2_words.interface(name, "msg")
     node.create_subscription(kind, _full(asked.topic), callback, profile)
 
 

@@ -52,6 +52,8 @@ rclpy.qos_overriding_options: rclpy.qos_overriding_options: _declare_qos_paramet
 rclpy.qos_overriding_options: rclpy.qos_overriding_options: _get_qos_policy_parameter
 rclpy.qos_overriding_options: rclpy.qos: QoSPolicyKind
 rclpy.service_introspection: rclpy.services: ServiceIntrospectionState
+rclpy.service: rclpy.services: ServiceIntrospectionState
+rclpy.client: rclpy.services: ServiceIntrospectionState
 rclpy.time_source: rclpy.time_source: TimeSource CLOCK_TOPIC USE_SIM_TIME_NAME
 rclpy.type_support: rclpy.type_support: check_for_type_support check_is_valid_msg_type
 rclpy.type_support: rclpy.type_support: check_is_valid_srv_type

@@ -77,7 +77,8 @@ class NodeSeat:
                 f"a node named '{wanted}' is here already; this one is shown as '{name}'. "
                 f"Give it a name of its own: --ros-args -r __node:=…",
             )
-        elif name in self.world.far_nodes:
+        elif name in self.world.far_nodes and not self.name.startswith("_"):
+            # Hidden ones are tools, of which there may be many: 'ros2 topic echo' in two terminals.
             self.program.say("WARN", name, names.named_twice(name))
         if self.program.name == name:
             # The executable and its node share a name, as they often do.
