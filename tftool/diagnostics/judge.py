@@ -1,5 +1,6 @@
 """Material to findings: every check is run, consequences are put under their causes."""
 
+from collections import defaultdict
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from types import MappingProxyType
@@ -162,7 +163,10 @@ def refuse_unknown(settings: Settings, select: Sequence[str], ignore: Sequence[s
 
 
 def _findings(hits: list[tuple[Check, Hit]], limits: Mapping[str, Limits]) -> tuple[Finding, ...]:
-    causes = [_cause_of(number, hits) for number in range(len(hits))]
+    of_check: dict[str, list[int]] = defaultdict(list)
+    for number, (check, _) in enumerate(hits):
+        of_check[check.id].append(number)
+    causes = [_cause_of(number, hits, of_check) for number in range(len(hits))]
     grouped: dict[tuple[object, ...], list[Hit]] = {}
     for number, ((check, hit), cause) in enumerate(zip(hits, causes, strict=True)):
         severity = hit.severity or check.severity
@@ -191,19 +195,28 @@ def _findings(hits: list[tuple[Check, Hit]], limits: Mapping[str, Limits]) -> tu
     return (*told, *(other for other in rest if other.because_of not in placed))
 
 
-def _cause_of(number: int, hits: list[tuple[Check, Hit]]) -> str | None:
-    """The id of what explains a hit: of several, the first that nothing explains itself."""
+def _cause_of(
+    number: int, hits: list[tuple[Check, Hit]], of_check: Mapping[str, Sequence[int]]
+) -> str | None:
+    """The id of what explains a hit: of several, the first that nothing explains itself.
+
+    Args:
+        number: The hit's.
+        hits: All of them.
+        of_check: The numbers of those of each check.
+    """
     check, hit = hits[number]
     for causes, consequences, common in FOLDS:
         if check.id not in consequences:
             continue
-        for other_number, (other, cause) in enumerate(hits):
-            if other.id not in causes or not _share(hit, cause, common):
+        for other_number in sorted(n for name in causes for n in of_check.get(name, ())):
+            other, cause = hits[other_number]
+            if not _share(hit, cause, common):
                 continue
             if common not in ("edge", "frame") and _is_calm(other, cause) > _is_calm(check, hit):
                 # A note hides an error or a warning only where both are about the same thing.
                 continue
-            if _cause_of(other_number, hits) is None:
+            if _cause_of(other_number, hits, of_check) is None:
                 return other.id
     return None
 

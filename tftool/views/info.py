@@ -1,5 +1,6 @@
 """What a recording holds, as text and as data."""
 
+from collections import defaultdict
 from collections.abc import Mapping, Sequence
 from datetime import UTC, datetime, timedelta
 from typing import Any
@@ -7,7 +8,7 @@ from typing import Any
 from rich.cells import cell_len
 from rich.text import Text
 
-from tftool.sources.contract import RecordedTopic
+from tftool.sources.contract import Publisher, RecordedTopic
 from tftool.sources.described import DescribedFrames
 from tftool.sources.recording import Recording
 from tftool.sources.robot import Robot
@@ -52,7 +53,7 @@ def as_text(recording: Recording, width: int | None = None) -> str:
         lines += ["", "Topics"]
         lines += table(
             ("name", "type", "messages", "rate", "publishers"),
-            [_topic(recording, topic) for topic in topics],
+            _topics(recording, topics),
             width,
             goes=("publishers", "type"),
             right=("messages", "rate"),
@@ -74,15 +75,27 @@ def as_text(recording: Recording, width: int | None = None) -> str:
     return "\n".join(lines) + "\n"
 
 
-def _topic(recording: Recording, topic: RecordedTopic) -> tuple[str, ...]:
+def _topics(recording: Recording, topics: Sequence[RecordedTopic]) -> list[tuple[str, ...]]:
     span = recording.source.end - recording.source.start
-    return (
-        visible(topic.name),
-        visible(topic.type),
-        f"{topic.count:,}",
-        f"{(topic.count - 1) * NANOSECONDS / span:.1f} Hz" if topic.count > 1 and span else "-",
-        _few(sorted({one.node for one in recording.publishers if one.topic == topic.name})),
-    )
+    publishers = _publishers(recording)
+    return [
+        (
+            visible(topic.name),
+            visible(topic.type),
+            f"{topic.count:,}",
+            f"{(topic.count - 1) * NANOSECONDS / span:.1f} Hz" if topic.count > 1 and span else "-",
+            _few(sorted({one.node for one in publishers[topic.name]})),
+        )
+        for topic in topics
+    ]
+
+
+def _publishers(recording: Recording) -> dict[str, list[Publisher]]:
+    """Those of each topic."""
+    found: dict[str, list[Publisher]] = defaultdict(list)
+    for one in recording.publishers:
+        found[one.topic].append(one)
+    return found
 
 
 def _robot(recording: Recording, robot: Robot) -> str:
@@ -104,7 +117,7 @@ def _robot(recording: Recording, robot: Robot) -> str:
 
 def as_object(recording: Recording) -> dict[str, Any]:
     """The same for programs; moments and durations in nanoseconds."""
-    source = recording.source
+    source, publishers = recording.source, _publishers(recording)
     return {
         "name": recording.name,
         "kind": source.kind,
@@ -132,8 +145,7 @@ def as_object(recording: Recording) -> dict[str, Any]:
                 "static": topic.static,
                 "publishers": [
                     {"node": one.node, "durability": one.durability, "reliability": one.reliability}
-                    for one in recording.publishers
-                    if one.topic == topic.name
+                    for one in publishers[topic.name]
                 ],
             }
             for topic in recording.topics
