@@ -1,6 +1,8 @@
 """Whatever is cut off or changed in a file: an answer or a sentence, never anything else."""
 
+import bz2
 import random
+import tracemalloc
 
 import pytest
 
@@ -14,7 +16,7 @@ import zstandard
 
 from tests.sources.writers import CONTAINERS, content, write_mcap, write_rosbag1, write_rosbag2
 from tftool import InputError, open_recording
-from tftool.sources import compressed
+from tftool.sources import compressed, mcap_records, rosbag1_records
 from tftool.sources.writing.compression import compressor
 
 SENT = content()
@@ -211,3 +213,28 @@ def test_of_a_damaged_piece_what_stands_before_the_damage_is_read(method):
 
     assert found[:20_000] == text[:20_000]
     assert compressed.unpack_beginning(method, b"nothing of the kind", 100) == b""
+
+
+@pytest.mark.parametrize(
+    "pack", [bz2.compress, lz4.frame.compress, zstandard.ZstdCompressor().compress]
+)
+def test_of_a_piece_that_becomes_much_more_than_it_says_no_more_is_made(pack):
+    method = {bz2.compress: "bz2", lz4.frame.compress: "lz4"}.get(pack, "zstd")
+    packed = pack(bytes(100_000_000))
+    tracemalloc.start()
+
+    found = compressed.unpack_beginning(method, packed, 10_000)
+
+    _, most = tracemalloc.get_traced_memory()
+    tracemalloc.stop()
+    assert found == bytes(10_000)
+    assert most < 2_000_000
+
+
+@pytest.mark.parametrize(
+    ("records_in", "told"),
+    [(mcap_records.records_in, "code 0"), (rosbag1_records.records_in, "header of 0 bytes")],
+)
+def test_what_is_no_record_ends_a_chunk(records_in, told):
+    with pytest.raises(InputError, match=told):
+        list(records_in(bytes(100)))

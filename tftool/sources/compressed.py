@@ -1,6 +1,7 @@
 """Pieces of a recording unpacked, within bounds: what is declared is checked before it is made."""
 
 import bz2
+import contextlib
 import os
 from collections.abc import Callable, Iterable
 from concurrent.futures import Future, ThreadPoolExecutor
@@ -12,8 +13,8 @@ from tftool.errors import InputError, UsageError
 if TYPE_CHECKING:
     from types import ModuleType
 
-LARGEST: Final = 1 << 30
-"""Bytes of the largest piece that is unpacked."""
+LARGEST: Final = 7 << 27
+"""Bytes of the largest piece that is unpacked: lz4 holds twice as many, which is below 2 GB."""
 
 MOST_GAIN: Final = 1100
 """How many times larger a piece may become; what we know of stays below."""
@@ -165,6 +166,8 @@ def unpack_beginning(method: str, packed: bytes, size: int) -> bytes:
         return packed[:size]
     size = min(size, _LARGEST_DAMAGED)
     try:
+        if method == "zstd":
+            return _beginning_of_zstd(packed, size)
         found, broken = _in_steps(method, packed, size, len(packed))
         if broken < len(packed) and method != "bz2":
             # Of the step in which it broke nothing came out. A block of bz2 is all wrong then.
@@ -172,6 +175,15 @@ def unpack_beginning(method: str, packed: bytes, size: int) -> bytes:
     except InputError:
         return b""
     return bytes(memoryview(found)[:size])
+
+
+def _beginning_of_zstd(packed: bytes, size: int) -> bytes:
+    found = bytearray()
+    with contextlib.suppress(Exception), zstandard().ZstdDecompressor().stream_reader(packed) as it:
+        # Of the step in which it breaks nothing comes out.
+        while len(found) < size and (more := it.read(min(4096, size - len(found)))):
+            found += more
+    return bytes(found)
 
 
 def _in_steps(method: str, packed: bytes, size: int, coarse: int) -> tuple[bytearray, int]:
@@ -184,10 +196,14 @@ def _in_steps(method: str, packed: bytes, size: int, coarse: int) -> tuple[bytea
         InputError: If it is not known how it is packed.
     """
     stream, found, start = _stream(method), bytearray(), 0
-    while start < len(packed) and len(found) < size and not getattr(stream, "eof", False):
+    while start < len(packed) and len(found) < size and not stream.eof:
         step = 4096 if start < coarse else 1
         try:
-            found += stream.decompress(packed[start : start + step])
+            # In a few bytes there may be more than is wanted of all.
+            data = packed[start : start + step]
+            while data or not (stream.eof or stream.needs_input or len(found) >= size):
+                found += stream.decompress(data, max_length=size - len(found))
+                data = b""
         except Exception:
             return found, start
         start += step
@@ -256,8 +272,6 @@ def _whole(method: str, packed: bytes, size: int) -> bytes:
 
 
 def _stream(method: str) -> Any:
-    if method == "zstd":
-        return zstandard().ZstdDecompressor().decompressobj()
     if method == "lz4":
         return _lz4().LZ4FrameDecompressor()
     if method == "bz2":

@@ -215,6 +215,8 @@ def records_in(data: bytes) -> Iterator[tuple[int, int, int]]:
         code, length = unpack_from(data, position)
         first = position + 9
         position = first + length
+        if not code:
+            raise InputError("a record has the code 0, which is none")
         if position > size:
             raise InputError(f"a record announces {length} bytes and {size - first} are there")
         yield code, first, position

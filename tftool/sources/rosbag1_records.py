@@ -118,7 +118,7 @@ def records_in(data: bytes, partial: bool = False) -> Iterator[tuple[dict[bytes,
     while position + 8 <= size:
         (length,) = U32.unpack_from(data, position)
         first = position + 8 + length
-        if length > _LARGEST_HEADER or first > size:
+        if not 0 < length <= _LARGEST_HEADER or first > size:
             if partial:
                 return
             raise InputError(f"a record announces a header of {length} bytes")
