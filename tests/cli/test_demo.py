@@ -193,7 +193,7 @@ def test_on_a_terminal_a_world_without_turtles_cannot_be_driven(tftool, on_termi
     assert tftool("demo", "static", "--rate", 20, "--for", 1).status == 0
 
     (app,) = on_terminal
-    assert app._press is None
+    assert app.press_key is None
 
 
 def test_on_a_terminal_driving_is_left_to_a_person(tftool, on_terminal):

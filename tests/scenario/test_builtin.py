@@ -48,7 +48,7 @@ def test_a_wheel_carries_them_inside_the_package(tmp_path, monkeypatch):
     inside = tmp_path / "tftool" / "scenarios"
     inside.mkdir(parents=True)
     (inside / "turtles.yaml").write_text("duration: 1 s\n")
-    monkeypatch.setattr(builtin, "_PACKAGE", tmp_path / "tftool")
+    monkeypatch.setattr(builtin, "PACKAGE", tmp_path / "tftool")
 
     assert builtin.folder() == inside
     assert builtin.names() == ["turtles"]
@@ -58,13 +58,13 @@ def test_a_checkout_has_them_beside_the_package(tmp_path, monkeypatch):
     beside = tmp_path / "scenarios"
     beside.mkdir()
     (beside / "turtles.yaml").write_text("duration: 1 s\n")
-    monkeypatch.setattr(builtin, "_PACKAGE", tmp_path / "tftool")
+    monkeypatch.setattr(builtin, "PACKAGE", tmp_path / "tftool")
 
     assert builtin.path_of("turtles") == beside / "turtles.yaml"
 
 
 def test_an_installation_without_them_says_so(tmp_path, monkeypatch):
-    monkeypatch.setattr(builtin, "_PACKAGE", tmp_path / "tftool")
+    monkeypatch.setattr(builtin, "PACKAGE", tmp_path / "tftool")
 
     with pytest.raises(InputError, match="the built-in scenarios are missing"):
         builtin.folder()

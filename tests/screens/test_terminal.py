@@ -393,7 +393,7 @@ def test_nothing_is_painted_while_nothing_changes(danced, monkeypatch):
     async def steps(app, pilot):
         monkeypatch.setattr(Panel, "refresh", noting)
         for _ in range(6):
-            app._tick()
+            app.look_again()
         app.redraw()
 
     visit(danced, (100, 30), steps)

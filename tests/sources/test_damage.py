@@ -184,7 +184,7 @@ def test_a_chunk_that_announces_too_much_is_not_unpacked(tmp_path, size):
 
 
 def test_of_a_damaged_piece_that_unpacks_to_much_only_a_part_is_held(monkeypatch):
-    monkeypatch.setattr(compressed, "_LARGEST_DAMAGED", 10_000)
+    monkeypatch.setattr(compressed, "LARGEST_DAMAGED", 10_000)
     packed = zstandard.ZstdCompressor().compress(random.Random(1).randbytes(500) * 100)
 
     found = compressed.unpack_beginning("zstd", packed, 60_000)

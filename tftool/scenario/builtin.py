@@ -6,7 +6,8 @@ from tftool.errors import InputError
 from tftool.near_names import near_names
 from tftool.views.escaping import visible
 
-_PACKAGE = Path(__file__).resolve().parents[1]
+PACKAGE = Path(__file__).resolve().parents[1]
+"""Where tftool is; its scenarios and examples are in it or, in a checkout, beside it."""
 
 
 def folder() -> Path:
@@ -27,10 +28,10 @@ def shipped(name: str, mark: str) -> Path:
     Raises:
         InputError: If it is in neither place.
     """
-    for place in (_PACKAGE / name, _PACKAGE.parent / name):
+    for place in (PACKAGE / name, PACKAGE.parent / name):
         if (place / mark).exists():
             return place
-    raise InputError(f"the built-in {name} are missing beside {_PACKAGE}; install tftool again")
+    raise InputError(f"the built-in {name} are missing beside {PACKAGE}; install tftool again")
 
 
 def names() -> list[str]:

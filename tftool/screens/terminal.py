@@ -55,6 +55,7 @@ class TurtleApp(PanelApp):
 
     Attributes:
         chosen: The scenario to show instead, once one was chosen.
+        press_key: Takes a key that drives; None where nothing can be driven.
     """
 
     CSS = """
@@ -126,7 +127,7 @@ class TurtleApp(PanelApp):
         super().__init__(scene.world, setting)
         self.scene = scene
         self.chosen: str | None = None
-        self._press = press
+        self.press_key = press
         self._idle = idle
         self._offered: Sequence[tuple[str, str]] = ()
         self._offer = 0
@@ -171,7 +172,7 @@ class TurtleApp(PanelApp):
         """Start looking."""
         self.screen.set_class(not self.setting.colors, "mono")
         self.panel("field").focus()
-        self.set_interval(1.0 / LOOKS_PER_SECOND, self._tick)
+        self.set_interval(1.0 / LOOKS_PER_SECOND, self.look_again)
 
     def on_resize(self, event: events.Resize) -> None:
         """Fit the panels into the new size."""
@@ -208,7 +209,8 @@ class TurtleApp(PanelApp):
 
     # Looking
 
-    def _tick(self) -> None:
+    def look_again(self) -> None:
+        """Draw what there is by now, unless the last time took so long that it is too soon."""
         loop = asyncio.get_running_loop()
         if loop.time() < self._rest_until:
             return
@@ -279,7 +281,7 @@ class TurtleApp(PanelApp):
         self.panel("header").show([panels.header(self.title, moment, clock.rate, width, look)])
         hints = keys.hints(
             self._keys_go_to(),
-            drives=self._press is not None,
+            drives=self.press_key is not None,
             past=self._question.at is not None,
             ascii_only=look.ascii_only,
             chooses=self.setting.scenarios is not None,
@@ -388,9 +390,9 @@ class TurtleApp(PanelApp):
 
     def action_drive(self, key: str) -> None:
         """Hand a key to the teleop node."""
-        if self._press is not None:
+        if self.press_key is not None:
             try:
-                self._press(key)
+                self.press_key(key)
             except TftoolError as refusal:
                 self.scene.world.log.warn("screen", str(refusal))
 

@@ -21,7 +21,8 @@ MOST_GAIN: Final = 1100
 
 _SLACK: Final = 1 << 20
 
-_LARGEST_DAMAGED: Final = 1 << 28  # bytes that are unpacked of a damaged piece: it is held twice
+LARGEST_DAMAGED: Final = 1 << 28
+"""Bytes that are unpacked of a damaged piece, which is held twice."""
 
 _LARGEST_AHEAD: Final = 16 << 20
 _MOST_WORKERS: Final = 4
@@ -164,7 +165,7 @@ def unpack_beginning(method: str, packed: bytes, size: int) -> bytes:
     size = min(size, LARGEST, MOST_GAIN * len(packed) + _SLACK)
     if method in ("", "none"):
         return packed[:size]
-    size = min(size, _LARGEST_DAMAGED)
+    size = min(size, LARGEST_DAMAGED)
     try:
         if method == "zstd":
             return _beginning_of_zstd(packed, size)

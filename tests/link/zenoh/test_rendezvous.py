@@ -281,7 +281,7 @@ def test_a_lock_is_waited_for_and_a_killed_holder_does_not_keep_it(home, monkeyp
     try:
         assert holder.stdout.readline() == b"held\n"
         with monkeypatch.context() as impatient:
-            impatient.setattr(rendezvous, "_LOCK_TRIES", 2)
+            impatient.setattr(rendezvous, "LOCK_TRIES", 2)
             blocked = Rendezvous(0, home / "run")
             blocked.enter()
             assert not rendezvous._try_lock(blocked._lock)

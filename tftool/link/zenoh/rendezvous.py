@@ -42,7 +42,9 @@ FRAMES: Final = ".frames"
 
 _MOST_FRAMES = 5_000
 _LONGEST_SOCKET_PATH = 100  # 107 on Linux, 103 on macOS
-_LOCK_TRIES = 1500  # more than a busy machine takes to open a session
+LOCK_TRIES = 1500
+"""How often the lock is asked for: more than a busy machine takes to open a session."""
+
 _LOCK_PAUSE = 0.01
 _PROBE_TIMEOUT = 0.2
 _LONGEST_TEXT = 256
@@ -172,7 +174,7 @@ class Rendezvous:
         # Kept open: the system takes the lock back when the process dies, however it does.
         self._lock = open(self.folder / "lock", "a+b")  # noqa: SIM115
         pause = threading.Event()
-        for _ in range(_LOCK_TRIES):
+        for _ in range(LOCK_TRIES):
             if _try_lock(self._lock):
                 return
             pause.wait(_LOCK_PAUSE)
