@@ -349,7 +349,8 @@ class _Sheet:
         self.boxes.append(Box(x, y, card.width, card.height, card.kind, card.title))
         if card.kind == "root":
             indent = (card.width - width(card.name, NAME_SIZE, bold=True)) / 2
-            self.texts.append(Text(x + indent, y + 22.5, card.name, NAME_SIZE, "name"))
+            room = card.width - 2 * indent
+            self.texts.append(Text(x + indent, y + 22.5, card.name, NAME_SIZE, "name", room))
             return
         room = card.width - 2 * PADDING
         mark = width("static", FACT_SIZE)

@@ -1,5 +1,6 @@
 """A picture of the tree as SVG: one self-contained file, light or dark as its viewer is."""
 
+import math
 from xml.sax.saxutils import escape
 
 from tftool.views.font import width
@@ -32,9 +33,6 @@ text { fill: #a3aebd; }
 path { stroke: #7f96b6; }
 path.still { stroke: #b4964a; }
 }"""
-
-
-_NEARLY_FULL = 0.75
 
 
 def render(picture: Picture) -> str:
@@ -71,11 +69,12 @@ def _box(box: Box) -> str:
 
 def _text(text: Text) -> str:
     length = width(text.text, text.size, bold=text.kind == "name")
-    # A viewer's font may be wider than Helvetica: what nearly fills its room is kept inside.
+    # A viewer's font may be wider than Helvetica. All that stands in a card is kept to its width:
+    # lines of which some are drawn together and others are not look like several sizes.
     fitted = f' textLength="{_number(length)}" lengthAdjust="spacingAndGlyphs"'
     return (
         f'<text class="{text.kind}" x="{_number(text.x)}" y="{_number(text.y)}" '
-        f'font-size="{_number(text.size)}"{fitted if length > _NEARLY_FULL * text.room else ""}>'
+        f'font-size="{_number(text.size)}"{fitted if math.isfinite(text.room) else ""}>'
         f"{escape(text.text)}</text>"
     )
 
