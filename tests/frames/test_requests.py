@@ -1,7 +1,7 @@
 import pytest
 
 from tftool.frames.buffer import NEVER, Buffer
-from tftool.frames.requests import AVAILABLE, EXPIRED, NOW, PENDING, Requests
+from tftool.frames.requests import AVAILABLE, NOW, PENDING, Requests
 from tftool.frames.sample import TransformStamped
 from tftool.frames.solver import Solver
 from tftool.geometry.rigid import Transform
@@ -83,7 +83,7 @@ def test_waits_on_other_frames_are_not_asked_again():
 
     requests = Requests(examine)
     for number in range(10_000):
-        requests.add(lambda handle, available: None, (("world", f"ghost{number}", 0),))
+        requests.add(lambda handle, available: None, ("world", f"ghost{number}", 0))
     asked.clear()
 
     requests.changed("turtle1", "world")
@@ -208,50 +208,8 @@ def test_cancelling_what_is_not_pending_does_nothing(buffer, told):
     assert told == []
 
 
-def test_a_full_request_waits_for_both_halves(buffer, told):
-    handle = buffer.request_full(
-        lambda handle, available: told.append((handle, available)),
-        *("a", seconds(3), "b", seconds(1), "world"),
-    )
-    put(buffer, "world", "b", 1)
-    put(buffer, "world", "a", 1)
-    assert told == []
-    put(buffer, "world", "a", 3)
-
-    assert told == [(handle, True)]
-    assert buffer.lookup_transform_full("a", seconds(3), "b", seconds(1), "world").stamp == seconds(
-        3
-    )
-
-
-def test_a_full_request_fails_when_either_half_is_forgotten(buffer, told):
-    for at in (20, 31):
-        put(buffer, "world", "b", at)
-
-    def called(handle, available):
-        told.append((handle, available))
-
-    assert buffer.request_full(called, "ghost", 0, "b", seconds(5), "world") == NEVER
-    handle = buffer.request_full(called, "ghost", 0, "b", seconds(25.5), "world2")
-    put(buffer, "world2", "b", 50)
-    put(buffer, "world2", "b", 51)
-
-    assert told == [(handle, False)]
-
-
-def test_a_question_that_expires_at_once_leaves_nothing_behind():
-    requests = Requests(
-        lambda question, first: (EXPIRED, ()) if question[0] == "old" else (PENDING, ("x",))
-    )
-    both = (("young", "x", 1), ("old", "x", 1))
-
-    assert requests.add(lambda handle, available: None, both) == NEVER
-    requests.changed("x")
-    assert requests.pending == {}
-
-
 def test_what_is_met_already_is_not_kept():
     requests = Requests(lambda question, first: (AVAILABLE, ()))
 
-    assert requests.add(lambda handle, available: None, (("a", "b", 0),)) == NOW
+    assert requests.add(lambda handle, available: None, ("a", "b", 0)) == NOW
     assert requests.pending == {}

@@ -513,24 +513,27 @@ static PyObject *plainly(PyObject *self, const char *name, PyObject *const *args
                           Py_ssize_t count, PyObject *names)
 #define PLAINLY(name) plainly(self, "_plain_" #name, args, count, names)
 
-METHOD(lookup_transform) {
-    const Types *types = PyType_GetModuleState(door);
-    int64_t time = 0;
-    double pose[7];
-    if (names == NULL && (count == 2 || (count == 3 && read_stamp(args[2], &time)))
-        && solve_path((const Door *)self, types, args[0], args[1], &time, pose))
-        return answer(types, time, args[0], args[1], pose);
-    return PLAINLY(lookup_transform);
+/* `solve_path` for a target, a source and perhaps a moment, all given by their places. */
+static int solve_plain(PyObject *self, const Types *types, PyObject *const *args, Py_ssize_t count,
+                       PyObject *names, int64_t *time, double *pose) {
+    *time = 0;
+    return names == NULL && (count == 2 || (count == 3 && read_stamp(args[2], time)))
+        && solve_path((const Door *)self, types, args[0], args[1], time, pose);
 }
 
-/* Whether it can be looked up by a known path; it says no in plain Python. */
-METHOD(can_transform) {
-    int64_t time = 0;
+METHOD(lookup_transform) {
+    const Types *types = PyType_GetModuleState(door);
+    int64_t time;
     double pose[7];
-    if (names == NULL && (count == 2 || (count == 3 && read_stamp(args[2], &time)))
-        && solve_path((const Door *)self, PyType_GetModuleState(door), args[0], args[1], &time, pose))
-        Py_RETURN_TRUE;
-    return PLAINLY(can_transform);
+    return solve_plain(self, types, args, count, names, &time, pose)
+        ? answer(types, time, args[0], args[1], pose) : PLAINLY(lookup_transform);
+}
+
+METHOD(can_transform) {
+    int64_t time;
+    double pose[7];
+    return solve_plain(self, PyType_GetModuleState(door), args, count, names, &time, pose)
+        ? Py_NewRef(Py_True) : PLAINLY(can_transform);
 }
 
 /* The same where target and source may be one frame, whose name another path has shown good. */
@@ -830,16 +833,11 @@ static PyTypeObject *holder(PyObject *module, const char *name, size_t size, con
     return (PyTypeObject *)made;
 }
 
-/* A class of a module of ours that is a kind of tuple; NULL with an error set if not. */
-static PyTypeObject *tuple_type(const char *module, const char *name) {
+/* A class of a module of ours; NULL with an error set if there is none. */
+static PyTypeObject *class_of(const char *module, const char *name) {
     PyObject *home = PyImport_ImportModule(module);
     PyObject *type = home == NULL ? NULL : PyObject_GetAttrString(home, name);
     Py_XDECREF(home);
-    if (type != NULL
-        && !(PyType_Check(type) && PyType_IsSubtype((PyTypeObject *)type, &PyTuple_Type))) {
-        PyErr_Format(PyExc_TypeError, "%s.%s is no tuple", module, name);
-        Py_CLEAR(type);
-    }
     return (PyTypeObject *)type;
 }
 
@@ -848,14 +846,15 @@ static int module_exec(PyObject *module) {
     PyTypeObject *door = holder(module, "tftool.frames._kernel.Door", sizeof(Door),
         "The methods of a buffer that are called most.", door_members, door_methods);
     Py_XDECREF((PyObject *)door);
-    types->fields = holder(module, "tftool.frames._kernel.Fields", sizeof(Link),
-        "The fields of a link, laid out so that the kernel can read them.", link_members, no_methods);
-    types->empty = PyUnicode_InternFromString("");
-    types->vector = tuple_type("tftool.geometry.rigid", "Vector3");
-    types->quaternion = tuple_type("tftool.geometry.rigid", "Quaternion");
-    types->transform = tuple_type("tftool.geometry.rigid", "Transform");
-    types->stamped = tuple_type("tftool.frames.sample", "TransformStamped");
-    if (PyErr_Occurred())
+    if (door == NULL
+        || (types->fields = holder(module, "tftool.frames._kernel.Fields", sizeof(Link),
+            "The fields of a link, laid out so that the kernel can read them.",
+            link_members, no_methods)) == NULL
+        || (types->empty = PyUnicode_InternFromString("")) == NULL
+        || (types->vector = class_of("tftool.geometry.rigid", "Vector3")) == NULL
+        || (types->quaternion = class_of("tftool.geometry.rigid", "Quaternion")) == NULL
+        || (types->transform = class_of("tftool.geometry.rigid", "Transform")) == NULL
+        || (types->stamped = class_of("tftool.frames.sample", "TransformStamped")) == NULL)
         return -1;
     return PyModule_AddIntConstant(module, "INTERFACE", INTERFACE);
 }

@@ -731,25 +731,7 @@ class Buffer(Door):
             0 if it can be looked up now, NEVER if it never can again (in both cases
             `callback` is not kept), else a handle for `cancel`.
         """
-        return self._requests.add(callback, ((target_frame, source_frame, whole(time)),))
-
-    def request_full(
-        self,
-        callback: Callback,
-        target_frame: str,
-        target_time: Stamp,
-        source_frame: str,
-        source_time: Stamp,
-        fixed_frame: str,
-    ) -> int:
-        """The same for `lookup_transform_full`."""
-        return self._requests.add(
-            callback,
-            (
-                (target_frame, fixed_frame, whole(target_time)),
-                (fixed_frame, source_frame, whole(source_time)),
-            ),
-        )
+        return self._requests.add(callback, (target_frame, source_frame, whole(time)))
 
     def cancel(self, handle: int) -> None:
         """Let go of a request; its callback is not called any more."""

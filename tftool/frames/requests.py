@@ -32,12 +32,12 @@ later, as in tf2, expiry is looked at first.
 class Request:
     """One pending request."""
 
-    __slots__ = ("callback", "handle", "lookups", "watched")
+    __slots__ = ("callback", "handle", "lookup", "watched")
 
-    def __init__(self, handle: int, callback: Callback, lookups: tuple[Lookup, ...]) -> None:
+    def __init__(self, handle: int, callback: Callback, lookup: Lookup) -> None:
         self.handle = handle
         self.callback = callback
-        self.lookups = lookups
+        self.lookup = lookup
         self.watched: tuple[str, ...] = ()
 
 
@@ -59,13 +59,13 @@ class Requests:
         # Handles by frame; a dictionary keeps them in the order they were made.
         self._watchers: dict[str, dict[int, None]] = {}
 
-    def add(self, callback: Callback, lookups: tuple[Lookup, ...]) -> int:
+    def add(self, callback: Callback, lookup: Lookup) -> int:
         """Ask now; what has no answer yet waits.
 
         Returns:
-            NOW if all can be answered, NEVER if one no longer can, else a handle.
+            NOW if it can be answered, NEVER if it no longer can, else a handle.
         """
-        request = Request(self._last + 1, callback, lookups)
+        request = Request(self._last + 1, callback, lookup)
         status = self._ask(request, True)
         if status == AVAILABLE:
             return NOW
@@ -107,20 +107,14 @@ class Requests:
         return failures
 
     def _ask(self, request: Request, first: bool) -> int:
-        """Ask for every lookup; while one has no answer, watch what keeps it from having one."""
-        status = AVAILABLE
-        for lookup in request.lookups:
-            found, blocked = self._examine(lookup, first)
-            if found == EXPIRED:
-                self._unwatch(request)
-                return EXPIRED
-            if found == PENDING:
-                status = PENDING
-                self._watch(request, blocked)
+        """Ask; while there is no answer, watch what keeps it from being one."""
+        status, blocked = self._examine(request.lookup, first)
+        if status == PENDING:
+            self._watch(request, blocked)
         return status
 
     def _watch(self, request: Request, frames: tuple[str, ...]) -> None:
-        request.watched += frames
+        request.watched = frames
         for frame in frames:
             self._watchers.setdefault(frame, {})[request.handle] = None
 
