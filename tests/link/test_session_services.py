@@ -9,6 +9,7 @@ import pytest
 from tests.link.conftest import new_world, until
 from tests.link.two import Two, play
 from tftool.errors import LinkError, TftoolError
+from tftool.interfaces.classes import INTERFACES
 from tftool.link.graph import Role
 from tftool.link.options import Options
 from tftool.link.session import Link
@@ -21,6 +22,8 @@ from tftool.messages import (
     Spawn,
     Spawned,
 )
+from tftool.runtime.action_parts import ActionParts
+from tftool.runtime.endpoints import PUBLISHER, SUBSCRIPTION
 
 
 def test_a_service_of_the_host_is_one_of_the_guests_world():
@@ -132,6 +135,38 @@ def test_a_goal_travels_with_its_feedback_and_its_end():
             assert (result.status, result.value) == ("succeeded", Rotated(-1.5))
 
     play(turn())
+
+
+def test_what_an_action_says_inside_a_process_too_goes_over_the_link_once():
+    fibonacci = INTERFACES.find("example_interfaces", "action", "Fibonacci")
+    name = "count/_action/feedback"
+
+    async def count():
+        async with Two() as two:
+            goals, heard, here = [], [], two.here
+            here.serve_action("count", goals.append, fibonacci)
+            inside = here.topic(name, fibonacci.Impl.FeedbackMessage)
+            inside.subscribe(lambda message: None)
+            ActionParts(
+                here,
+                "count",
+                fibonacci.interface__,
+                on_feedback=inside.publish,
+                on_status=lambda message: None,
+                warn=lambda text: None,
+            )
+            two.there.topic(name, fibonacci.Impl.FeedbackMessage).subscribe(heard.append)
+            graph = two.host.graph
+            await until(lambda: graph.entities(SUBSCRIPTION, name=name))
+            await here.send_goal("count", fibonacci.Goal())
+            for number in range(3):
+                goals[0].publish_feedback(fibonacci.Feedback(sequence=[number]))
+            await until(lambda: heard and list(heard[-1].feedback.sequence) == [2])
+
+            assert [list(one.feedback.sequence) for one in heard] == [[0], [1], [2]]
+            assert len(two.guest.graph.entities(PUBLISHER, name=name)) == 1
+
+    play(count())
 
 
 def test_a_goal_is_called_off_over_the_link():
