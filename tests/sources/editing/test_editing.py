@@ -1,6 +1,7 @@
 """Recordings written anew: what is asked for changes, everything else stays byte for byte."""
 
 import shutil
+import struct
 import subprocess
 
 import numpy as np
@@ -447,6 +448,40 @@ def test_a_message_of_a_channel_that_nothing_describes_is_left_out(tmp_path, is_
 
     assert any("nothing tells on which topic" in note for note in report.notes)
     before["/tf"].pop(3)
+    assert messages(out) == before
+
+
+def test_messages_of_a_channel_whose_schema_is_nowhere_are_kept(tmp_path):
+    path, out = tmp_path / "a.mcap", tmp_path / "b.mcap"
+    write_mcap(path, SENT, use_chunking=False)
+    before = messages(path)
+    data = bytearray(path.read_bytes())
+    place = data.index(struct.pack("<I", 3) + b"/tf" + struct.pack("<I", 3) + b"cdr")
+    data[place - 2 : place] = b"\xff\xff"
+    path.write_bytes(data[:-37])
+
+    edit([str(path)], out, Edits())
+
+    assert messages(out) == before
+
+
+@pytest.mark.parametrize("code", [4, 7])
+def test_a_bag_with_a_record_that_names_no_connection_is_edited(tmp_path, code):
+    path, out = tmp_path / "a.bag", tmp_path / "b.bag"
+    write_rosbag1(path, SENT)
+    before = messages(path)
+    data, place = bytearray(path.read_bytes()), 13
+    while place < len(data):
+        (head,) = struct.unpack_from("<I", data, place)
+        (size,) = struct.unpack_from("<I", data, place + 4 + head)
+        header = bytes(data[place + 4 : place + 4 + head])
+        if b"op=" + bytes([code]) in header:
+            data[place + 4 : place + 4 + head] = header.replace(b"conn=", b"conm=")
+        place += 8 + head + size
+    path.write_bytes(data)
+
+    edit([str(path)], out, Edits())
+
     assert messages(out) == before
 
 

@@ -132,6 +132,8 @@ class McapTape:
             topic, place = text_at(body, 4, errors=AS_IT_IS)
             encoding, place = text_at(body, place, errors=AS_IT_IS)
             metadata = strings_at(body, place, AS_IT_IS)
+            if schema not in self.schemas:
+                schema = 0  # Of none: what tells of it is damaged.
             name, kind, data = self.schemas.get(schema, ("", "", b""))
             self.schema_of[number] = schema
             self.channels[number] = Channel(

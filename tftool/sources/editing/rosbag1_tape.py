@@ -147,7 +147,12 @@ class Rosbag1Tape:
             if end > self.size:
                 break
             if code == CONNECTION:
-                self.learn(header, self.file.at(data, length))
+                try:
+                    self.learn(header, self.file.at(data, length))
+                except (InputError, struct.error, KeyError) as error:
+                    self.file.note(
+                        f"A record at byte {position} cannot be read ({reason_of(error)})."
+                    )
             ended = ended or code == CHUNK_INFO
             position = end
         if position != self.size and not (ended and position > self.size):
@@ -159,11 +164,11 @@ class Rosbag1Tape:
         while position < self.size:
             try:
                 header, data, length = record_head(self.file, position)
-            except (InputError, struct.error):
+                if header.get(b"op") != INDEX or data + length > self.size:
+                    break
+                (number,) = U32.unpack(header[b"conn"])
+            except (InputError, struct.error, KeyError):
                 break
-            if header.get(b"op") != INDEX or data + length > self.size:
-                break
-            (number,) = U32.unpack(header[b"conn"])
             counts[number] = counts.get(number, 0) + length // 12
             position = data + length
         chunk.behind = position
