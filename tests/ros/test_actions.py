@@ -385,3 +385,28 @@ def test_both_ends_of_an_action_know_a_goal_by_one_id(ros_runtime, node):
     server.destroy()
     assert not node.get_publishers_info_by_topic("count/_action/status")
     assert not [name for name, _ in node.get_service_names_and_types() if "_action" in name]
+
+
+def test_a_goal_is_worked_on_to_its_end_when_its_server_is_destroyed_meanwhile(ros_runtime, node):
+    import rclpy
+    from action_tutorials_interfaces.action import Fibonacci
+    from rclpy.action import ActionClient, ActionServer
+
+    def execute(handle):
+        server.destroy()
+        handle.publish_feedback(Fibonacci.Feedback(partial_sequence=[1]))
+        handle.succeed()
+        return Fibonacci.Result(sequence=[1])
+
+    fed, heard = [], []
+    server = ActionServer(node, Fibonacci, "count", execute)
+    client = ActionClient(node, Fibonacci, "count")
+    kind = Fibonacci.Impl.FeedbackMessage
+    node.create_subscription(kind, "count/_action/feedback", heard.append, 10)
+    future = client.send_goal_async(order(1), feedback_callback=fed.append)
+    rclpy.spin_until_future_complete(node, future)
+    result = future.result().get_result_async()
+    rclpy.spin_until_future_complete(node, result)
+    assert result.result().status == 4
+    assert len(fed) == 1
+    assert not heard

@@ -100,10 +100,12 @@ class ActionParts:
         self._goals: dict[bytes, tuple[GoalHandle, Stamp]] = {}
         self._undecided: set[bytes] = set()
         self._tasks = Tasks()
+        self._is_closed = False
         self._stop = world.watch_goals(name, self._follow)
 
     def close(self) -> None:
-        """Follow no more."""
+        """Follow no more; what is still worked on is not told of."""
+        self._is_closed = True
         self._stop()
         self._tasks.cancel()
 
@@ -145,13 +147,14 @@ class ActionParts:
 
     def _follow(self, goal: GoalHandle) -> None:
         def feed(feedback: Any) -> None:
-            self._on_feedback(
-                message(
-                    f"{self._type}_FeedbackMessage",
-                    goal_id=goal_id_message(goal.goal_id),
-                    feedback=feedback,
+            if not self._is_closed:
+                self._on_feedback(
+                    message(
+                        f"{self._type}_FeedbackMessage",
+                        goal_id=goal_id_message(goal.goal_id),
+                        feedback=feedback,
+                    )
                 )
-            )
 
         goal.feeds.append(feed)
         self._tasks.start(self._see_through(goal))
