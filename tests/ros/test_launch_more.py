@@ -4,7 +4,7 @@ import pytest
 
 from tests.ros.test_launch import described
 from tests.ros.tutorial import launch
-from tftool.errors import InputError, NodeFailed, TftoolError
+from tftool.errors import InputError, NodeFailed, TftoolError, UsageError
 from tftool.ros.host.importing import ros_free
 
 ECHO = "ExecuteProcess(cmd=['echo', 'hello there'])"
@@ -173,6 +173,25 @@ def test_the_loggers_of_launch_say_and_write_what_is_set(ros_runtime, tmp_path, 
         config.set_screen_format("default", screen_style="%")
     launch.logging.reset()
     assert launch.logging.get_logger("outer").getEffectiveLevel() == config.level == 20
+
+
+@pytest.mark.parametrize("kind", ["SCREEN", "LOG"])
+def test_a_format_in_the_environment_is_taken_or_refused_with_its_name(
+    ros_runtime, monkeypatch, capsys, kind
+):
+    import launch.logging
+
+    name = f"OVERRIDE_LAUNCH_{kind}_FORMAT"
+    monkeypatch.setenv(name, "%(message)s")
+    with pytest.raises(UsageError, match=rf"{name} is '%\(message\)s'"):
+        launch.logging.reset()
+    monkeypatch.setenv(name, "said {message}")
+    launch.logging.reset()
+    launch.logging.get_logger("one").info("this")
+    said = {"SCREEN": "said this", "LOG": "[INFO] [one]: this"}[kind]
+    assert capsys.readouterr().out == f"{said}\n"
+    monkeypatch.delenv(name)
+    launch.logging.reset()
 
 
 def test_a_logger_of_launch_writes_by_a_handler_of_one_s_own(ros_runtime, tmp_path):

@@ -10,6 +10,7 @@ from collections.abc import Callable
 from logging import FileHandler, Handler, StreamHandler
 from pathlib import Path
 
+from tftool.errors import UsageError
 from tftool.ros.rclpy.logging import get_logging_directory
 
 __all__ = ["FileHandler", "Handler", "LaunchConfig", "StreamHandler", "get_logger", "reset"]
@@ -43,8 +44,8 @@ class LaunchConfig:
         self._factory: Callable[..., Handler] = FileHandler
         self._screen = _Screen()
         self._log_format: logging.Formatter | None = None
-        self.set_screen_format(os.environ.get("OVERRIDE_LAUNCH_SCREEN_FORMAT") or "default")
-        self.set_log_format(os.environ.get("OVERRIDE_LAUNCH_LOG_FORMAT") or "default")
+        _take_variable("OVERRIDE_LAUNCH_SCREEN_FORMAT", self.set_screen_format)
+        _take_variable("OVERRIDE_LAUNCH_LOG_FORMAT", self.set_log_format)
 
     @property
     def level(self) -> int:
@@ -105,6 +106,18 @@ class LaunchConfig:
             made.setFormatter(self._log_format)
             self._files[file_name] = made
         return self._files[file_name]
+
+
+def _take_variable(name: str, set_format: Callable[[str], None]) -> None:
+    """Set a format as an environment variable has it, else launch's own."""
+    given = os.environ.get(name) or "default"
+    try:
+        set_format(given)
+    except ValueError as error:
+        raise UsageError(
+            f"the environment variable {name} is '{given}', which is no format with braces, as "
+            f"'{{message}}' is: {error}"
+        ) from None
 
 
 def _formatter(text: str, style: str | None) -> logging.Formatter:
