@@ -158,6 +158,7 @@ def test_a_near_miss_is_told_what_was_meant(tftool):
         ),
         (["echo", "a", "b", "--zzz"], "No such option: --zzz. Try"),
         (["tree", "--format", "png"], "'png' is not one of"),
+        (["check", "turtles", "--run"], "Option '--run' requires an argument."),
     ],
 )
 def test_wrong_usage_is_one_sentence_that_says_where_help_is(tftool, words, sentence):

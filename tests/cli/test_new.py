@@ -109,6 +109,9 @@ def test_what_is_there_already_is_left_alone(tftool, place, words):
         (["import"], "Python's own"),
         (["random"], "Python's own"),
         (["my_frames", "--example", "carot"], "there is no example 'carot'"),
+        (["rclpy"], "a package of ROS 2's own"),
+        (["geometry_msgs"], "a package of ROS 2's own"),
+        (["mine.yaml"], "With --scenario it is a scenario."),
     ],
 )
 def test_a_name_that_would_not_do_is_refused(tftool, place, words, said):

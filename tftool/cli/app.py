@@ -306,7 +306,7 @@ def _run(argv: list[str], providers: "Providers | None") -> int:
     except wrong_usage as error:
         from tftool.cli.misusing import sentence_of
 
-        _complain(*sentence_of(error))
+        _complain(*sentence_of(error, argv))
         return ExitStatus.WRONG_USAGE
     except UsageError as error:
         _complain("tftool", str(error))

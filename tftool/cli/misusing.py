@@ -1,6 +1,7 @@
 """What is said of a command line that click refuses."""
 
 import re
+from collections.abc import Sequence
 from difflib import SequenceMatcher
 from typing import Any
 
@@ -19,10 +20,12 @@ UNLIKE = 0.5
 """Two words that are less alike than this, from 0 to 1, are not mistaken for one another."""
 
 
-def sentence_of(error: Any) -> tuple[str, str]:
+def sentence_of(error: Any, argv: Sequence[str] = ()) -> tuple[str, str]:
     """Who refuses what was typed, and in which words: what click says, said plainly."""
     context = getattr(error, "ctx", None)
-    command = context.command_path if context is not None else "tftool"
+    command = " ".join(["tftool", *(word for word in argv[:1] if word in COMMANDS)])
+    if context is not None:
+        command = context.command_path
     sentence = error.format_message()
     unknown = re.match(r"No such command '(.*?)'", sentence, re.DOTALL)
     if unknown is not None:

@@ -69,15 +69,24 @@ def new(
     return ExitStatus.DONE
 
 
+OF_ROS = {"rclpy", "tf2_py", "tf2_ros", "launch", "launch_ros", "turtlesim", "turtle_tf2_py"}
+"""Packages that the files of the new one import, or run; those of messages are known beside."""
+
+
 def _check_name(name: str) -> None:
     """Refuse what ROS 2 or Python would not take as the name of a package."""
     if not re.fullmatch(r"[a-z](_?[a-z0-9])*", name):
+        hint = " With --scenario it is a scenario." if name.endswith((".yaml", ".yml")) else ""
         raise UsageError(
             f"'{name}' is no name for a package: small letters, digits and single "
-            "underscores, a letter first, as in 'my_frames'."
+            f"underscores, a letter first, as in 'my_frames'.{hint}"
         )
     if keyword.iskeyword(name) or name in sys.stdlib_module_names:
         raise UsageError(f"'{name}' is a word of Python's own; choose another name.")
+    from tftool.interfaces.classes import INTERFACES
+
+    if name in OF_ROS or name in INTERFACES.packages():
+        raise UsageError(f"'{name}' is a package of ROS 2's own; choose another name.")
 
 
 def _refuse_existing(path: Path) -> None:
