@@ -16,7 +16,8 @@ ROOT = Path(__file__).parents[1]
 LOOKS = 20_000
 """Looks at a screen until it is given up; after each one the terminal has to be written to."""
 UNHEARD = 0.5
-"""Seconds until another key is pressed where the one before had no effect."""
+"""Seconds until another key is pressed where the one before had no effect, or another look is
+taken at what shows nothing."""
 
 
 class Terminal:
@@ -92,6 +93,7 @@ class Terminal:
 
     def _seen(self, look, condition, what, before=lambda: None, patience=PATIENCE):
         """Look again whenever something was written, until what is seen is as it should be."""
+        silent = 0.0
         for _ in range(LOOKS):
             before()
             self._drain()
@@ -99,7 +101,8 @@ class Terminal:
             if condition(seen):
                 return seen
             ready, _, _ = select([self.written], [], [], patience)
-            if not ready and patience == PATIENCE:
+            silent = 0.0 if ready else silent + patience
+            if silent >= PATIENCE:
                 break
         raise AssertionError(f"{what} never came; this did:\n{self.screen()}")
 
@@ -115,6 +118,16 @@ class Terminal:
 
     def signal(self, number):
         os.kill(int(self.pid_file.read_text()), number)
+
+    def stops(self):
+        """Wait until the command is stopped: it leaves the screen before, and says no more."""
+        state = ["ps", "-o", "state=", "-p", self.pid_file.read_text().strip()]
+        self._seen(
+            lambda: subprocess.run(state, check=True, capture_output=True, text=True).stdout,
+            lambda told: told.startswith("T"),
+            "the command's stop",
+            patience=UNHEARD,
+        )
 
     def ended(self, status):
         """Wait for the end; the terminal is then as it was before."""

@@ -91,6 +91,7 @@ def test_a_demo_that_was_stopped_is_drawn_as_a_whole_when_it_goes_on(terminal):
 
     demo.press("C-z")
     demo.until(lambda _: demo.facts()[0] == "0", "the terminal as it was")
+    demo.stops()
     demo.signal(signal.SIGCONT)
 
     demo.until(
