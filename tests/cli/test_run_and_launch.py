@@ -238,6 +238,24 @@ def test_an_endless_loop_is_named_by_node_and_line(tmp_path, capsys, monkeypatch
     assert "'endless' did not come to rest for 3 s" in said
 
 
+@pytest.mark.parametrize("swallows", [False, True])
+def test_a_busy_program_that_the_end_of_for_breaks_off_is_named_and_fails(
+    tmp_path, capsys, swallows
+):
+    file = tmp_path / "busy.py"
+    loop = "while True:\n    pass\n"
+    if swallows:
+        loop = "try:\n    while True:\n        pass\nexcept KeyboardInterrupt:\n    pass\n"
+    file.write_text(NODE + loop)
+
+    assert main(["run", "--for", "0.5", str(file)]) == 1
+
+    said = capsys.readouterr().err
+    # The second where the machine is too slow to break it off before the world gives it up.
+    told = ("'busy' did not return when the run ended and was broken off: ", "has not returned 2 s")
+    assert any(words in said for words in told)
+
+
 def test_where_a_real_ros_is_sourced_we_stand_back_unless_told(tmp_path, capsys, monkeypatch):
     (tmp_path / "rclpy").mkdir()
     (tmp_path / "rclpy" / "__init__.py").write_text("")

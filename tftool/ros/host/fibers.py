@@ -11,6 +11,7 @@ wall clock the loop goes on, so code that is busy holds up nothing else.
 """
 
 import asyncio
+import contextlib
 import ctypes
 import inspect
 import linecache
@@ -32,7 +33,10 @@ GIVE_UP = 10.0
 """Real seconds after which simulated time, which stands still meanwhile, gives a fiber up."""
 
 GRACE = 0.25
-"""Real seconds an interrupted fiber is given to come to rest by itself."""
+"""Real seconds a fiber is given to come to rest by itself, once a signal has come."""
+
+GRACE_AT_END = 1.0
+"""Real seconds it is given where the run ended without one: less than the world waits for it."""
 
 AFTERLIFE = 50
 """How often an interrupted fiber may ask to wait before it is left alone."""
@@ -105,7 +109,8 @@ class Fiber:
     Attributes:
         name: Whose code it is.
         interrupted: Whether it was asked to end; every wait then raises KeyboardInterrupt.
-        error: What its body raised, once it has ended.
+        error: What its body raised, once it has ended; a StuckError where it had to be broken
+            off, because it went on after it was asked to end, and no signal had asked.
         ended: Whether its body is over.
         owner: Whose fiber it is, for `current`.
         end: Makes what every wait raises once it was asked to end.
@@ -149,6 +154,7 @@ class Fiber:
         self._go = _taken_lock()
         self._rest = _taken_lock()
         self._request: Callable[[], Any] | None = None
+        self._broken_off = ""
         self._answer: tuple[Any, BaseException | None] = (None, None)
         self._arrived: tuple[asyncio.AbstractEventLoop, asyncio.Future[None]] | None = None
         self.end: Callable[[], BaseException] = KeyboardInterrupt
@@ -235,6 +241,8 @@ class Fiber:
             first = False
             request = self._request
             if self.ended or request is None:
+                if self._broken_off:
+                    self.error = StuckError(self._broken_off)
                 return
             late += self.interrupted
             if late > LAST_REQUESTS:
@@ -333,15 +341,24 @@ class Fiber:
     async def _interrupt(self, loop: asyncio.AbstractEventLoop) -> None:
         """End code that is running right now: politely first, then by raising in it."""
         self.interrupted = True
+        # A person at Ctrl-C waits and wants it broken off; at the end of --for that is a fault.
+        signalled = self._told_to_end()
         for forced in (False, True):
             if forced:
+                if not signalled:
+                    self._broken_off = (
+                        f"'{self.name}' did not return when the run ended and was broken off: "
+                        f"{self.place() or 'no line of yours is running'}"
+                    )
                 self._raise_in_thread(KeyboardInterrupt)
             arrived = loop.create_future()
             self._arrived = (loop, arrived)
             if self._rest.acquire(blocking=False):
                 self._rest.release()
                 return
-            await asyncio.wait([arrived], timeout=GRACE * (4 if forced else 1))
+            grace = GRACE if signalled else GRACE_AT_END
+            with contextlib.suppress(asyncio.CancelledError):  # asked once more: be quicker
+                await asyncio.wait([arrived], timeout=GRACE * 4 if forced else grace)
             if arrived.done():
                 return
         self._leave_alone()
