@@ -11,6 +11,7 @@ pytest.importorskip("zstandard", reason="the extra 'recordings' is not installed
 
 from tests.sources.writers import SECOND, Sent, content, numbers, write_mcap, write_rosbag1
 from tftool import open_recording
+from tftool.views.info import as_text
 
 SENT = content()
 
@@ -142,6 +143,13 @@ def test_info_tells_what_is_odd(tftool, tmp_path):
     assert "'lidar' has 2 different static values" in odd
     assert "Two clocks" in odd
     assert "2 trees" in odd
+    with open_recording(run) as recording:
+        narrow = as_text(recording, 60).splitlines()
+    told = narrow[narrow.index("Odd") + 1 :]
+    assert max(map(len, told)) <= 60
+    assert odd.split() == " ".join(told).split()
+    (row,) = (line for line in tftool("info", run).out.splitlines() if "base in map  " in line)
+    assert "stamped by a simulation's clock" in row
 
 
 def test_info_of_a_scenario_says_what_plays_it(tftool):

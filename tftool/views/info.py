@@ -3,6 +3,7 @@
 from collections import defaultdict
 from collections.abc import Mapping, Sequence
 from datetime import UTC, datetime, timedelta
+from textwrap import wrap
 from typing import Any
 
 from rich.cells import cell_len
@@ -71,8 +72,17 @@ def as_text(recording: Recording, width: int | None = None) -> str:
         lines += ["", f"Robot: {_robot(recording, recording.robot)}"]
     for heading, sentences in (("Damage", recording.damage), ("Odd", oddities(recording))):
         if sentences:
-            lines += ["", heading, *(f"  {visible(sentence)}" for sentence in sentences)]
+            lines += ["", heading]
+            for sentence in sentences:
+                lines += _indented(visible(sentence), width)
     return "\n".join(lines) + "\n"
+
+
+def _indented(sentence: str, width: int | None) -> list[str]:
+    """A sentence below a heading; broken between words where a line has an end."""
+    if width is None:
+        return [f"  {sentence}"]
+    return wrap(sentence, max(width, 20), initial_indent="  ", subsequent_indent="    ")
 
 
 def _topics(recording: Recording, topics: Sequence[RecordedTopic]) -> list[tuple[str, ...]]:
@@ -180,7 +190,10 @@ def as_object(recording: Recording) -> dict[str, Any]:
 
 def _row(edge: EdgeFacts) -> tuple[str, ...]:
     offset = "-"
-    if edge.offset is not None:
+    if edge.offset is not None and edge.offset.least >= SIMULATED_BELOW:
+        # How many decades later says nothing; that it is another clock does.
+        offset = "stamped by a simulation's clock"
+    elif edge.offset is not None:
         offset = (
             f"{_offset(edge.offset.median)} ({_offset(edge.offset.least)} … "
             f"{_offset(edge.offset.most)})"
