@@ -1,5 +1,6 @@
 """The native kernel against the plain path: one meaning."""
 
+import gc
 import itertools
 import math
 import tracemalloc
@@ -310,6 +311,46 @@ def test_fields_that_no_history_has_are_survived(data):
     assert door.can_transform("a", "b", moment) in (True, PLAINLY)
     sample = TransformStamped(moment, "a", "b", Transform())
     assert door.set_transform(sample) in (True, PLAINLY)
+
+
+def test_what_the_collector_runs_in_the_middle_of_an_insert_is_survived():
+    from tftool.frames.history import History
+
+    def of_another_authority(senders):
+        senders["b"][3].insert(5000, 5 + (1 << 32), Transform())
+
+    for change in (of_another_authority, dict.clear):
+        link = History(10**9)
+        for stamp in (100, 200, 300):
+            link.insert(stamp, 5, Transform())
+        links = [link]
+        senders = {"b": ("a", "", 5, link)}
+        if change is dict.clear:
+            # Then nobody else holds it.
+            links.clear()
+        del link
+        door, late = Bare(senders=senders), TransformStamped(150, "a", "b", Transform())
+        waiting = [change]
+
+        def run(phase, _, waiting=waiting, senders=senders):
+            if waiting:
+                waiting.pop()(senders)
+
+        before = gc.get_threshold()
+        # Python has one slice to spare: who needs another one allocates it.
+        slices = [slice(number, number + 1) for number in range(3)]
+        gc.callbacks.append(run)
+        try:
+            gc.set_threshold(1)
+            found = door.set_transform(late)
+        finally:
+            gc.set_threshold(*before)
+            gc.callbacks.remove(run)
+
+        assert found in (True, PLAINLY)
+        assert len(slices) == 3
+        for link in links:
+            assert link.origins is None or len(link.origins) == link.count
 
 
 @given(st.data())

@@ -588,9 +588,9 @@ static int put(Link *link, int64_t stamp, int64_t origin, double *pose) {
     if (!(1.0 - ROUNDING < square && square < 1.0 + ROUNDING && pose[0] + pose[1] + pose[2] < HUGE_VAL))
         return 0;
     const int is_full = link->start > SLACK + link->count / SLACK_PART;
-    if (link->is_static || link->origins != Py_None || link->origin != origin || link->limit < 0
-        || link->records == NULL
-        || ((is_full || stamp <= link->newest_stamp) && !is_free(link))
+    /* That is asked first: nothing that was looked at before need be so any more. */
+    if (link->records == NULL || ((is_full || stamp <= link->newest_stamp) && !is_free(link))
+        || link->is_static || link->origins != Py_None || link->origin != origin || link->limit < 0
         || !read_records(link, PyBUF_WRITABLE, &view))
         return 0;
     Record *records = view.buf;
@@ -660,11 +660,14 @@ static int insert(const Door *door, const Types *types, PyObject *sample, PyObje
     PyObject *sender = PyDict_GetItemWithError(door->senders, child);
     if (sender == NULL || !PyTuple_Check(sender) || PyTuple_Size(sender) != 4)
         return 0;
-    PyObject *link = PyTuple_GetItem(sender, 3);
-    return same_text(PyTuple_GetItem(sender, 0), parent)
+    /* What runs meanwhile may let go of it. */
+    PyObject *link = Py_NewRef(PyTuple_GetItem(sender, 3));
+    const int done = same_text(PyTuple_GetItem(sender, 0), parent)
         && same_text(PyTuple_GetItem(sender, 1), authority)
         && read_stamp(PyTuple_GetItem(sender, 2), &origin)
         && PyObject_TypeCheck(link, types->fields) && put((Link *)link, stamp, origin, pose);
+    Py_DECREF(link);
+    return done;
 }
 
 METHOD(set_transform) {
