@@ -13,6 +13,7 @@ from tests.sources.writers import CONTAINERS, SECOND, Sent, content, numbers, wr
 from tftool import (
     Buffer,
     InputError,
+    Recording,
     Transform,
     TransformStamped,
     UsageError,
@@ -187,3 +188,15 @@ def test_a_closed_recording_says_so_and_keeps_what_was_read(tmp_path, name):
 
     assert read.edges == edges
     assert read.buffer.frame_exists("map")
+
+
+@pytest.mark.parametrize("name", CONTAINERS)
+def test_messages_that_are_asked_for_once_it_is_closed_are_refused(tmp_path, name):
+    path = str(CONTAINERS[name](tmp_path, SENT))
+    for ask in (Recording.messages, Recording.raw_messages):
+        with open_recording(path) as recording:
+            begun, untouched = ask(recording, "/tf"), ask(recording, "/tf")
+            next(begun)
+        for messages in (begun, untouched):
+            with pytest.raises(UsageError, match="is closed: read what you need"):
+                next(messages)

@@ -128,13 +128,16 @@ class Recording:
 
     @property
     def _readable(self) -> Source:
+        self._require_open()
+        return self.source
+
+    def _require_open(self) -> None:
         # A closed file of SQLite's reads as one in which nothing is.
         if self._closed:
             raise UsageError(
                 f"Recording '{self.name}' is closed: read what you need of it while it is open, "
                 "inside its with block."
             )
-        return self.source
 
     # What is in it
 
@@ -348,9 +351,16 @@ class Recording:
 
         Raises:
             InputError: If there is no such topic.
+            UsageError: If the recording is closed, also when that is done between two messages.
         """
         self._topic(topic)
-        return self._readable.messages([topic])
+        return self._while_open(self._readable.messages([topic]))
+
+    def _while_open(self, messages: Iterator[RawMessage]) -> Iterator[RawMessage]:
+        self._require_open()
+        for message in messages:
+            yield message
+            self._require_open()
 
     def messages(self, topic: str) -> Iterator[tuple[Stamp, Any]]:
         """A topic's messages, decoded one by one by the definition in the recording.
@@ -361,6 +371,7 @@ class Recording:
 
         Raises:
             InputError: If there is no such topic, or its type or encoding is not known.
+            UsageError: As for `raw_messages`.
         """
         found = self._topic(topic)
         layout = {"cdr": CDR, "ros1": ROS1}.get(found.encoding)
@@ -371,7 +382,7 @@ class Recording:
             )
         kind = Interfaces().recorded(found.type, found.definition)
         decode = Codec(kind, layout).decode
-        return ((raw.log_time, decode(raw.payload)) for raw in self._readable.messages([topic]))
+        return ((raw.log_time, decode(raw.payload)) for raw in self.raw_messages(topic))
 
     def _topic(self, name: str) -> RecordedTopic:
         for topic in self.topics:
