@@ -89,6 +89,25 @@ def test_a_damaged_database_is_read_row_by_row_and_comes_out_whole(tmp_path):
     assert len(rows(out)) == report.messages
 
 
+def test_texts_of_a_damaged_database_may_be_any_bytes(tmp_path):
+    path = next(CONTAINERS["db3"](tmp_path, SENT).glob("*.db3"))
+    with closing(sqlite3.connect(path)) as base:
+        base.execute("update topics set offered_qos_profiles = cast(x'616263d264' as text)")
+        base.commit()
+    raw = bytearray(path.read_bytes())
+    size = int.from_bytes(raw[16:18], "big")
+    number = len(raw) // size // 2
+    raw[number * size : (number + 1) * size] = bytes(size)
+    path.write_bytes(raw)
+    out = tmp_path / "out.db3"
+
+    edit([str(path)], out, Edits())
+
+    with closing(sqlite3.connect(out)) as base:
+        asked = "select distinct cast(offered_qos_profiles as blob) from topics"
+        assert b"abc\xd2d" in {one for (one,) in base.execute(asked)}
+
+
 def test_a_database_of_many_pages_becomes_another_container_message_by_message(tmp_path):
     """Its pages are read in pieces, and several of those are at hand at once."""
     path = next(CONTAINERS["db3"](tmp_path, SENT).glob("*.db3"))

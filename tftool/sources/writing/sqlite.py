@@ -77,8 +77,21 @@ class SqliteWriter:
         kind_hash = channel.extra("topic_type_hash")
         with translated(self._path):
             self._base.execute(
-                "insert into topics values (?, ?, ?, ?, ?, ?)",
-                (number, channel.topic, channel.type, channel.encoding, offers, kind_hash),
+                # Of a damaged recording a text may be any bytes: those are kept.
+                f"insert into topics values (?{', cast(? as text)' * 5})",
+                (
+                    number,
+                    *(
+                        text.encode("utf-8", "surrogateescape")
+                        for text in (
+                            channel.topic,
+                            channel.type,
+                            channel.encoding,
+                            offers,
+                            kind_hash,
+                        )
+                    ),
+                ),
             )
             if channel.definition and channel.type not in self._types:
                 self._types.add(channel.type)
