@@ -2,6 +2,7 @@
 
 import bz2
 import random
+import sys
 import tracemalloc
 
 import pytest
@@ -15,7 +16,7 @@ import lz4.frame
 import zstandard
 
 from tests.sources.writers import CONTAINERS, content, write_mcap, write_rosbag1, write_rosbag2
-from tftool import InputError, open_recording
+from tftool import InputError, UsageError, open_recording
 from tftool.sources import compressed, mcap_records, rosbag1_records
 from tftool.sources.writing.compression import compressor
 
@@ -181,6 +182,14 @@ def test_a_chunk_that_announces_too_much_is_not_unpacked(tmp_path, size):
         recording.buffer.frames()
 
         assert any("are announced" in one or "announce" in one for one in recording.damage)
+
+
+def test_what_a_damaged_piece_takes_that_is_not_installed_is_told(monkeypatch):
+    packed = zstandard.ZstdCompressor().compress(b"text" * 100)
+    monkeypatch.setitem(sys.modules, "zstandard", None)
+
+    with pytest.raises(UsageError, match="needs an extra"):
+        compressed.unpack_beginning("zstd", packed[:-5], 400)
 
 
 def test_of_a_damaged_piece_that_unpacks_to_much_only_a_part_is_held(monkeypatch):

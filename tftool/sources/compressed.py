@@ -179,8 +179,8 @@ def unpack_beginning(method: str, packed: bytes, size: int) -> bytes:
 
 
 def _beginning_of_zstd(packed: bytes, size: int) -> bytes:
-    found = bytearray()
-    with contextlib.suppress(Exception), zstandard().ZstdDecompressor().stream_reader(packed) as it:
+    found, decompressor = bytearray(), zstandard().ZstdDecompressor()
+    with contextlib.suppress(Exception), decompressor.stream_reader(packed) as it:
         # Of the step in which it breaks nothing comes out.
         while len(found) < size and (more := it.read(min(4096, size - len(found)))):
             found += more
