@@ -458,17 +458,29 @@ static int solve_path(const Door *door, const Types *types, PyObject *target, Py
     return valid && pose[6] == pose[6];
 }
 
+/* From 3.14 on a tuple keeps its hash: in memory that is only cleared it would be 0, and it takes
+   Python's own constructor to say that there is none yet. */
+#ifndef KEEPS_HASH
+#define KEEPS_HASH (Py_Version >= 0x030E0000)
+#endif
+
 /* Put new references into a new tuple; all of them are given up on failure. */
 static PyObject *tuple_of(PyTypeObject *type, PyObject **parts, Py_ssize_t size) {
     int whole = 1;
     for (Py_ssize_t i = 0; i < size; i++)
         whole &= parts[i] != NULL;
-    PyObject *made = whole ? PyType_GenericAlloc(type, size) : NULL;
+    PyObject *made = !whole ? NULL : KEEPS_HASH ? PyTuple_New(size) : PyType_GenericAlloc(type, size);
     for (Py_ssize_t i = 0; i < size; i++)
         if (made == NULL)
             Py_XDECREF(parts[i]);
         else
             PyTuple_SetItem(made, i, parts[i]);
+    if (made == NULL || !KEEPS_HASH)
+        return made;
+    PyObject *given = PyTuple_Pack(1, made);
+    Py_DECREF(made);
+    made = given == NULL ? NULL : ((newfunc)PyType_GetSlot(&PyTuple_Type, Py_tp_new))(type, given, NULL);
+    Py_XDECREF(given);
     return made;
 }
 
