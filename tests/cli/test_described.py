@@ -196,3 +196,16 @@ def test_a_description_takes_no_other(tftool, robot):
 
     assert result.status == 2
     assert "--urdf goes with a recording" in result.err
+
+
+def test_info_of_a_text_file_and_of_a_scenario_by_its_name(tftool, tmp_path):
+    notes = tmp_path / "notes.txt"
+    notes.write_text("Buy a second laser.\n")
+
+    unreadable = tftool("info", str(notes))
+    misused = tftool("info", "turtles")
+
+    assert unreadable.status == 3
+    assert misused.status == 2
+    for result in (unreadable, misused):
+        assert "is no recording and no robot description" in result.err

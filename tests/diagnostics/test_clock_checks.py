@@ -88,3 +88,16 @@ def test_samples_too_old_to_be_kept_and_samples_that_overtake():
         overtaken.sent("base_link", "arm", tick * 0.05, drives(tick * 0.05), latency=late)
     # Log order is that of arrival: those that took longer come behind newer ones.
     assert found(overtaken, "out-of-order").severity is Severity.NOTE
+
+
+def test_a_headline_speaks_of_one_link_and_of_several_in_their_grammar():
+    one = robot(odometry=False)
+    one.moving("odom", "base_link", offset=0.5)
+    said = found(one, "future-stamp").message
+    assert "base_link in odom is dated" in said
+    assert said.endswith("ahead of its arrival")
+
+    one.moving("base_link", "arm", offset=0.5)
+    said = found(one, "future-stamp").message
+    assert "arm in base_link are dated" in said
+    assert said.endswith("ahead of their arrival")

@@ -251,10 +251,12 @@ def _share(hit: Hit, cause: Hit, common: str) -> bool:
 def _joined(check: Check, hits: list[Hit], limits: Limits) -> Finding:
     """One finding of the hits of one check that are alike."""
     first = hits[0]
+    concerned = _concerned(hits)
     facts = {
         "frames": several(first.frames),
         **first.facts,
-        "where": _where(hits),
+        "where": several(concerned, 3),
+        "number": len(concerned),
     }
     evidence = [filled(check.detail, {"frames": several(hit.frames), **hit.facts}) for hit in hits]
     changed = {name: value for name, value in limits.items() if value != check.limits[name]}
@@ -285,9 +287,9 @@ def _joined(check: Check, hits: list[Hit], limits: Limits) -> Finding:
     )
 
 
-def _where(hits: list[Hit]) -> str:
-    """What is concerned, for a headline: edges, else topics, else frames."""
+def _concerned(hits: list[Hit]) -> list[str]:
+    """The names of what is concerned, for a headline: edges, else topics, else frames."""
     edges = dict.fromkeys(f"{child} in {parent}" for hit in hits for parent, child in hit.edges)
     topics = dict.fromkeys(topic for hit in hits for topic in hit.topics)
     frames = dict.fromkeys(frame for hit in hits for frame in hit.frames)
-    return several(list(edges or topics or frames), 3)
+    return list(edges or topics or frames)

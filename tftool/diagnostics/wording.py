@@ -67,9 +67,14 @@ def filled(template: str, facts: Mapping[str, Fact]) -> str:
 
 
 class _Words(string.Formatter):
-    """`{wait:span}`, `{at:moment}`, `{at:dated}`, `{jump:m}`, `{turn:deg}`, `{share:%}`."""
+    """`{wait:span}`, `{at:moment}`, `{at:dated}`, `{jump:m}`, `{turn:deg}`, `{share:%}`, and words
+    for one or for many: `{number:is|are}`.
+    """
 
     def format_field(self, value: Any, format_spec: str) -> Any:
+        one, is_choice, many = format_spec.partition("|")
+        if is_choice:
+            return one if value == 1 else many
         match format_spec:
             case "span":
                 return span(value)

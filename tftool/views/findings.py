@@ -352,8 +352,11 @@ def _general(text: str) -> str:
     from string import Formatter
 
     parts = []
-    for literal, name, _, _ in Formatter().parse(text):
+    for literal, name, spec, _ in Formatter().parse(text):
         parts.append(literal)
+        if spec and "|" in spec:
+            parts.append(spec.partition("|")[0])
+            continue
         # What stands at a word's end without a blank is an addition that may be empty.
         if name is not None and not literal[-1:].isalpha():
             parts.append(name.split("[")[0].upper())

@@ -3,6 +3,7 @@
 import json
 import shutil
 import sys
+from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
 import typer
@@ -10,7 +11,7 @@ import typer
 from tftool.cli.app import ExitStatus
 from tftool.cli.connection import Connection, RobotOptions
 from tftool.cli.options import Jobs, Json, Resume, Rows, Scheduler
-from tftool.errors import UsageError
+from tftool.errors import InputError, UsageError
 
 if TYPE_CHECKING:
     from tftool.sources.find import Found
@@ -92,10 +93,11 @@ def _one(connection: Connection, place: str, *, for_programs: bool) -> ExitStatu
     if not found.kind.is_recording:
         word = visible(place)
         if found.kind is Kind.SCENARIO:
-            raise UsageError(
+            sentence = (
                 f"'{word}' is no recording and no robot description. As a scenario, 'tftool check "
                 f"{word}' plays it, and 'tftool tree {word}' shows its frames."
             )
+            raise InputError(sentence) if Path(place).is_file() else UsageError(sentence)
         raise UsageError(
             f"'{word}' is a {found.kind.value} and no recording: 'tftool tree {word}' shows its "
             "frames."
