@@ -82,7 +82,13 @@ def _indented(sentence: str, width: int | None) -> list[str]:
     """A sentence below a heading; broken between words where a line has an end."""
     if width is None:
         return [f"  {sentence}"]
-    return wrap(sentence, max(width, 20), initial_indent="  ", subsequent_indent="    ")
+    return wrap(
+        sentence,
+        max(width, 20),
+        initial_indent="  ",
+        subsequent_indent="    ",
+        break_on_hyphens=False,
+    )
 
 
 def _topics(recording: Recording, topics: Sequence[RecordedTopic]) -> list[tuple[str, ...]]:
