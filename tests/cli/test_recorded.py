@@ -130,17 +130,17 @@ def test_topics_there_are_stand_beside_one_there_is_not(tftool, run):
 def test_info_tells_what_is_odd(tftool, tmp_path):
     start = 1_750_000_000 * SECOND
     sent = [
-        Sent(start, "/tf_static", ((0, "base", "front-left-lidar", numbers(1)),)),
-        Sent(start + 1, "/tf_static", ((0, "base", "front-left-lidar", numbers(2)),)),
+        Sent(start, "/tf_static", ((0, "base", "lidar", numbers(1)),)),
+        Sent(start + 1, "/tf_static", ((0, "base", "lidar", numbers(2)),)),
         Sent(start + 2, "/tf", ((12 * SECOND, "map", "base", numbers(3)),)),
-        Sent(start + 3, "/tf", ((start + 3, "camera", "marker", numbers(4)),)),
-        Sent(start + SECOND, "/tf", ((start + SECOND, "camera", "marker", numbers(4)),)),
+        Sent(start + 3, "/tf", ((start + 3, "front-left-camera", "marker", numbers(4)),)),
+        Sent(start + SECOND, "/tf", ((start + SECOND, "front-left-camera", "marker", numbers(4)),)),
     ]
     run = write_mcap(tmp_path / "run.mcap", sent)
 
     odd = "\n".join(json.loads(tftool("info", run, "--json").out)["odd"])
 
-    assert "'front-left-lidar' has 2 different static values" in odd
+    assert "'lidar' has 2 different static values" in odd
     assert "Two clocks" in odd
     assert "2 trees" in odd
     with open_recording(run) as recording:
