@@ -128,7 +128,7 @@ def test_a_part_begins_with_what_was_known_by_then(file):
     span = (START + SECOND * 5 // 2, START + SECOND * 4)
     played = Played(file, span=span).run()
 
-    assert children(played) == [(0.0, 2.0), (0.51, 3.0)]
+    assert children(played) == [(0.0, 1.0), (0.0, 2.0), (0.51, 3.0)]
 
 
 def test_paused_time_stands_still_and_a_step_sends_one_message(file):
@@ -149,7 +149,8 @@ def test_seeking_back_is_told_as_ros_tells_it_and_sends_what_was_known_there(fil
 
     told = [one.text for one in played.world.log.records if one.level == "WARN"]
     assert told == ["Detected jump back in time. Clearing tf buffer."]
-    assert children(played)[3:] == [(2.5, 1.0), (3.31, 2.0), (4.31, 3.0)]
+    # What was known a second before, too, so that lookups between the two are answered.
+    assert children(played)[3:] == [(2.5, 0.0), (2.5, 1.0), (3.31, 2.0), (4.31, 3.0)]
 
 
 def test_seeking_goes_no_further_than_the_recording(file):
@@ -158,9 +159,50 @@ def test_seeking_goes_no_further_than_the_recording(file):
         (2, lambda player: player.resume()),
     )
 
-    assert children(played)[1] == (1.0, 3.0)
+    assert [found for found in children(played) if found[0] == 1.0][-1] == (1.0, 3.0)
     # From the end it starts over.
     assert children(played)[-1] == (5.0, 3.0)
+
+
+@pytest.fixture
+def arm(tmp_path):
+    """A base and an arm, whose transforms are sent in turns."""
+    turns = []
+    for number in range(4):
+        turns.append(tick(number))
+        stamp = START + number * SECOND + seconds(0.4)
+        turns.append(Sent(stamp, "/tf", ((stamp, "base_link", "arm", numbers(9)),), node="/arm"))
+    path = tmp_path / "arm.mcap"
+    write_mcap(path, turns)
+    return path
+
+
+def test_where_it_was_sought_links_that_are_sent_in_turns_can_be_asked_together(arm):
+    answers = []
+
+    def ask(player):
+        answers.append(player.buffer.lookup_transform("odom", "arm").stamp)
+
+    Played(arm, is_paused=True).run(
+        (1, lambda player: player.seek(START + seconds(2.2))), (2, ask), until=3
+    )
+
+    assert answers == [START + seconds(1.4)]
+
+
+def test_who_comes_while_it_stands_still_is_told_what_the_others_know(arm):
+    late = []
+    played = Played(arm, is_paused=True)
+
+    played.run(
+        (1, lambda player: player.seek(START + seconds(2.2))),
+        (2, lambda player: player.world.tf.subscribe(late.append)),
+        until=3,
+    )
+
+    told = [(one.child_frame_id, one.stamp) for message in late for one in message.transforms]
+    assert ("base_link", START + seconds(2)) in told
+    assert ("arm", START + seconds(1.4)) in told
 
 
 def test_at_the_end_it_starts_over_where_that_is_wished(file):

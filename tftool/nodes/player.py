@@ -1,6 +1,5 @@
 """A recording as a node: what was recorded is broadcast again, at its own pace or another."""
 
-from collections.abc import Callable
 from typing import TYPE_CHECKING, ClassVar, Final, Protocol
 
 from tftool.frames.jumps import FELL_BACK, LEAST_FALL
@@ -22,6 +21,9 @@ TICK: Final = seconds(0.025)
 
 AT_ONCE: Final = 500
 """Messages that are sent before anything else gets a turn."""
+
+RECENT: Final = seconds(1)
+"""How much of what came before is sent with what was known at a moment, at most `AT_ONCE`."""
 
 SLOWEST, FASTEST = 0.01, 100.0
 """Rates that a player takes."""
@@ -98,7 +100,7 @@ class Player(Node):
         self._anchor = self.start  # where it was
         self._since = pace.now()  # when it was there
         self._place = timeline.place(self.start)
-        self._wake: Callable[[], object] | None = None
+        self._listeners = world.tf.subscribers
         if not self._is_silent:
             self.publisher("clock", INTERFACES.message("rosgraph_msgs/Clock"), CLOCK_QUALITY)
 
@@ -146,7 +148,7 @@ class Player(Node):
                 self._feed_until(moment)
 
     def seek(self, moment: Stamp) -> None:
-        """Go to a moment: what was known of the frames by then is sent at once."""
+        """Go to a moment: what was known of the frames by then is sent, and the second before."""
         before = self.position
         self._anchor = min(max(moment, self.start), self.end)
         self._since = self._pace.now()
@@ -157,8 +159,7 @@ class Player(Node):
             self.warn(FELL_BACK)
             self.buffer.clear()
         self._tell()
-        for due in self._timeline.known_at(self._anchor):
-            self._broadcast(due)
+        self._send_known(self._anchor)
 
     # Playing
 
@@ -166,17 +167,24 @@ class Player(Node):
         """Play to the end; over and over where that was asked for."""
         self._since = self._pace.now()
         self._tell()
-        for due in self._timeline.known_at(self.start - 1):
-            self._broadcast(due)
+        self._send_known(self.start - 1)
         if self._feed is not None:
             self._feed.seek(self.start)
         while True:
+            self._welcome()
             is_behind = self._send_due()
             if self.is_over:
                 return
             if self._is_looping and not self.is_paused and self.position >= self.end:
                 self._start_over()
             await self._pace.sleep_until(self._next_turn(is_behind), self.phase, self.rank)
+
+    def _welcome(self) -> None:
+        """Tell those who come while it stands still what the others have heard."""
+        listeners = self.world.tf.subscribers
+        if self.is_paused and listeners > self._listeners:
+            self._send_known(self._anchor)
+        self._listeners = listeners
 
     def _start_over(self) -> None:
         self.laps += 1
@@ -221,6 +229,22 @@ class Player(Node):
     def _send(self, place: int) -> None:
         for due in self._timeline.message(place):
             self._broadcast(due)
+
+    def _send_known(self, moment: Stamp) -> None:
+        """Send what answers lookups at a moment.
+
+        The last transform of each link alone would not: their stamps differ, and a lookup of two
+        of them wants a moment between two samples of the one that is ahead.
+        """
+        last = self._timeline.place(moment, after=True)
+        first = last
+        if not self._is_restamped:
+            first = max(self._timeline.place(moment - RECENT), last - AT_ONCE)
+        before = int(self._timeline.moments[first]) - 1 if first < last else moment
+        for due in self._timeline.known_at(before):
+            self._broadcast(due)
+        for place in range(first, last):
+            self._send(place)
 
     def _broadcast(self, due: "Due") -> None:
         transforms = due.transforms
