@@ -70,3 +70,29 @@ def test_a_world_that_has_joined_takes_now_from_the_clock_that_is_published():
                 link.close()
 
     run(WallClock(), follow())
+
+
+def test_transforms_that_come_before_the_first_word_of_the_clock_are_not_called_years_old():
+    async def follow():
+        host, guest = World(WallClock()), World(FollowedClock())
+        links = [Link(Options(name, middleware="memory")) for name in ("play", "echo")]
+        links[0].attach(host, role=Role.HOST)
+        links[1].attach(guest, role=Role.GUEST)
+        follower = ClockFollower(guest, guest.clock)
+        try:
+            clock = host.publisher("player", "clock", CLOCK, Quality())
+            topic = host.topic("clock", CLOCK)
+            await until(lambda: topic.far_subscribers and is_clock_shown(links[1].graph))
+
+            host.broadcast([TransformStamped(seconds(20), "a", "b", Transform())], "player")
+            await until(lambda: guest.buffer.frame_exists("b"))
+
+            assert not guest.clock.is_told
+            assert [one.text for one in guest.log.records if "clock" in one.text] == []
+            clock.close()
+        finally:
+            follower.close()
+            for link in links:
+                link.close()
+
+    run(WallClock(), follow())

@@ -5,7 +5,9 @@ from typing import Final
 from tftool.errors import MalformedMessage
 from tftool.frames.sample import TransformStamped
 from tftool.link.context import LinkContext
+from tftool.link.following import is_clock_shown
 from tftool.link.seam import Arrived, WirePublisher
+from tftool.runtime.clock import FollowedClock
 from tftool.runtime.endpoints import SUBSCRIPTION, TF, TF_STATIC
 from tftool.runtime.topics import Topic
 from tftool.runtime.world import TransformMessage
@@ -147,7 +149,10 @@ class TransformBridge:
         return tuple(one for one in transforms if store(one, authority))
 
     def _compare_clocks(self, stamp: Stamp, authority: str) -> None:
-        ahead = stamp - self._link.world.clock.now()
+        clock, graph = self._link.world.clock, self._link.graph
+        if isinstance(clock, FollowedClock) and not clock.is_told and is_clock_shown(graph):
+            return  # what time it is will be told in a moment
+        ahead = stamp - clock.now()
         if -YEAR < ahead < AHEAD:
             return
         if 0 < ahead < YEAR:
