@@ -121,9 +121,10 @@ class Terminal:
 
     def stops(self):
         """Wait until the command is stopped: it leaves the screen before, and says no more."""
-        state = ["ps", "-o", "state=", "-p", self.pid_file.read_text().strip()]
+        state = Path("/proc", self.pid_file.read_text().strip(), "stat")
+        # The state is what follows the name, which may hold anything, in parentheses.
         self._seen(
-            lambda: subprocess.run(state, check=True, capture_output=True, text=True).stdout,
+            lambda: state.read_text().rpartition(") ")[2],
             lambda told: told.startswith("T"),
             "the command's stop",
             patience=UNHEARD,
