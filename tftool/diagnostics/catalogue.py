@@ -36,7 +36,7 @@ class Check:
         summary: What is wrong, in one line and in general.
         rule: When it speaks, with its thresholds as {names}.
         headline: What is wrong, with a finding's facts; `{where}` names all of them,
-            `{number:one|many}` chooses by how many they are.
+            `{concerned:one|many}` chooses by how many they are.
         detail: A line of evidence for each hit.
         consequence: What it breaks.
         fixes: What to do, beside what the hit itself says.
@@ -173,7 +173,7 @@ _LIST = (
         _W,
         "a moving frame is published as static",
         "a static has {values:g} different values or more (apart by {metres:g} m or {radians:g} rad)",
-        "{where} {number:moves, and is|move, and are} published as static",
+        "{where} {concerned:moves, and is|move, and are} published as static",
         "{edge}: {values} values, up to {moved:m} and {turned:deg} apart",
         "statics have no history: every lookup in the past silently gives the newest value",
         (Fix("publish what moves with a TransformBroadcaster, on /tf"),),
@@ -188,7 +188,7 @@ _LIST = (
         _W,
         "a static was published again with another value",
         "a static has 2 to {values:g} different values (apart by {metres:g} m or {radians:g} rad)",
-        "{where} {number:was|were} published again with another value",
+        "{where} {concerned:was|were} published again with another value",
         "{edge}: {values} values, {moved:m} and {turned:deg} apart",
         "what was placed with the old value moves when the new one comes, also in the past",
         (Fix("find the second publisher: often two launch files publish the same mount"),),
@@ -202,7 +202,7 @@ _LIST = (
         _N,
         "a constant on /tf that could be static",
         "{samples:g} samples or more on a dynamic topic are all equal while other frames move",
-        "{where} never {number:changes and is|change and are} sent on /tf",
+        "{where} never {concerned:changes and is|change and are} sent on /tf",
         "{edge}: {rate:.3g} Hz",
         "lookups through it wait for its next sample: up to its period, and for nothing",
         (Fix("send it once on /tf_static: tf2's static_transform_publisher, use_tf_static: true"),),
@@ -354,7 +354,7 @@ _LIST = (
         "names in transforms carry a leading slash",
         "a transform names a frame with a leading slash, which tf2 strips; an error where it has "
         "two, since no query can reach what is left",
-        "{where} {number:is|are} published with a leading slash",
+        "{where} {concerned:is|are} published with a leading slash",
         "{edge}: {found}",
         "harmless to tf2; what compares names sees two",
         (Fix("drop the slash in the publisher"),),
@@ -447,7 +447,7 @@ _LIST = (
         "part of the stamps count from the simulation's start, part from 1970",
         "stamps below 10⁸ s and above it occur together; the odd ones are those against /clock, "
         "else the fewer",
-        "{where} {number:is|are} stamped with {odd_clock}, all else with {usual_clock}",
+        "{where} {concerned:is|are} stamped with {odd_clock}, all else with {usual_clock}",
         "for example {odd_stamp:dated} beside {usual_stamp:dated}",
         "no lookup across the two clocks can succeed",
         (
@@ -470,7 +470,7 @@ _LIST = (
         "transforms dated ahead of their arrival",
         "the median latency of a transform is below -{seconds:g} s (of what places odometry in a "
         "map: -{localisation:g} s); a note from -{note:g} s on",
-        "{where} {number:is|are} dated {ahead:span} ahead of {number:its|their} arrival",
+        "{where} {concerned:is|are} dated {ahead:span} ahead of {concerned:its|their} arrival",
         "{edge}: {ahead:span} ahead (median){clock}",
         "the latest common time lies in the future: a lookup at latest mixes moments",
         (
@@ -492,7 +492,7 @@ _LIST = (
         "transforms or messages dated long before their arrival",
         "the median latency is above {transforms:g} s for a transform (an error above the cache) "
         "or {messages:g} s for messages",
-        "{where} {number:is|are} dated {late:span} before {number:its|their} arrival",
+        "{where} {concerned:is|are} dated {late:span} before {concerned:its|their} arrival",
         "{what}: {late:span} late (median)",
         "lookups at the present refuse; in rviz it lags or vanishes",
         (
@@ -546,7 +546,7 @@ _LIST = (
         _W,
         "a moving frame with stamp 0",
         "a transform on a dynamic topic has stamp 0",
-        "{where} {number:has|have} stamp 0",
+        "{where} {concerned:has|have} stamp 0",
         "{edge}: {count} of {of} samples",
         "lookups at any other time refuse; 0 means latest in every question",
         (Fix("stamp it: t.header.stamp = self.get_clock().now().to_msg(), inside the loop"),),
@@ -573,7 +573,7 @@ _LIST = (
         _W,
         "the same stamp twice: TF_REPEATED_DATA in ROS 1",
         "more than {samples:g} samples, and a share above {share:g}, repeat a stamp with the same value",
-        "{where} {number:repeats|repeat} stamps",
+        "{where} {concerned:repeats|repeat} stamps",
         "{edge}: {count} of {of} samples repeat a stamp",
         "ROS 1 prints TF_REPEATED_DATA for each; ROS 2 ignores equal ones and lets the later of "
         "different ones win",
@@ -614,7 +614,7 @@ _LIST = (
         _W,
         "samples older than the cache allows: TF_OLD_DATA",
         "a sample is older than the newest of its frame by more than the cache (--cache-time)",
-        "{where} {number:sends|send} samples that are too old to be kept",
+        "{where} {concerned:sends|send} samples that are too old to be kept",
         "{edge}: {count:times}, up to {behind:span} behind",
         "tf2 drops them and warns TF_OLD_DATA",
         (Fix("restart the publisher that still has the old clock; or clear the buffer"),),
@@ -627,7 +627,7 @@ _LIST = (
         _N,
         "samples overtake each other within the cache",
         "more than {samples:g} samples, and a share above {share:g}, are older than one before",
-        "{where} {number:comes|come} out of order",
+        "{where} {concerned:comes|come} out of order",
         "{edge}: {count} of {of} samples",
         "harmless to tf2; hints at threads, or at a second publisher",
         (),
@@ -642,7 +642,7 @@ _LIST = (
         "a transform ends long before the recording does",
         "the last sample comes more than {periods:g} periods and {seconds:g} s, and a share of "
         "{share:g}, before the recording's end, while others go on",
-        "{where} {number:stops|stop} before the end",
+        "{where} {concerned:stops|stop} before the end",
         "{edge}: last at {last:moment}, {before:span} before the end; came every {period:span}",
         "lookups through it refuse from then on",
         (Fix("look at the node that publishes it: it died, or hangs"),),
@@ -658,7 +658,7 @@ _LIST = (
         "a hole in a transform",
         "the largest step is above {periods:g} periods and {seconds:g} s, of {samples:g} samples or "
         "more; a note for what is published on change (variation above {variation:g})",
-        "{where} {number:has a hole|have holes}",
+        "{where} {concerned:has a hole|have holes}",
         "{edge}: nothing from {begin:moment} to {end:moment} ({length:span}; usually every "
         "{period:span}){why}; at the same time: {also}",
         "lookups inside it interpolate over the hole, or refuse while it lasts",
@@ -674,7 +674,7 @@ _LIST = (
         _W,
         "a moving frame with one sample only",
         "a transform on a dynamic topic came once",
-        "{where} {number:was|were} sent once, on /tf",
+        "{where} {concerned:was|were} sent once, on /tf",
         "{edge}: at {stamp:moment}",
         "one sample answers for its own stamp only, and only for as long as the cache keeps it",
         (Fix("send a mount with a StaticTransformBroadcaster (on /tf_static)"),),
@@ -737,7 +737,7 @@ _LIST = (
         _W,
         "statics arrive after what needs them",
         "a static first arrives more than {seconds:g} s after the first message in a frame below it",
-        "{where} {number:arrives after what needs it|arrive after what needs them}",
+        "{where} {concerned:arrives after what needs it|arrive after what needs them}",
         "{edge}: {late:span} late; before it: {missed}",
         "a listener that was there from the start could not place these messages, although the "
         "recording can",
@@ -825,7 +825,7 @@ _LIST = (
         "lookups cannot succeed before a moment: an edge begins late or is dated ahead",
         "messages are older by more than {seconds:g} s, and the first second of the recording, than "
         "the first transform they need; where a localiser dates that ahead, by up to 2 s, so much more",
-        "{where} {number:begins after the messages that need it|begin after the messages that need them}",
+        "{where} {concerned:begins after the messages that need it|begin after the messages that need them}",
         "{edge} begins at {begin:moment}: {lost} messages of {topic} can never be placed in {fixed}",
         "waiting does not help; skip them",
         (),
@@ -853,7 +853,7 @@ _LIST = (
         _E,
         "NaN or infinity in a transform",
         "a number of a transform is NaN or infinite",
-        "{where} {number:has|have} numbers that are none",
+        "{where} {concerned:has|have} numbers that are none",
         "{edge}: {count} of {of} samples, first at {first:moment}: {numbers}; {fate}",
         "the frame stands still or vanishes; what is placed through it is nowhere",
         (
@@ -875,7 +875,7 @@ _LIST = (
         "a rotation of length zero, or of a length that is off",
         "a quaternion's squared length is below 10⁻¹² (an error), or off by more than {length:g} "
         "(a warning)",
-        "{where} {number:has|have} rotations that are none",
+        "{where} {concerned:has|have} rotations that are none",
         "{edge}: {count} of {of} samples, first {numbers} (length {length:.4g}); {fate}",
         "the frame exists for one listener and not for another",
         (Fix("fill the rotation (w = 1 for none), and normalise it before sending"),),
@@ -898,7 +898,7 @@ _LIST = (
         "a step above {metres:g} m faster than {speed:g} m/s (or above {radians:g} rad faster than "
         "{turning:g} rad/s) and than {times:g} times the 95 % speed, in a share of {share:g} of the "
         "steps or {few:g} of them; of {samples:g} samples or more",
-        "{where} {number:jumps|jump} {jump:m} within {within:span}",
+        "{where} {concerned:jumps|jump} {jump:m} within {within:span}",
         "{edge}: {jump:m} and {turn:deg} at {at:moment}, {count:times}; usual {usual:.2g} m/s",
         "what is placed before and after does not fit{also}",
         (
@@ -927,7 +927,7 @@ _LIST = (
         "an _optical frame without optical axes",
         "an optical frame's turn in its body frame is more than {degrees:g}° off optical axes (z "
         "forward, x right); where they share a name or lie within {metres:g} m",
-        "{where} {number:does|do} not have optical axes",
+        "{where} {concerned:does|do} not have optical axes",
         "{edge}: {off:.3g}° off",
         "images and clouds in it are turned on their side",
         (Fix('make it a fixed joint with rpy="-1.5708 0 -1.5708", and name it in the driver'),),
@@ -942,7 +942,7 @@ _LIST = (
         _N,
         "images stamped in a body frame",
         'a picture\'s frame has no "optical" in its name',
-        "{where} {number:is|are} not in an optical frame",
+        "{where} {concerned:is|are} not in an optical frame",
         "{topic} is in {frame}",
         "what projects its pixels looks along the wrong axis",
         (Fix('add a fixed joint with rpy="-1.5708 0 -1.5708", and name its frame in the driver'),),
@@ -976,7 +976,7 @@ _LIST = (
         _N,
         "a mount far from its parent inside one robot: millimetres?",
         "a static below a base frame is longer than {metres:g} m",
-        "{where} {number:is|are} far away for a mount",
+        "{where} {concerned:is|are} far away for a mount",
         "{edge}: {away:m}",
         "if it was meant in millimetres, everything below is a thousand times too far",
         (Fix("look whether it is in millimetres: tf is in metres"),),
@@ -990,7 +990,7 @@ _LIST = (
         _N,
         "a static of exactly (1, 0, 0, 0): w first by mistake?",
         "a static's rotation is exactly x = 1, y = z = w = 0",
-        "{where} {number:is|are} turned over: (1, 0, 0, 0)",
+        "{where} {concerned:is|are} turned over: (1, 0, 0, 0)",
         "{edge}: a half turn about x, or no turn written w first",
         "if no turn was meant, the frame is upside down",
         (Fix("write quaternions as x y z w: no turn is 0 0 0 1"),),
@@ -1059,7 +1059,7 @@ _LIST = (
         "a static differs from the robot description's fixed joint",
         "a static and the fixed joint of the same two links are more than {metres:g} m or "
         "{degrees:g}° apart",
-        "{where} {number:differs|differ} from the robot description",
+        "{where} {concerned:differs|differ} from the robot description",
         "{edge}: {apart:m} and {turned:deg} apart; {joint} has {says}, tf {has}",
         "what was calibrated and what is published are two mounts",
         (Fix("publish it once: take the second publisher away, or write the calibration down"),),

@@ -256,7 +256,7 @@ def _joined(check: Check, hits: list[Hit], limits: Limits) -> Finding:
         "frames": several(first.frames),
         **first.facts,
         "where": several(concerned, 3),
-        "number": len(concerned),
+        "concerned": len(concerned),
     }
     evidence = [filled(check.detail, {"frames": several(hit.frames), **hit.facts}) for hit in hits]
     changed = {name: value for name, value in limits.items() if value != check.limits[name]}

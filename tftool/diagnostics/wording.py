@@ -68,7 +68,7 @@ def filled(template: str, facts: Mapping[str, Fact]) -> str:
 
 class _Words(string.Formatter):
     """`{wait:span}`, `{at:moment}`, `{at:dated}`, `{jump:m}`, `{turn:deg}`, `{share:%}`, and words
-    for one or for many: `{number:is|are}`.
+    for one or for many: `{concerned:is|are}`.
     """
 
     def format_field(self, value: Any, format_spec: str) -> Any:
