@@ -101,7 +101,7 @@ class ActionParts:
         self._undecided: set[bytes] = set()
         self._tasks = Tasks()
         self._is_closed = False
-        self._stop = world.watch_goals(name, self._follow)
+        self._stop = world.watch_goals(name, self._follow, name)
 
     def close(self) -> None:
         """Follow no more; what is still worked on is not told of."""
@@ -124,7 +124,7 @@ class ActionParts:
             # Deciding takes a while, in which the same goal may come again.
             self._undecided.add(goal_id)
             try:
-                goal = await self._world.hand_over(self._name, asked.goal, goal_id=goal_id)
+                goal = self._world.hand_over(self._name, asked.goal, goal_id=goal_id)
                 accepted = await self._enters(goal)
             finally:
                 self._undecided.discard(goal_id)
@@ -132,13 +132,13 @@ class ActionParts:
 
     def _has_room(self) -> bool:
         """Whether one more goal may begin; the oldest that have ended make way for it."""
-        if self._surplus(len(self._undecided)) <= 0:
+        if self._make_way(len(self._undecided)) <= 0:
             return True
         self._warn(f"'{self._name}': {KEPT} goals are under way; until one ends, more are refused.")
         return False
 
-    def _surplus(self, others: int) -> int:
-        """How many are too many for one more, once those that have ended make way."""
+    def _make_way(self, others: int) -> int:
+        """Forget goals that have ended until one more has room; how many are too many still."""
         surplus = len(self._goals) + others + 1 - KEPT
         ended = [goal_id for goal_id, (goal, _) in self._goals.items() if goal.done]
         for goal_id in ended[: max(0, surplus)]:
@@ -169,7 +169,7 @@ class ActionParts:
         if goal.decided is not None and not await asyncio.shield(goal.decided):
             return False
         if goal.goal_id not in self._goals:
-            self._surplus(0)
+            self._make_way(0)
             self._goals[goal.goal_id] = goal, self._world.clock.now()
             self._publish_status()
         return True

@@ -152,7 +152,7 @@ class World:
         self._doors: dict[str, ValueTopic[Any]] = {}
         self._services: NamedOffers[Handler] = NamedOffers("service", self._changed)
         self._actions: NamedOffers[Acceptor] = NamedOffers("action", self._changed)
-        self._goal_watchers: dict[str, list[Callable[[GoalHandle], object]]] = {}
+        self._goal_watchers: dict[str, Listeners[GoalHandle]] = {}
         # How often the buffer refused the same, by what it says.
         self._refused: dict[str, int] = {}
         self._statics: dict[str, dict[str, TransformStamped]] = {}
@@ -420,14 +420,15 @@ class World:
         return self._actions.by_name
 
     def watch_goals(
-        self, name: str, callback: Callable[[GoalHandle], object]
+        self, name: str, callback: Callable[[GoalHandle], object], owner: str = ""
     ) -> Callable[[], None]:
-        """Have `callback` called with each goal of an action, before its server has it."""
-        watching = self._goal_watchers.setdefault(name, [])
-        watching.append(callback)
-        return lambda: watching.remove(callback)
+        """Have `callback` called with each goal of an action, before its server has it.
 
-    async def hand_over(
+        Call what is returned to stop; what it raises is reported as `watch` says.
+        """
+        return self._goal_watchers.setdefault(name, Listeners(self.report)).add(callback, owner)
+
+    def hand_over(
         self,
         name: str,
         goal: Any,
@@ -440,8 +441,8 @@ class World:
         return handle
 
     def _take_goal(self, name: str, offer: Offer[Acceptor], handle: GoalHandle) -> None:
-        for watcher in tuple(self._goal_watchers.get(name, ())):
-            watcher(handle)
+        if name in self._goal_watchers:
+            self._goal_watchers[name].call(handle)
         offer.take(handle)
 
     def _server_for(self, name: str, goal: Any) -> Offer[Acceptor]:
@@ -468,7 +469,9 @@ class World:
         offer = self._server_for(name, goal)
         kind = offer.kind
         if kind is None or type(goal) not in values.ACTIONS:
-            return await self.hand_over(name, goal, on_feedback)
+            handle = GoalHandle(goal, on_feedback)
+            self._take_goal(name, offer, handle)
+            return handle
         said = values.ACTIONS[type(goal)][2]
 
         def fed(feedback: Any) -> None:
