@@ -1,5 +1,7 @@
 """`/clock` of another process is now, while it is published."""
 
+import contextlib
+
 import pytest
 
 from tests.link import memory
@@ -32,21 +34,32 @@ def reading(moment):
     return message
 
 
+@contextlib.contextmanager
+def joined():
+    """The link, the world of a host, and that of a guest whose clock follows."""
+    host, guest = World(WallClock()), World(FollowedClock())
+    links = [Link(Options(name, middleware="memory")) for name in ("play", "echo")]
+    links[0].attach(host, role=Role.HOST)
+    links[1].attach(guest, role=Role.GUEST)
+    follower = ClockFollower(guest, guest.clock)
+    try:
+        yield links[1], host, guest
+    finally:
+        follower.close()
+        for link in links:
+            link.close()
+
+
 def test_a_world_that_has_joined_takes_now_from_the_clock_that_is_published():
     async def follow():
-        host, guest = World(WallClock()), World(FollowedClock())
-        links = [Link(Options(name, middleware="memory")) for name in ("play", "echo")]
-        links[0].attach(host, role=Role.HOST)
-        links[1].attach(guest, role=Role.GUEST)
-        follower = ClockFollower(guest, guest.clock)
-        try:
-            assert not is_clock_shown(links[1].graph)
+        with joined() as (link, host, guest):
+            assert not is_clock_shown(link.graph)
             assert not guest.clock.is_told
 
             publisher = host.publisher("player", "clock", CLOCK, Quality())
             topic = host.topic("clock", CLOCK)
             await until(lambda: topic.far_subscribers)
-            assert is_clock_shown(links[1].graph)
+            assert is_clock_shown(link.graph)
 
             publisher.publish(reading(seconds(20)))
             await until(lambda: guest.clock.is_told)
@@ -64,25 +77,16 @@ def test_a_world_that_has_joined_takes_now_from_the_clock_that_is_published():
             publisher.close()
             await until(lambda: not guest.clock.is_told)
             assert seconds(12) <= guest.clock.now() < seconds(12 + 600)
-        finally:
-            follower.close()
-            for link in links:
-                link.close()
 
     run(WallClock(), follow())
 
 
 def test_transforms_that_come_before_the_first_word_of_the_clock_are_not_called_years_old():
     async def follow():
-        host, guest = World(WallClock()), World(FollowedClock())
-        links = [Link(Options(name, middleware="memory")) for name in ("play", "echo")]
-        links[0].attach(host, role=Role.HOST)
-        links[1].attach(guest, role=Role.GUEST)
-        follower = ClockFollower(guest, guest.clock)
-        try:
+        with joined() as (link, host, guest):
             clock = host.publisher("player", "clock", CLOCK, Quality())
             topic = host.topic("clock", CLOCK)
-            await until(lambda: topic.far_subscribers and is_clock_shown(links[1].graph))
+            await until(lambda: topic.far_subscribers and is_clock_shown(link.graph))
 
             host.broadcast([TransformStamped(seconds(20), "a", "b", Transform())], "player")
             await until(lambda: guest.buffer.frame_exists("b"))
@@ -90,9 +94,5 @@ def test_transforms_that_come_before_the_first_word_of_the_clock_are_not_called_
             assert not guest.clock.is_told
             assert [one.text for one in guest.log.records if "clock" in one.text] == []
             clock.close()
-        finally:
-            follower.close()
-            for link in links:
-                link.close()
 
     run(WallClock(), follow())

@@ -71,13 +71,18 @@ def test_what_is_dropped_from_a_database_is_not_in_its_file_any_more(database, t
     assert not any(payload in out.read_bytes() for payload in gone)
 
 
-def test_a_damaged_database_is_read_row_by_row_and_comes_out_whole(tmp_path):
-    path = next(CONTAINERS["db3"](tmp_path, SENT).glob("*.db3"))
+def damage(path):
+    """Make zeros of the page in the middle of a database."""
     raw = bytearray(path.read_bytes())
     size = int.from_bytes(raw[16:18], "big")
     number = len(raw) // size // 2
     raw[number * size : (number + 1) * size] = bytes(size)
     path.write_bytes(raw)
+
+
+def test_a_damaged_database_is_read_row_by_row_and_comes_out_whole(tmp_path):
+    path = next(CONTAINERS["db3"](tmp_path, SENT).glob("*.db3"))
+    damage(path)
     out = tmp_path / "out.db3"
 
     report = edit([str(path)], out, Edits(prefix="r1/"))
@@ -94,11 +99,7 @@ def test_texts_of_a_damaged_database_may_be_any_bytes(tmp_path):
     with closing(sqlite3.connect(path)) as base:
         base.execute("update topics set offered_qos_profiles = cast(x'616263d264' as text)")
         base.commit()
-    raw = bytearray(path.read_bytes())
-    size = int.from_bytes(raw[16:18], "big")
-    number = len(raw) // size // 2
-    raw[number * size : (number + 1) * size] = bytes(size)
-    path.write_bytes(raw)
+    damage(path)
     out = tmp_path / "out.db3"
 
     edit([str(path)], out, Edits())
