@@ -1,6 +1,7 @@
 """Pieces that are unpacked ahead: what comes is what unpacking them then and there gives."""
 
 import bz2
+import threading
 from functools import partial
 
 import pytest
@@ -82,3 +83,23 @@ def test_what_cannot_be_read_is_told_when_it_is_asked_for():
     with Ahead(range(2), lambda _: ("bz2", nothing, 5)) as ahead:
         coming = [one for one in map(ahead.take, range(2)) if one is not None]
         assert [outcome(one.result) for one in coming] == ["the file was shortened"] * len(coming)
+
+
+def test_who_would_have_to_wait_unpacks_a_piece_behind():
+    asking, helped = threading.current_thread(), threading.Event()
+
+    def read():
+        if threading.current_thread() is asking:
+            helped.set()
+        # The threads come no further alone.
+        assert helped.wait(20)
+        return bz2.compress(b"text")
+
+    with Ahead(range(20), lambda _: ("bz2", read, 4)) as ahead:
+        first = ahead.take(0)
+        if first is None:
+            pytest.skip("one processor: nothing is unpacked ahead")
+        found = [outcome(first.result)]
+        found += [outcome(ahead.take(number).result) for number in range(1, 20)]
+
+    assert found == [b"text"] * 20

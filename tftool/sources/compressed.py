@@ -26,6 +26,7 @@ LARGEST_DAMAGED: Final = 1 << 28
 
 _LARGEST_AHEAD: Final = 16 << 20
 _MOST_WORKERS: Final = 4
+_WAITING: Final = 3  # pieces that no thread has begun with, at least
 _LARGEST_KEPT: Final = 31 << 20
 
 Packed: TypeAlias = tuple[str, Callable[[], bytes], int]
@@ -93,11 +94,36 @@ class _Room:
             return found == size and not reader.read(1)
 
 
+class _Coming:
+    """A piece on its way.
+
+    Attributes:
+        room: Where to.
+        future: Who tells when it is there.
+    """
+
+    def __init__(self, piece: Packed, room: _Room, pool: ThreadPoolExecutor) -> None:
+        self.room = room
+        self._piece = piece
+        self.future: Future[bytes | memoryview] = pool.submit(room.unpack, *piece)
+
+    def unpack_here(self) -> None:
+        """Unpack it in this thread, if no other has begun to."""
+        if not self.future.cancel():
+            return
+        self.future = Future()
+        try:
+            self.future.set_result(self.room.unpack(*self._piece))
+        except Exception as error:
+            self.future.set_exception(error)
+
+
 class Ahead:
     """Reads and unpacks pieces in threads while those before them are looked at; works in a `with`.
 
     Both let go of Python's lock: on two processors it costs no time of its own. Nothing else is
-    done in a thread.
+    done in a thread. Who asks for a piece that is not there yet unpacks one behind it meanwhile:
+    so every processor has work, and none has two threads to share it.
     """
 
     def __init__(self, keys: Iterable[object], packed: Callable[[Any], Packed | None]) -> None:
@@ -110,10 +136,10 @@ class Ahead:
         """
         self._keys = iter(keys)
         self._packed = packed
-        self._coming: dict[object, tuple[Future[bytes | memoryview], _Room]] = {}
+        self._coming: dict[object, _Coming] = {}
         self._spare: list[_Room] = []
         self._lent: _Room | None = None
-        self._workers = min(_processors(), _MOST_WORKERS)
+        self._workers = min(_processors() - 1, _MOST_WORKERS)
         self._pool: ThreadPoolExecutor | None = None
 
     def __enter__(self) -> "Ahead":
@@ -134,13 +160,18 @@ class Ahead:
         self._start()
         if key not in self._coming:
             return None
-        found, self._lent = self._coming.pop(key)
+        found = self._coming.pop(key)
+        self._lent = found.room
         self._start()
-        return found
+        for other in self._coming.values():
+            if found.future.done():
+                break
+            other.unpack_here()
+        return found.future
 
     def _start(self) -> None:
-        """Have as many on their way as there are threads, and one to take."""
-        while self._workers > 1 and len(self._coming) <= self._workers:
+        """Have as many on their way as there are threads, and some more for who asks."""
+        while self._workers > 0 and len(self._coming) < self._workers + _WAITING:
             key = next(self._keys, None)
             if key is None:
                 return
@@ -150,7 +181,7 @@ class Ahead:
             if self._pool is None:
                 self._pool = ThreadPoolExecutor(self._workers, "tftool-unpack")
             room = self._spare.pop() if self._spare else _Room()
-            self._coming[key] = self._pool.submit(room.unpack, *piece), room
+            self._coming[key] = _Coming(piece, room, self._pool)
 
 
 def _processors() -> int:
