@@ -311,8 +311,8 @@ typedef struct {
 
 /* What answers are made of and read by; the state of the module, which Python never unloads. */
 typedef struct {
-    PyTypeObject *fields, *stamped, *transform, *vector, *quaternion;
-    PyObject *empty; /* "". */
+    PyTypeObject *fields, *tuples[4]; /* `TUPLES`, as they lie in each other. */
+    PyObject *empty;                  /* "". */
 } Types;
 
 /* That many floats of a tuple. Returns whether that is what it is; never sets an error. */
@@ -440,23 +440,9 @@ static int latest(PyObject *moving, PyTypeObject *fields, int64_t *moment) {
     return 1;
 }
 
-/* The pose of source in target by a path that is kept, and the moment it holds for in place of 0.
-   Returns 0 if that is not plain; never sets an error. */
-static int solve_path(const Door *door, const Types *types, PyObject *target, PyObject *source,
-                      int64_t *time, double *pose) {
-    PyObject *path = path_of(door, target, source);
-    unsigned char valid = 1;
-    Way way;
-    if (path == NULL
-        || (*time == 0 && !latest(PyTuple_GetItem(path, 2), types->fields, time)))
-        return 0;
-    if (open_way(&way, types->fields, PyTuple_GetItem(path, 0), PyTuple_GetItem(path, 1), *time))
-        solve_way(&way, time, 1, 1, pose, &valid);
-    else
-        valid = 0;
-    close_way(&way);
-    return valid && pose[6] == pose[6];
-}
+/* An answer's tuples, the inner ones first: a vector, a quaternion, a transform, and all of it. */
+#define TUPLES 4
+static const Py_ssize_t SIZES[TUPLES] = {3, 4, 2, 4};
 
 /* From 3.14 on a tuple keeps its hash: in memory that is only cleared it would be 0, and it takes
    Python's own constructor to say that there is none yet. */
@@ -464,41 +450,80 @@ static int solve_path(const Door *door, const Types *types, PyObject *target, Py
 #define KEEPS_HASH (Py_Version >= 0x030E0000)
 #endif
 
-/* Put new references into a new tuple; all of them are given up on failure. */
-static PyObject *tuple_of(PyTypeObject *type, PyObject **parts, Py_ssize_t size) {
+static void drop(PyObject **tuples) {
+    for (int i = 0; i < TUPLES; i++)
+        Py_CLEAR(tuples[i]);
+}
+
+/* Put a new reference into a tuple. Returns whether there is one, else an error is set. */
+static int set(PyObject *tuple, Py_ssize_t place, PyObject *item) {
+    return item != NULL && PyTuple_SetItem(tuple, place, item) == 0;
+}
+
+/* Make the tuples of an answer, but for its pose. Returns whether there was memory; never sets an
+   error. */
+static int prepare(const Types *types, PyObject **tuples, int64_t stamp, PyObject *target,
+                   PyObject *source) {
     int whole = 1;
-    for (Py_ssize_t i = 0; i < size; i++)
-        whole &= parts[i] != NULL;
-    PyObject *made = !whole ? NULL : KEEPS_HASH ? PyTuple_New(size) : PyType_GenericAlloc(type, size);
-    for (Py_ssize_t i = 0; i < size; i++)
-        if (made == NULL)
-            Py_XDECREF(parts[i]);
-        else
-            PyTuple_SetItem(made, i, parts[i]);
-    if (made == NULL || !KEEPS_HASH)
-        return made;
-    PyObject *given = PyTuple_Pack(1, made);
-    Py_DECREF(made);
-    made = given == NULL ? NULL : ((newfunc)PyType_GetSlot(&PyTuple_Type, Py_tp_new))(type, given, NULL);
+    for (int i = 0; i < TUPLES; i++) {
+        tuples[i] = KEEPS_HASH ? PyTuple_New(SIZES[i])
+                               : PyType_GenericAlloc(types->tuples[i], SIZES[i]);
+        whole &= tuples[i] != NULL;
+    }
+    if (whole && set(tuples[3], 0, PyLong_FromLongLong(stamp))
+        && set(tuples[3], 1, Py_NewRef(target)) && set(tuples[3], 2, Py_NewRef(source)))
+        return 1;
+    drop(tuples);
+    PyErr_Clear();
+    return 0;
+}
+
+/* The pose of source in target by a path that is kept, and the moment it holds for in place of 0;
+   `tuples` of an answer are made on the way, or it is NULL. Returns 0 if that is not plain; never
+   sets an error. */
+static int solve_path(const Door *door, const Types *types, PyObject *target, PyObject *source,
+                      int64_t *time, double *pose, PyObject **tuples) {
+    PyObject *path = path_of(door, target, source);
+    unsigned char valid = 1;
+    Way way;
+    if (path == NULL
+        || (*time == 0 && !latest(PyTuple_GetItem(path, 2), types->fields, time)))
+        return 0;
+    /* Memory brings the samples meanwhile. To make tuples may run the collector, and that code
+       which lets go of the path; what the way has opened it holds. */
+    if (open_way(&way, types->fields, PyTuple_GetItem(path, 0), PyTuple_GetItem(path, 1), *time)
+        && (tuples == NULL || prepare(types, tuples, *time, target, source)))
+        solve_way(&way, time, 1, 1, pose, &valid);
+    else
+        valid = 0;
+    close_way(&way);
+    return valid && pose[6] == pose[6];
+}
+
+/* The same tuple, given up for one of its type; NULL with an error set on failure. */
+static PyObject *typed(PyTypeObject *type, PyObject *tuple) {
+    if (!KEEPS_HASH)
+        return tuple;
+    PyObject *given = PyTuple_Pack(1, tuple), *made = NULL;
+    if (given != NULL)
+        made = ((newfunc)PyType_GetSlot(&PyTuple_Type, Py_tp_new))(type, given, NULL);
     Py_XDECREF(given);
+    Py_DECREF(tuple);
     return made;
 }
 
-/* A new tuple of so many floats, four at most; NULL with an error set on failure. */
-static PyObject *floats(PyTypeObject *type, const double *numbers, Py_ssize_t size) {
-    PyObject *parts[4];
-    for (Py_ssize_t i = 0; i < size; i++)
-        parts[i] = PyFloat_FromDouble(numbers[i]);
-    return tuple_of(type, parts, size);
-}
-
-/* A TransformStamped; NULL with an error set on failure. */
-static PyObject *answer(const Types *types, int64_t stamp, PyObject *target, PyObject *source,
-                        const double *pose) {
-    PyObject *numbers[2] = {floats(types->vector, pose, 3), floats(types->quaternion, pose + 3, 4)};
-    PyObject *parts[4] = {PyLong_FromLongLong(stamp), Py_NewRef(target), Py_NewRef(source),
-                          tuple_of(types->transform, numbers, 2)};
-    return tuple_of(types->stamped, parts, 4);
+/* A TransformStamped of tuples that were prepared; NULL with an error set on failure. */
+static PyObject *answer(const Types *types, PyObject **tuples, const double *pose) {
+    int whole = 1;
+    for (int k = 0; k < 7; k++)
+        whole &= set(tuples[k > 2], k > 2 ? k - 3 : k, PyFloat_FromDouble(pose[k]));
+    for (int i = 0; i < 2; i++)
+        whole &= set(tuples[2], i, typed(types->tuples[i], tuples[i]));
+    whole &= set(tuples[3], 3, typed(types->tuples[2], tuples[2]));
+    if (whole)
+        return typed(types->tuples[3], tuples[3]);
+    Py_DECREF(tuples[3]);
+    return NULL;
 }
 
 /* What `Buffer` does in plain Python, as it was asked. */
@@ -527,24 +552,27 @@ static PyObject *plainly(PyObject *self, const char *name, PyObject *const *args
 
 /* `solve_path` for a target, a source and perhaps a moment, all given by their places. */
 static int solve_plain(PyObject *self, const Types *types, PyObject *const *args, Py_ssize_t count,
-                       PyObject *names, int64_t *time, double *pose) {
+                       PyObject *names, int64_t *time, double *pose, PyObject **tuples) {
     *time = 0;
     return names == NULL && (count == 2 || (count == 3 && read_stamp(args[2], time)))
-        && solve_path((const Door *)self, types, args[0], args[1], time, pose);
+        && solve_path((const Door *)self, types, args[0], args[1], time, pose, tuples);
 }
 
 METHOD(lookup_transform) {
     const Types *types = PyType_GetModuleState(door);
+    PyObject *tuples[TUPLES] = {NULL};
     int64_t time;
     double pose[7];
-    return solve_plain(self, types, args, count, names, &time, pose)
-        ? answer(types, time, args[0], args[1], pose) : PLAINLY(lookup_transform);
+    if (solve_plain(self, types, args, count, names, &time, pose, tuples))
+        return answer(types, tuples, pose);
+    drop(tuples);
+    return PLAINLY(lookup_transform);
 }
 
 METHOD(can_transform) {
     int64_t time;
     double pose[7];
-    return solve_plain(self, PyType_GetModuleState(door), args, count, names, &time, pose)
+    return solve_plain(self, PyType_GetModuleState(door), args, count, names, &time, pose, NULL)
         ? Py_NewRef(Py_True) : PLAINLY(can_transform);
 }
 
@@ -554,21 +582,22 @@ static int solve_leg(const Door *door, const Types *types, PyObject *target, PyO
     for (int k = 0; k < 7; k++)
         pose[k] = k == 6;
     return (*time != 0 && same_text(target, source))
-        || solve_path(door, types, target, source, time, pose);
+        || solve_path(door, types, target, source, time, pose, NULL);
 }
 
 METHOD(lookup_transform_full) {
     const Types *types = PyType_GetModuleState(door);
     const Door *buffer = (const Door *)self;
+    PyObject *tuples[TUPLES];
     int64_t here, there;
     double inner[7], outer[7];
     if (names == NULL && count == 5 && read_stamp(args[1], &here) && read_stamp(args[3], &there)
         && !same_text(args[0], args[2]) && solve_leg(buffer, types, args[4], args[2], &there, inner)
         && solve_leg(buffer, types, args[0], args[4], &here, outer)) {
         compose(outer, inner, 1, 1);
-        if (unit(inner + 3)) {
+        if (unit(inner + 3) && prepare(types, tuples, here, args[0], args[2])) {
             canonical(inner + 3, 1, 1);
-            return answer(types, here, args[0], args[2], inner);
+            return answer(types, tuples, inner);
         }
     }
     return PLAINLY(lookup_transform_full);
@@ -658,13 +687,13 @@ static int put(Link *link, int64_t stamp, int64_t origin, double *pose) {
 static int insert(const Door *door, const Types *types, PyObject *sample, PyObject *authority) {
     int64_t stamp, origin;
     double pose[7];
-    if (Py_TYPE(sample) != types->stamped || PyTuple_Size(sample) != 4 || door->senders == NULL
+    if (Py_TYPE(sample) != types->tuples[3] || PyTuple_Size(sample) != 4 || door->senders == NULL
         || !PyDict_Check(door->senders))
         return 0;
     PyObject *parent = PyTuple_GetItem(sample, 1), *child = PyTuple_GetItem(sample, 2);
     PyObject *transform = PyTuple_GetItem(sample, 3);
     if (!PyUnicode_CheckExact(child) || !PyUnicode_CheckExact(parent)
-        || !PyUnicode_CheckExact(authority) || Py_TYPE(transform) != types->transform
+        || !PyUnicode_CheckExact(authority) || Py_TYPE(transform) != types->tuples[2]
         || PyTuple_Size(transform) != 2 || !read_stamp(PyTuple_GetItem(sample, 0), &stamp)
         || !read_floats(PyTuple_GetItem(transform, 0), pose, 3)
         || !read_floats(PyTuple_GetItem(transform, 1), pose + 3, 4))
@@ -866,10 +895,10 @@ static int module_exec(PyObject *module) {
             "The fields of a link, laid out so that the kernel can read them.",
             link_members, no_methods)) == NULL
         || (types->empty = PyUnicode_InternFromString("")) == NULL
-        || (types->vector = class_of("tftool.geometry.rigid", "Vector3")) == NULL
-        || (types->quaternion = class_of("tftool.geometry.rigid", "Quaternion")) == NULL
-        || (types->transform = class_of("tftool.geometry.rigid", "Transform")) == NULL
-        || (types->stamped = class_of("tftool.frames.sample", "TransformStamped")) == NULL)
+        || (types->tuples[0] = class_of("tftool.geometry.rigid", "Vector3")) == NULL
+        || (types->tuples[1] = class_of("tftool.geometry.rigid", "Quaternion")) == NULL
+        || (types->tuples[2] = class_of("tftool.geometry.rigid", "Transform")) == NULL
+        || (types->tuples[3] = class_of("tftool.frames.sample", "TransformStamped")) == NULL)
         return -1;
     return PyModule_AddIntConstant(module, "INTERFACE", INTERFACE);
 }
