@@ -113,6 +113,7 @@ def export(
         write_links,
         write_trajectories,
     )
+    from tftool.sources.writing.target import refuse_existing
     from tftool.trajectories.sampling import sample
     from tftool.views.escaping import visible
 
@@ -121,8 +122,7 @@ def export(
     asked, place = pairs_and_place(words or [], pairs or [])
     chosen = form or format_of(output)
     _refuse_misfits(chosen, asked, at is not None and not with_moving, root, stamps_of, every, rate)
-    if not force and (output.exists() or output.is_symlink()):
-        raise UsageError(f"'{output}' exists: --force replaces it.")
+    refuse_existing(output, force=force)
     listen = seconds(10) if chosen.is_trajectory or chosen is Format.mcap else seconds(2)
     stored = stored_frames(connection, place, lasting, listen=listen)
     refuse_input(stored, output)

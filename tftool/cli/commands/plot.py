@@ -124,13 +124,13 @@ def plot(
 
 
 def _form_of(output: Path, force: bool) -> str:
+    from tftool.sources.writing.target import refuse_existing
     from tftool.views.figure import FORMATS
 
     form = output.suffix.lower().removeprefix(".")
     if form not in FORMATS:
         raise UsageError(f"'{output}' does not say what to draw: end it in .svg, .pdf or .png.")
-    if not force and (output.exists() or output.is_symlink()):
-        raise UsageError(f"'{output}' exists: --force replaces it.")
+    refuse_existing(output, force=force)
     return form
 
 

@@ -146,13 +146,13 @@ def _write(
     from tftool.screens.browser.standalone import MOST_BYTES, StandaloneData, standalone_page
     from tftool.screens.browser.tracks import IN_A_FILE, recorded_tracks
     from tftool.sinks.trajectory_files import whole_file
+    from tftool.sources.writing.target import refuse_existing
     from tftool.views.escaping import visible
     from tftool.views.short_numbers import short_size
 
     if output.suffix.lower() not in (".html", ".htm"):
         raise UsageError(f"'{output}' does not say that it is a page: end it in .html.")
-    if not force and (output.exists() or output.is_symlink()):
-        raise UsageError(f"'{output}' exists: --force replaces it.")
+    refuse_existing(output, force=force)
     published: list[ShownRobot] = []
     displays: list[LiveDisplays] = []
 

@@ -15,7 +15,7 @@ from tftool.sources.writing.channel import Channel
 from tftool.sources.writing.folder import FileFacts, metadata_text, write_metadata
 from tftool.sources.writing.mcap import McapWriter
 from tftool.sources.writing.recording import library_name
-from tftool.sources.writing.target import failed, synced
+from tftool.sources.writing.target import failed, refuse_existing, synced
 from tftool.stamps import Duration, Stamp, seconds
 from tftool.wire.layouts import CDR
 from tftool.wire.splicing import TransformRow, TransformRows, encode_rows
@@ -135,8 +135,7 @@ class RollingRecording:
         if self._is_folder and os.path.lexists(self.path):
             # Its files would have to go before there are new ones.
             raise UsageError(f"'{self.path}' exists: a folder is not replaced, name another one.")
-        if os.path.lexists(self.path) and not force:
-            raise UsageError(f"'{self.path}' exists: --force replaces it.")
+        refuse_existing(self.path, force=force)
         try:
             if self._is_folder:
                 self.path.mkdir()

@@ -19,6 +19,16 @@ PART: Final = ".part"
 """What is added to a name while it is written."""
 
 
+def refuse_existing(path: Path, *, force: bool) -> None:
+    """Refuse to write where something is, a broken symbolic link included.
+
+    Raises:
+        UsageError: If something has that name and `force` is not given.
+    """
+    if not force and os.path.lexists(path):
+        raise UsageError(f"'{path}' exists: --force replaces it.")
+
+
 class Target:
     """A file or folder that is written whole or not at all. Works in a `with`.
 
@@ -44,9 +54,8 @@ class Target:
         self._folder = folder
         if not path.name:
             raise UsageError(f"'{path}' is no name of a file to write.")
+        refuse_existing(path, force=force)
         if os.path.lexists(path):
-            if not force:
-                raise UsageError(f"'{path}' exists: --force replaces it.")
             if path.exists() and not path.is_file() and not path.is_dir():
                 raise UsageError(f"'{path}' is a device or a pipe: name a file.")
             if path.is_dir() and not _is_recording_folder(path):
