@@ -22,6 +22,7 @@ if TYPE_CHECKING:
     from tftool.runtime.world import World
     from tftool.screens.browser.robots import ShownRobot
     from tftool.screens.browser.server import PageServer
+    from tftool.screens.browser.standalone import StandaloneData
     from tftool.sources.find import Found
 
 _MOST_TOLD = 5
@@ -136,15 +137,10 @@ def _write(
     open_browser: bool,
 ) -> ExitStatus:
     """Write the page with its data into one file."""
-    from tftool.cli.hosting import recording_of
     from tftool.cli.interrupting import interruptible
     from tftool.cli.notices import notice
     from tftool.cli.recorded import Bar
-    from tftool.cli.stored import stored_frames
-    from tftool.screens.beginning import first_moment
-    from tftool.screens.browser.live import LiveDisplays
-    from tftool.screens.browser.standalone import MOST_BYTES, StandaloneData, standalone_page
-    from tftool.screens.browser.tracks import IN_A_FILE, recorded_tracks
+    from tftool.screens.browser.standalone import MOST_BYTES, standalone_page
     from tftool.sinks.trajectory_files import whole_file
     from tftool.sources.writing.target import refuse_existing
     from tftool.views.escaping import visible
@@ -153,25 +149,7 @@ def _write(
     if output.suffix.lower() not in (".html", ".htm"):
         raise UsageError(f"'{output}' does not say that it is a page: end it in .html.")
     refuse_existing(output, force=force)
-    published: list[ShownRobot] = []
-    displays: list[LiveDisplays] = []
-
-    def listen(world: "World") -> None:
-        _hear_description(world, published.append, meshes)
-        displays.append(LiveDisplays(world, IN_A_FILE))
-
-    stored = stored_frames(connection, place, run_for, beside=listen)
-    # 0 would mean the latest; what only holds at all times has no other moment.
-    epoch = max(1, stored.start)
-    now = max(epoch, stored.end)
-    shown = _robot_of(connection, stored, meshes) or (published[-1] if published else None)
-    begin = first_moment(stored.buffer, epoch, now)
-    recording = recording_of(stored)
-    if recording is not None:
-        tracks = recorded_tracks(recording, IN_A_FILE)
-    else:
-        tracks = [track for one in displays for track in one.latest(IN_A_FILE.points)]
-    data = StandaloneData(stored.name, stored.buffer, epoch, now, begin, shown, tracks=tracks)
+    data = _page_data(connection, place, run_for, meshes)
     bar = Bar("Packing")
     with interruptible(), whole_file(output, force=force) as file:
         try:
@@ -179,8 +157,8 @@ def _write(
         finally:
             bar.stop()
         file.write(page.content)
-    if shown is not None:
-        _tell_missing(shown)
+    if data.robot is not None:
+        _tell_missing(data.robot)
     size = len(page.content)
     notice(visible(f"Wrote {output}, {short_size(size)}: it opens in any browser, from disk."))
     if page.is_rounded:
@@ -196,6 +174,38 @@ def _write(
         if not webbrowser.open(output.resolve().as_uri()):
             notice("No browser could be started: open the file yourself.")
     return ExitStatus.DONE
+
+
+def _page_data(
+    connection: "Connection", place: str | None, run_for: Duration | None, meshes: "Sequence[Path]"
+) -> "StandaloneData":
+    """Read or listen to everything that a page without a server shows."""
+    from tftool.cli.hosting import recording_of
+    from tftool.cli.stored import stored_frames
+    from tftool.screens.beginning import first_moment
+    from tftool.screens.browser.live import LiveDisplays
+    from tftool.screens.browser.standalone import StandaloneData
+    from tftool.screens.browser.tracks import IN_A_FILE, recorded_tracks
+
+    published: list[ShownRobot] = []
+    displays: list[LiveDisplays] = []
+
+    def listen(world: "World") -> None:
+        _hear_description(world, published.append, meshes)
+        displays.append(LiveDisplays(world, IN_A_FILE))
+
+    stored = stored_frames(connection, place, run_for, beside=listen)
+    # 0 would mean the latest; what only holds at all times has no other moment.
+    epoch = max(1, stored.start)
+    now = max(epoch, stored.end)
+    robot = _robot_of(connection, stored, meshes) or (published[-1] if published else None)
+    begin = first_moment(stored.buffer, epoch, now)
+    recording = recording_of(stored)
+    if recording is not None:
+        tracks = recorded_tracks(recording, IN_A_FILE)
+    else:
+        tracks = [track for one in displays for track in one.latest(IN_A_FILE.points)]
+    return StandaloneData(stored.name, stored.buffer, epoch, now, begin, robot, tracks=tracks)
 
 
 def _robot_of(
