@@ -2,6 +2,7 @@
 
 import sys
 from collections.abc import Sequence
+from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
@@ -28,12 +29,12 @@ from tftool.errors import InputError, TransformException, UsageError
 from tftool.stamps import Duration, Stamp, as_seconds, seconds
 
 if TYPE_CHECKING:
+    from rich.console import Console
     from rich.text import Text
 
     from tftool.cli.connection import Connection
-    from tftool.cli.session import Session
+    from tftool.runtime.world import World
     from tftool.trajectories.sampling import Trajectory
-    from tftool.views.line_plot import PlotLook
 
 ON_ITS_WAY = seconds(1)
 """What is no older than that may still arrive; a live plot ends where it has not."""
@@ -96,6 +97,7 @@ def plot(
     quantities = chosen([one for text in only or () for one in text.split(",") if one.strip()])
     if from_above and only:
         raise UsageError("--xy draws the path, and --only what goes over time: leave one out.")
+    plotted = _Plotted(quantities, from_above, ascii_only, light)
     if output is None:
         if dark or force:
             raise UsageError("--dark and --force go with -o FILE.")
@@ -105,7 +107,7 @@ def plot(
                     "A live plot shows the last --window of time: leave out the other moments, or "
                     "name a FROM."
                 )
-            _live(connection, asked, quantities, from_above, window, lasting, ascii_only, light)
+            _live(connection, asked, plotted, window, lasting)
             return ExitStatus.DONE
     form = None if output is None else _form_of(output, force)
 
@@ -117,9 +119,9 @@ def plot(
     found = [sample(stored.buffer, *pair, moments) for pair in asked]
     start = stored.start or min(int(one.path.stamps[0]) for one in found)
     if output is not None and form is not None:
-        _write(found, output, form, start, quantities, from_above, dark, force)
+        _write(found, output, form, start, plotted, dark=dark, force=force)
     else:
-        _print(found, start, quantities, from_above, ascii_only, light)
+        _print(found, start, plotted)
     return ExitStatus.DONE
 
 
@@ -134,13 +136,50 @@ def _form_of(output: Path, force: bool) -> str:
     return form
 
 
+@dataclass(frozen=True, slots=True)
+class _Plotted:
+    """What is plotted, and how it is painted in the terminal."""
+
+    quantities: Sequence[str]
+    from_above: bool
+    ascii_only: bool
+    light: bool
+
+    def text(
+        self,
+        found: "list[Trajectory]",
+        start: Stamp,
+        console: "Console",
+        *,
+        height: int | None = None,
+        span: tuple[float, float] | None = None,
+    ) -> "Text":
+        """Draw pairs in the width of a console.
+
+        Args:
+            found: The pairs.
+            start: The moment that is 0 on the axis.
+            console: Where it goes; 80 wide unless it is a terminal.
+            height: Lines there are; as many as are good if None.
+            span: Seconds since `start` that the axis covers; from data to data if None.
+        """
+        from tftool.views import line_plot as view
+
+        width = console.width if console.is_terminal else 80
+        ascii_only = self.ascii_only or console.options.ascii_only
+        look = view.PlotLook(width, height, ascii_only, self.light)
+        if self.from_above:
+            return view.from_above(found, look)
+        return view.over_time(found, start, self.quantities, look, span=span)
+
+
 def _write(
     found: "list[Trajectory]",
     output: Path,
     form: str,
     start: Stamp,
-    quantities: Sequence[str],
-    from_above: bool,
+    plotted: _Plotted,
+    *,
     dark: bool,
     force: bool,
 ) -> None:
@@ -150,108 +189,45 @@ def _write(
     from tftool.views.escaping import visible
     from tftool.views.figure import write
 
+    quantities, xy = plotted.quantities, plotted.from_above
     with interruptible(), whole_file(output, force=force) as file:
-        write(found, file, form, start=start, quantities=quantities, xy=from_above, dark=dark)
+        write(found, file, form, start=start, quantities=quantities, xy=xy, dark=dark)
     notice(visible(f"Drew {sum(len(one.path) for one in found)} moments to {output}."))
 
 
-def _print(
-    found: "list[Trajectory]",
-    start: Stamp,
-    quantities: Sequence[str],
-    from_above: bool,
-    ascii_only: bool,
-    light: bool,
-) -> None:
+def _print(found: "list[Trajectory]", start: Stamp, plotted: _Plotted) -> None:
     from rich.console import Console
 
-    from tftool.views.line_plot import PlotLook
-
     console = Console()
-    width = console.width if console.is_terminal else 80
-    look = PlotLook(width, None, ascii_only or console.options.ascii_only, light)
-    picture = _picture(found, start, quantities, from_above, look)
+    text = plotted.text(found, start, console)
     if not console.is_terminal:
-        sys.stdout.write(picture.plain)
+        sys.stdout.write(text.plain)
         return
     with console.capture() as captured:
-        console.print(picture, end="")
+        console.print(text, end="")
     sys.stdout.write(captured.get())
-
-
-def _picture(
-    found: "list[Trajectory]",
-    start: Stamp,
-    quantities: Sequence[str],
-    from_above: bool,
-    look: "PlotLook",
-    span: tuple[float, float] | None = None,
-) -> "Text":
-    from tftool.views import line_plot as view
-
-    if from_above:
-        return view.from_above(found, look)
-    return view.over_time(found, start, quantities, look, span=span)
 
 
 def _live(
     connection: "Connection",
     pairs: list[tuple[str, str]],
-    quantities: Sequence[str],
-    from_above: bool,
+    plotted: _Plotted,
     window: Duration,
     lasting: Duration | None,
-    ascii_only: bool,
-    light: bool,
 ) -> None:
     """Draw a session as it goes on, until it is stopped."""
     from rich.console import Console
     from rich.live import Live
-    from rich.text import Text
 
     from tftool.cli.hosting import open_session
     from tftool.runtime.clock import Phase
     from tftool.runtime.stopping import leave_screen
-    from tftool.trajectories.sampling import Moments, sample
-    from tftool.views.line_plot import PlotLook
 
     console = Console()
-    session: Session = open_session(connection, None, cache_time=window + seconds(1))
+    session = open_session(connection, None, cache_time=window + seconds(1))
     world = session.world
     world.clock.when_killed.add(leave_screen, "screen")
-    began = world.clock.now()
-    start = min(began, world.clock.epoch) or began
-
-    def arrived(target: str, source: str, now: Stamp) -> Stamp:
-        """Up to where there can be a pose: what is on its way is not missing yet."""
-        newest = world.buffer.newest_common(target, source)
-        return newest if now - ON_ITS_WAY < newest < now else now
-
-    def drawn() -> Text:
-        now = world.clock.now()
-        # Two moments for each column of dots.
-        period = max(seconds(0.001), window // max(20, 2 * console.width))
-        begin = -(-max(start, now - window) // period) * period
-        try:
-            found = [
-                sample(world.buffer, *pair, Moments(begin, arrived(*pair, now), period))
-                for pair in pairs
-            ]
-        except (TransformException, UsageError, InputError) as refusal:
-            return Text(f"Waiting: {refusal}", style="yellow", overflow="fold")
-        return _picture(
-            found,
-            start,
-            quantities,
-            from_above,
-            PlotLook(
-                console.width,
-                console.height,
-                ascii_only or console.options.ascii_only,
-                light,
-            ),
-            (as_seconds(begin - start), as_seconds(now - start)),
-        )
+    start = min(world.clock.now(), world.clock.epoch) or world.clock.now()
 
     async def draw() -> None:
         with Live(console=console, auto_refresh=False, screen=True) as live:
@@ -259,8 +235,42 @@ def _live(
             end = None if lasting is None else due + lasting
             world.clock.limit(end)
             while end is None or due <= end:
-                live.update(drawn(), refresh=True)
+                text = _newest(world, pairs, plotted, start, window, console)
+                live.update(text, refresh=True)
                 due = max(due + seconds(0.2), world.clock.now())
                 await world.clock.sleep_until(due, Phase.WATCH)
 
     session.run(draw())
+
+
+def _newest(
+    world: "World",
+    pairs: list[tuple[str, str]],
+    plotted: _Plotted,
+    start: Stamp,
+    window: Duration,
+    console: "Console",
+) -> "Text":
+    """Draw the last `window` of a world that goes on, or say what it waits for."""
+    from rich.text import Text
+
+    from tftool.trajectories.sampling import Moments, sample
+
+    now = world.clock.now()
+
+    def arrived(target: str, source: str) -> Stamp:
+        """Up to where there can be a pose: what is on its way is not missing yet."""
+        newest = world.buffer.newest_common(target, source)
+        return newest if now - ON_ITS_WAY < newest < now else now
+
+    # Two moments for each column of dots.
+    period = max(seconds(0.001), window // max(20, 2 * console.width))
+    begin = -(-max(start, now - window) // period) * period
+    try:
+        found = [
+            sample(world.buffer, *pair, Moments(begin, arrived(*pair), period)) for pair in pairs
+        ]
+    except (TransformException, UsageError, InputError) as refusal:
+        return Text(f"Waiting: {refusal}", style="yellow", overflow="fold")
+    span = as_seconds(begin - start), as_seconds(now - start)
+    return plotted.text(found, start, console, height=console.height, span=span)
