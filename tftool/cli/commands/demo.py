@@ -1,7 +1,7 @@
 """`tftool demo`: a scenario on the screen, or, without a terminal, played and summed up."""
 
 from contextlib import nullcontext
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
@@ -18,10 +18,13 @@ from tftool.cli.options import (
     within,
 )
 from tftool.errors import UsageError
-from tftool.stamps import Duration
+from tftool.stamps import Duration, Stamp
 
 if TYPE_CHECKING:
     from tftool.cli.connection import Connection
+    from tftool.cli.hosting import Company
+    from tftool.cli.session import Session
+    from tftool.runtime.world import World
     from tftool.scenario.schema import Scenario
 
 
@@ -151,6 +154,38 @@ class _Showing:
             wanted: Its name, where it was asked for; None to show what runs here, if it does.
         """
         from tftool.cli.hosting import look_around
+
+        found = look_around(self.connection, wanted, needs_turtles=True)
+        if found.session is None:
+            return self._hosted(chosen, found)
+        if self.recording is not None:
+            raise UsageError(
+                "A session runs here, which 'tftool record' records: --record is for a world of "
+                "the demo's own (--host)."
+            )
+        return self._joined(found.session)
+
+    def _until(self, world: "World") -> Stamp | None:
+        """When it ends, counted from here: the screen takes a while to come up."""
+        return None if self.lasting is None else world.clock.now() + self.lasting
+
+    def _joined(self, session: "Session") -> str | None:
+        """Show the session that runs."""
+        from tftool.cli.onscreen import driver_of, run_app
+        from tftool.screens.setting import Setting
+
+        world, live = session.world, session.live
+
+        async def life() -> None:
+            await live(self._until(world))
+
+        driver = None if self.connection.read_only else driver_of(world, "turtle1")
+        title = f"tftool demo, in {session.name}"
+        setting = Setting(ascii_only=self.ascii_only, light=self.light, title=title)
+        return run_app(world, life(), driver, setting)
+
+    def _hosted(self, chosen: "Scenario", found: "Company") -> str | None:
+        """Show a scenario in a world of its own, which others can join."""
         from tftool.cli.onscreen import driver_of, run_app, simulator_of
         from tftool.cli.session import shared
         from tftool.scenario import builtin
@@ -158,24 +193,7 @@ class _Showing:
         from tftool.scenario.play import Watch, build
         from tftool.screens.setting import Setting
 
-        connection, lasting, recording = self.connection, self.lasting, self.recording
-        found = look_around(connection, wanted, needs_turtles=True)
-        joined = found.session
-        if recording is not None and joined is not None:
-            raise UsageError(
-                "A session runs here, which 'tftool record' records: --record is for a world of "
-                "the demo's own (--host)."
-            )
-        setting = Setting(ascii_only=self.ascii_only, light=self.light)
-        if joined is not None:
-            world, live = joined.world, joined.live
-
-            async def joined_life() -> None:
-                await live(None if lasting is None else world.clock.now() + lasting)
-
-            teleop = None if connection.read_only else driver_of(world, "turtle1")
-            title = f"tftool demo, in {joined.name}"
-            return run_app(world, joined_life(), teleop, replace(setting, title=title))
+        recording = self.recording
         around: Watch = nullcontext
         if recording is not None:
             from functools import partial
@@ -183,15 +201,14 @@ class _Showing:
             from tftool.cli.recording import recorded
 
             around = partial(recorded, path=recording)
-        play = build(left_to_a_person(chosen), connection.providers.wall_clock(self.rate))
+        play = build(left_to_a_person(chosen), self.connection.providers.wall_clock(self.rate))
         world, link = play.world, found.link
         if found.alone:
             # What was said before the screen came up is hidden behind it.
             world.log.warn("session", found.alone)
 
         async def life() -> None:
-            # Counted from here: the screen takes a while to come up.
-            until = None if lasting is None else world.clock.now() + lasting
+            until = self._until(world)
             with around(world), shared(link, world):
                 await play.live(until, endless=until is None)
 
@@ -202,8 +219,9 @@ class _Showing:
 
             # Whatever joins sees the turtle at rest, and has it to itself.
             idle = IdleDrawing(world, is_alone=lambda: link is None or not link.graph.processes())
-        setting = replace(
-            setting,
+        setting = Setting(
+            ascii_only=self.ascii_only,
+            light=self.light,
             title=f"tftool demo {chosen.name}",
             pair=("turtle2", dict(chosen.arguments).get("source_frame", "turtle1")),
             scenarios=None if recording is not None else builtin.abouts,
