@@ -326,21 +326,12 @@ def read(
             "--dds goes by DDS: leave out --listen, --connect, --zenoh-config and --tls-*, which "
             "are zenoh's."
         )
-    files = [tls_cert, tls_key, tls_ca]
-    given = [file for file in (*files, zenoh_config) if file is not None]
-    for file in given:
-        if not file.is_file():
+    for file in (tls_cert, tls_key, tls_ca, zenoh_config):
+        if file is not None and not file.is_file():
             raise InputError(f"There is no file '{file}'.")
-    if any(files) and not all(files):
-        raise UsageError("TLS here is mutual: give --tls-cert, --tls-key and --tls-ca together.")
-    endpoints = [*(listen or ()), *(connect or ())]
-    for endpoint in endpoints:
-        _check_endpoint(endpoint, has_files=all(files))
-    tls = (tls_cert, tls_key, tls_ca) if tls_cert and tls_key and tls_ca else None
-    if tls is not None:
-        from tftool.link.options import Certificates
-
-        Certificates(*tls).check()
+    tls = _tls(tls_cert, tls_key, tls_ca)
+    for endpoint in (*(listen or ()), *(connect or ())):
+        _check_endpoint(endpoint, has_files=tls is not None)
     return Connection(
         command,
         Mode.JOIN if join else Mode.HOST if host else Mode.AUTO,
@@ -381,6 +372,20 @@ def _argument(word: str) -> tuple[str, str]:
     if not name or not assigned:
         raise UsageError(f"'{word}' is no xacro argument: write NAME:=VALUE.")
     return name, value
+
+
+def _tls(cert: Path | None, key: Path | None, ca: Path | None) -> tuple[Path, Path, Path] | None:
+    """The three files of mutual TLS; None where none is given."""
+    if cert is None or key is None or ca is None:
+        if cert or key or ca:
+            raise UsageError(
+                "TLS here is mutual: give --tls-cert, --tls-key and --tls-ca together."
+            )
+        return None
+    from tftool.link.options import Certificates
+
+    Certificates(cert, key, ca).check()
+    return cert, key, ca
 
 
 def _check_endpoint(endpoint: str, *, has_files: bool) -> None:
