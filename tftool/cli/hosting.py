@@ -74,7 +74,7 @@ class StoredFrames(Protocol):
 
 
 @dataclass(frozen=True, slots=True)
-class Company:
+class JoinDecision:
     """What a command finds when it looks for others to share a world with.
 
     Attributes:
@@ -88,13 +88,13 @@ class Company:
     alone: str = ""
 
 
-def look_around(
+def join_or_host(
     connection: Connection,
     word: str | None,
     *,
     needs_turtles: bool = False,
     cache_time: Duration | None = None,
-) -> Company:
+) -> JoinDecision:
     """Join what runs here, else become the one to host; no other process decides meanwhile.
 
     Args:
@@ -110,7 +110,7 @@ def look_around(
     _refuse_to_join(connection, word)
     link, alone = _open_link(connection)
     if link is None:
-        return Company(alone=alone)
+        return JoinDecision(alone=alone)
     there = link.graph.has_sources
     if word is None and connection.mode is not Mode.HOST:
         # --connect means what is at the other end, or comes there; turtles of our own have no
@@ -119,7 +119,7 @@ def look_around(
             world = World(connection.providers.joined_clock(), cache_time=cache_time or CACHE_TIME)
             name = _name_of(connection, link)
             notice(f"Joined {name}.")
-            return Company(Session(world, False, name, lived(world, link, "guest"), link=link))
+            return JoinDecision(Session(world, False, name, lived(world, link, "guest"), link=link))
         if link.unanswering and not there:
             # It may host: a second world of the same names would mix with it later.
             link.close()
@@ -138,7 +138,7 @@ def look_around(
         link.close()
         alone = f"This world keeps to itself. {link.unanswering}"
         notice(alone)
-        return Company(alone=alone)
+        return JoinDecision(alone=alone)
     elif _has_host(link):
         link.close()
         alone = (
@@ -146,8 +146,8 @@ def look_around(
             "(--domain N would give it a session of its own)."
         )
         notice(alone)
-        return Company(alone=alone)
-    return Company(link=link)
+        return JoinDecision(alone=alone)
+    return JoinDecision(link=link)
 
 
 def open_session(
@@ -197,26 +197,18 @@ def open_session(
     if simulated:
         refuse_to_share(connection, word)
     else:
-        company = look_around(connection, word, needs_turtles=needs_turtles, cache_time=cache_time)
-        if company.session is not None:
-            return company.session
-        link = company.link
+        joined = join_or_host(connection, word, needs_turtles=needs_turtles, cache_time=cache_time)
+        if joined.session is not None:
+            return joined.session
+        link = joined.link
     try:
-        scenario = scenario_named(word or HOME)
-        if without is not None:
-            kept = tuple(node for node in scenario.nodes if not without(node))
-            scenario = replace(scenario, nodes=kept)
-        if word is None:
-            # For a program of the user's, nothing of the scenario moves.
-            alone = [node.kind for node in scenario.nodes] == ["turtlesim"]
-            hosted = "a turtlesim alone" if alone else f"scenario '{HOME}'"
-            notice(f"{because}: hosting {hosted}.")
+        scenario = _scenario_to_host(word, without, because)
         if by_hand:
             from tftool.scenario.actions import left_to_a_person
 
             scenario = left_to_a_person(scenario)
-        # Nothing judges what happens in it.
-        scenario = replace(scenario, expect=(), cache_time=cache_time or scenario.cache_time)
+        if cache_time:
+            scenario = replace(scenario, cache_time=cache_time)
         if simulated:
             return _hosted(scenario, SimClock(), 0, None)
         clock = connection.providers.wall_clock(head_start=head_start)
@@ -225,6 +217,22 @@ def open_session(
         if link is not None:
             link.close()
         raise
+
+
+def _scenario_to_host(
+    word: str | None, without: Callable[["NodeEntry"], bool] | None, because: str
+) -> "Scenario":
+    """Give a scenario that nothing judges; say so where it was not named."""
+    scenario = scenario_named(word or HOME)
+    if without is not None:
+        kept = tuple(node for node in scenario.nodes if not without(node))
+        scenario = replace(scenario, nodes=kept)
+    if word is None:
+        # For a program of the user's, nothing of the scenario moves.
+        alone = [node.kind for node in scenario.nodes] == ["turtlesim"]
+        hosted = "a turtlesim alone" if alone else f"scenario '{HOME}'"
+        notice(f"{because}: hosting {hosted}.")
+    return replace(scenario, expect=())
 
 
 def join_session(
@@ -241,10 +249,10 @@ def join_session(
         not connection.needs_link and not _is_session_here(connection)
     ):
         return None
-    company = look_around(connection, None, needs_turtles=needs_turtles, cache_time=cache_time)
-    if company.link is not None:
-        company.link.close()
-    return company.session
+    joined = join_or_host(connection, None, needs_turtles=needs_turtles, cache_time=cache_time)
+    if joined.link is not None:
+        joined.link.close()
+    return joined.session
 
 
 def open_empty_session(connection: Connection, *, simulated: bool = False) -> Session:

@@ -22,7 +22,7 @@ from tftool.stamps import Duration, Stamp
 
 if TYPE_CHECKING:
     from tftool.cli.connection import Connection
-    from tftool.cli.hosting import Company
+    from tftool.cli.hosting import JoinDecision
     from tftool.cli.session import Session
     from tftool.runtime.world import World
     from tftool.scenario.schema import Scenario
@@ -153,9 +153,9 @@ class _Showing:
             chosen: The scenario.
             wanted: Its name, where it was asked for; None to show what runs here, if it does.
         """
-        from tftool.cli.hosting import look_around
+        from tftool.cli.hosting import join_or_host
 
-        found = look_around(self.connection, wanted, needs_turtles=True)
+        found = join_or_host(self.connection, wanted, needs_turtles=True)
         if found.session is None:
             return self._hosted(chosen, found)
         if self.recording is not None:
@@ -184,7 +184,7 @@ class _Showing:
         setting = Setting(ascii_only=self.ascii_only, light=self.light, title=title)
         return run_app(world, life(), driver, setting)
 
-    def _hosted(self, chosen: "Scenario", found: "Company") -> str | None:
+    def _hosted(self, chosen: "Scenario", found: "JoinDecision") -> str | None:
         """Show a scenario in a world of its own, which others can join."""
         from tftool.cli.onscreen import driver_of, run_app, simulator_of
         from tftool.cli.session import shared

@@ -73,7 +73,7 @@ def play(
     tftool play run.mcap --from 12.5 --to 20 --rate 0.5 --loop
     tftool play run.bag --restamp now --all
     """
-    from tftool.cli.hosting import look_around
+    from tftool.cli.hosting import join_or_host
     from tftool.cli.naming import named
     from tftool.runtime.clock import run
     from tftool.sources.recording import Recording
@@ -100,7 +100,7 @@ def play(
         duration=run_for,
     )
     # Last of all: while it has not been decided who hosts, other processes wait.
-    link = look_around(connection, file).link
+    link = join_or_host(connection, file).link
     if link is not None and connection.dds is not None and not force:
         _refuse_to_mix(link)
     pace = connection.providers.wall_clock()
