@@ -8,9 +8,9 @@ import pytest
 from tests.ros.test_launch import described
 from tests.ros.tutorial import TUTORIAL, launch
 from tftool.errors import InputError, NodeFailed, TftoolError
-from tftool.ros.host.hosting import show_arguments
 from tftool.ros.host.importing import ros_free
 from tftool.ros.host.workspace import Workspace
+from tftool.ros.running import show_arguments
 
 FILES = Path(__file__).parent / "launch_files"
 FORMATS = ["py", "xml", "yaml"]
@@ -268,8 +268,8 @@ def test_an_encoding_that_does_not_exist_is_named(tmp_path):
 
 def test_a_launch_file_that_is_run_as_a_node_names_the_command_for_it(tmp_path):
     from tftool.errors import UsageError
-    from tftool.ros.host.hosting import check_program
     from tftool.ros.host.workspace import Workspace
+    from tftool.ros.running import check_program
 
     with pytest.raises(UsageError, match=r"x\.launch\.py' is a launch file: 'tftool launch x"):
         check_program(Workspace(tmp_path), "x.launch.py", [])

@@ -5,11 +5,11 @@ from pathlib import Path
 
 from tftool.nodes.turtlesim import Turtlesim
 from tftool.ros.host import executables, names
-from tftool.ros.host.hosting import until
 from tftool.ros.host.importing import ros_free
 from tftool.ros.host.workspace import Workspace
 from tftool.ros.launch import packages
 from tftool.ros.launch.engine import Launch
+from tftool.ros.running import until
 from tftool.runtime.clock import SimClock, run
 from tftool.runtime.supervisor import live
 from tftool.runtime.world import World

@@ -10,9 +10,12 @@ import os
 import sys
 from collections.abc import Callable, Iterator, Sequence
 from pathlib import Path
-from typing import Any, Final
+from typing import TYPE_CHECKING, Any, Final
 
 from tftool.errors import InputError, TftoolError, UsageError
+
+if TYPE_CHECKING:
+    from tftool.ros.host.workspace import Workspace
 
 VARIABLE: Final = "_TFTOOL_COMPLETE"
 """Set by the scripts; holds the name of the shell."""
@@ -240,11 +243,16 @@ def _read_frames(word: str) -> list[str]:
     return kept or []
 
 
+def _workspace_here() -> "Workspace":
+    """The packages below this folder and those of the workspace it belongs to."""
+    from tftool.ros.host.workspace import Workspace
+
+    return Workspace(Path.cwd())
+
+
 def _packages(before: Sequence[str]) -> Iterator[Offer]:
     """Packages below this folder, then the executables of the one that is named."""
-    from tftool.cli.commands.run import workspace_here
-
-    packages = workspace_here().packages
+    packages = _workspace_here().packages
     if not before:
         yield from ((name, "package") for name in sorted(packages))
     elif len(before) == 1 and before[0] in packages:
@@ -253,9 +261,7 @@ def _packages(before: Sequence[str]) -> Iterator[Offer]:
 
 def _launches(before: Sequence[str]) -> Iterator[Offer]:
     """Packages below this folder, then the launch files of the one that is named."""
-    from tftool.cli.commands.run import workspace_here
-
-    packages = workspace_here().packages
+    packages = _workspace_here().packages
     if not before:
         yield from ((name, "package") for name in sorted(packages))
     elif len(before) == 1 and before[0] in packages:

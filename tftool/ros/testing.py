@@ -11,9 +11,9 @@ from typing import Any
 
 from tftool.ros.host import names, user_code
 from tftool.ros.host.fibers import EndedError
-from tftool.ros.host.hosting import ProgramFailed
 from tftool.ros.host.importing import ros_free
 from tftool.ros.host.program import Program
+from tftool.ros.running import ProgramFailed
 from tftool.runtime.clock import Phase, SimClock, run
 from tftool.runtime.log import LogRecord
 from tftool.runtime.supervisor import live

@@ -12,7 +12,7 @@ from dataclasses import dataclass, replace
 
 from tftool.errors import InputError, NodeFailed, UsageError
 from tftool.near_names import did_you_mean
-from tftool.ros.host import hosting
+from tftool.ros import running
 from tftool.ros.host.program import Program
 from tftool.ros.host.workspace import Workspace
 from tftool.ros.launch.engine import Launch
@@ -106,7 +106,7 @@ class Exercise:
     def _starter(self, one: Entrant, failures: list[str]) -> StandIn:
         def ended(program: Program) -> None:
             try:
-                status = hosting.status_of(program)
+                status = running.status_of(program)
             except NodeFailed as error:
                 failures.append(str(error))
             else:
@@ -115,7 +115,7 @@ class Exercise:
 
         def start(world: World) -> None:
             target, *rest = one.words
-            hosting.start_program(world, self.workspace, target, rest, on_exit=ended, name=one.node)
+            running.start_program(world, self.workspace, target, rest, on_exit=ended, name=one.node)
 
         return start
 
@@ -124,6 +124,6 @@ class Exercise:
             if level == "ERROR":
                 failures.append(f"{who}: {text}")
 
-        path, rest = hosting.find_launch_file(self.workspace, self.launch)
-        arguments = hosting.arguments_of(rest)
+        path, rest = running.find_launch_file(self.workspace, self.launch)
+        arguments = running.arguments_of(rest)
         Launch(world, path, workspace=self.workspace, arguments=arguments, say=say)

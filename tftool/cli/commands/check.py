@@ -140,7 +140,9 @@ def _judge_of(
         return
 
     from tftool.cli.notices import FoldedLog, notice
-    from tftool.ros.host import hosting
+    from tftool.ros.host.importing import ros_free
+    from tftool.ros.host.workspace import Workspace
+    from tftool.ros.launch import packages
     from tftool.scenario.exercise import Exercise
     from tftool.views.escaping import visible_lines
 
@@ -152,7 +154,7 @@ def _judge_of(
                 f"'{visible_lines(one.words[0])}' runs beside the scenario's own nodes; "
                 "--run NODE=FILE runs it in the place of one."
             )
-    workspace = hosting.Workspace(Path.cwd())
+    workspace = Workspace(Path.cwd())
     for skipped in workspace.skipped if verbose else ():
         notice(visible_lines(skipped))
     log = FoldedLog(whole=verbose)
@@ -163,8 +165,8 @@ def _judge_of(
         finally:
             log.end()
 
-    with hosting.ros_free(force=force):
-        hosting.packages.use(workspace)
+    with ros_free(force=force):
+        packages.use(workspace)
         exercise = Exercise(workspace, entrants, launch, tell=log.tell)
         yield judge
 

@@ -46,22 +46,26 @@ def launch(
     from tftool.cli.hosting import open_empty_session, open_session, tell_where_to_look
     from tftool.cli.notices import notice, tell_record
     from tftool.errors import NodeFailed, TftoolError, UsageError
-    from tftool.ros.host import hosting
+    from tftool.ros import running
+    from tftool.ros.host.importing import ros_free
+    from tftool.ros.host.workspace import Workspace
+    from tftool.ros.launch import packages
+    from tftool.ros.launch.engine import Launch
     from tftool.views.escaping import visible_lines
 
     if simulated and run_for is None and not show_args:
         raise UsageError("on simulated time a launch needs an end: --for SECONDS")
     if simulated:
         refuse_long_simulation(run_for)
-    workspace = hosting.Workspace(Path.cwd())
+    workspace = Workspace(Path.cwd())
     for skipped in workspace.skipped if verbose else ():
         notice(visible_lines(skipped))
-    with hosting.ros_free(force=force):
-        hosting.packages.use(workspace)
-        path, rest = hosting.find_launch_file(workspace, words)
-        arguments = hosting.arguments_of(rest)
+    with ros_free(force=force):
+        packages.use(workspace)
+        path, rest = running.find_launch_file(workspace, words)
+        arguments = running.arguments_of(rest)
         if show_args:
-            sys.stdout.write(visible_lines(hosting.show_arguments(path, workspace)) + "\n")
+            sys.stdout.write(visible_lines(running.show_arguments(path, workspace)) + "\n")
             return ExitStatus.DONE
         if connection.mode is Mode.JOIN and not simulated:
             session = open_session(connection, head_start=0)
@@ -76,7 +80,7 @@ def launch(
             notice(visible_lines(line))
 
         try:
-            started = hosting.Launch(world, path, workspace=workspace, arguments=arguments, say=say)
+            started = Launch(world, path, workspace=workspace, arguments=arguments, say=say)
         except BaseException:
             session.abandon()
             raise
@@ -89,7 +93,7 @@ def launch(
 
         world.log.listen(tell, "console")
         try:
-            work = hosting.until(world, started.ended, run_for)
+            work = running.until(world, started.ended, run_for)
             session.run(work, on_interrupt=started.interrupt)
         except NodeFailed as failure:
             # What the launch itself could not do is no failed node.

@@ -52,14 +52,16 @@ def ros2(
     from tftool.cli.notices import tell_record
     from tftool.errors import UsageError
     from tftool.ros import ros2 as ros2_command
-    from tftool.ros.host import hosting, user_code
+    from tftool.ros import running
+    from tftool.ros.host import user_code
     from tftool.ros.host.program import Program
+    from tftool.ros.host.workspace import Workspace
 
     for length in (2, 1):
         asked = " ".join(words[:length])
         if asked in _ELSEWHERE:
             raise UsageError(f"'ros2 {asked}' is 'tftool {_ELSEWHERE[asked]}' here")
-    workspace = hosting.Workspace(Path.cwd())
+    workspace = Workspace(Path.cwd())
     body = ros2_command.body(words, workspace, typer.echo)
     if words[0] in ("interface", "pkg"):
         body()
@@ -69,11 +71,11 @@ def ros2(
     world.log.listen(
         lambda record: tell_record(record) if record.level in ("WARN", "ERROR") else None, "console"
     )
-    ending = hosting.Ending(world)
+    ending = running.Ending(world)
 
     async def work() -> None:
         Program(world, world.free_name("ros2"), user_code.whole(body), argv=words, on_exit=ending)
-        await hosting.until(world, ending.over, run_for)
+        await running.until(world, ending.over, run_for)
 
     session.run(work())
     return ending.judge()

@@ -19,17 +19,7 @@ SIMULATED = "Simulated time is a world's own, and shares no session"
 
 if TYPE_CHECKING:
     from tftool.cli.connection import Connection
-    from tftool.ros.host.workspace import Workspace
     from tftool.runtime.log import LogRecord
-
-
-def workspace_here() -> "Workspace":
-    """The packages below this folder and those of the workspace it belongs to."""
-    from pathlib import Path
-
-    from tftool.ros.host.workspace import Workspace
-
-    return Workspace(Path.cwd())
 
 
 def misplaced(words: Sequence[str], own: Collection[str]) -> list[str]:
@@ -98,7 +88,10 @@ def run(
     from tftool.cli.hosting import NO_SESSION, open_empty_session, open_session, tell_where_to_look
     from tftool.cli.notices import notice, tell_record
     from tftool.errors import UsageError
-    from tftool.ros.host import hosting
+    from tftool.ros import running
+    from tftool.ros.host.importing import ros_free
+    from tftool.ros.host.workspace import Workspace
+    from tftool.ros.launch import packages
 
     if simulated and run_for is None:
         raise UsageError("on simulated time a run needs an end: --for SECONDS")
@@ -108,7 +101,7 @@ def run(
     own = {name for option in context.command.params for name in option.opts if name[0] == "-"}
     for word in misplaced(words, own):
         notice(word)
-    workspace = hosting.Workspace(Path.cwd())
+    workspace = Workspace(Path.cwd())
     for skipped in workspace.skipped if verbose else ():
         notice(visible_lines(skipped))
     if (target, *words[:1]) == KEYBOARD and target not in workspace.packages:
@@ -117,13 +110,13 @@ def run(
                 "'turtlesim turtle_teleop_key' reads keys until q is pressed, in the session "
                 "that runs or beside a turtle of its own; --in, --for and --simulated go with nodes"
             )
-        return teleop(connection, hosting.driven_turtle(words[1:]))
+        return teleop(connection, running.driven_turtle(words[1:]))
     # These bring all there is to see; turtles have no place beside them.
     simulator = (target, *words[:1]) == ("turtlesim", "turtlesim_node")
     alone = simulator or (target in ROBOTS and place is None)
-    with hosting.ros_free(force=force):
-        hosting.packages.use(workspace)
-        hosting.check_program(workspace, target, words)
+    with ros_free(force=force):
+        packages.use(workspace)
+        running.check_program(workspace, target, words)
         if alone:
             session = open_empty_session(connection, simulated=simulated)
         else:
@@ -147,12 +140,12 @@ def run(
                 tell_record(record)
 
         world.log.listen(tell, "console")
-        ending: list[hosting.Ending] = []
+        ending: list[running.Ending] = []
 
         async def work() -> None:
-            ending.append(hosting.Ending(world))
-            hosting.start_program(world, workspace, target, words, on_exit=ending[0])
-            await hosting.until(world, ending[0].over, run_for)
+            ending.append(running.Ending(world))
+            running.start_program(world, workspace, target, words, on_exit=ending[0])
+            await running.until(world, ending[0].over, run_for)
 
         session.run(work())
         return ending[0].judge()
