@@ -8,15 +8,16 @@ pytest.importorskip("mcap", reason="reads what is written")
 pytest.importorskip("zstandard", reason="the extra 'recordings' is not installed")
 pytest.importorskip("lz4", reason="the extra 'recordings' is not installed")
 
+from mcap.data_stream import RecordBuilder
 from mcap.reader import NonSeekingReader, SeekingReader
-from mcap.records import DataEnd, Footer
+from mcap.records import Attachment, DataEnd, Footer, Metadata
 from mcap.stream_reader import StreamReader
 
 import tftool
 from tests.sources.writers import numbers
 from tftool.errors import InputError, UsageError
 from tftool.sources.writing.channel import Channel
-from tftool.sources.writing.mcap import McapWriter
+from tftool.sources.writing.mcap import RECORD, McapWriter
 
 START = 1_750_000_000 * 10**9
 PAIRS = [("odom", "base_link"), ("base_link", "arm"), ("map", "odom")]
@@ -98,12 +99,16 @@ def test_small_chunks_without_chunks_attachments_and_metadata_are_read_by_the_st
     for name, size in (("small", 200), ("loose", 0)):
         path = tmp_path / f"{name}.mcap"
         writer = McapWriter(path, profile="", compression="lz4", chunk_size=size)
+        notes = RecordBuilder()
+        Attachment(5, 6, "notes.txt", "text/plain", b"words").write(notes)
+        about = RecordBuilder()
+        Metadata("about", {"robot": "r2"}).write(about)
         one = writer.channel(Channel("/a", "", "json", metadata=(("key", "value"),)))
         two = writer.channel(Channel("/b", "Kind", "json", "jsonschema", b"{}"))
         for number in range(20):
             writer.write((one, two)[number % 2], 100 + number, b"%d" % number, 90, number)
-        writer.attach("notes.txt", "text/plain", b"words", 5, 6)
-        writer.metadata("about", {"robot": "r2"})
+        writer.copy_attachment(notes.end()[RECORD.size :])
+        writer.copy_metadata(about.end()[RECORD.size :])
         writer.finish()
 
         with path.open("rb") as file:

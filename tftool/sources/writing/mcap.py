@@ -393,19 +393,6 @@ class McapWriter:
             )
         )
 
-    def attach(
-        self, name: str, media_type: str, data: bytes, log_time: Stamp = 0, create_time: Stamp = 0
-    ) -> None:
-        """Append an attachment."""
-        body = (
-            struct.pack("<QQ", log_time, create_time)
-            + text(name)
-            + text(media_type)
-            + _U64.pack(len(data))
-            + data
-        )
-        self.copy_attachment(body + _U32.pack(zlib.crc32(body)))
-
     def copy_attachment(self, body: bytes) -> None:
         """Append an attachment whose record is there already.
 
@@ -429,10 +416,6 @@ class McapWriter:
                 struct.pack("<QQ", begin, len(piece)) + times + _U64.pack(size) + names,
             )
         )
-
-    def metadata(self, name: str, values: Mapping[str, str]) -> None:
-        """Append a metadata record."""
-        self.copy_metadata(text(name) + strings(values))
 
     def copy_metadata(self, body: bytes) -> None:
         """Append a metadata record that is there already.
