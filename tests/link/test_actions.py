@@ -37,7 +37,7 @@ class Stranger:
         self.decides = decides
         world.serve_action("turn", self.take)
         self.server = ActionServer(
-            link, "turn", "sim", INTERFACES.find("turtlesim", "action", "RotateAbsolute")
+            link, "sim", "turn", INTERFACES.find("turtlesim", "action", "RotateAbsolute")
         )
 
     def take(self, goal):

@@ -42,7 +42,7 @@ def _read(ros_type: str, payload: bytes) -> Any:
 class ActionServer:
     """An action of our world, offered to the other processes."""
 
-    def __init__(self, link: LinkContext, name: str, node: str, kind: Any) -> None:
+    def __init__(self, link: LinkContext, node: str, name: str, kind: Any) -> None:
         """Offer an action; the arguments are those of `ServiceServer`."""
         interface: str = kind.interface__
         node, base = node or link.main_node, f"{name}/_action"

@@ -84,13 +84,13 @@ class Asking:
 class ServiceServer:
     """A service of our world, offered to the other processes."""
 
-    def __init__(self, link: LinkContext, name: str, node: str, kind: Any) -> None:
+    def __init__(self, link: LinkContext, node: str, name: str, kind: Any) -> None:
         """Offer a service.
 
         Args:
             link: The link.
-            name: The service's name.
             node: The node that serves it, "" where that is not said.
+            name: The service's name.
             kind: The service's class.
         """
         self._link = link

@@ -236,10 +236,10 @@ class Link(LinkContext):
         for name in sorted(own.keys() - self._servers.keys()):
             offer = own[name]
             if hasattr(offer.kind, "Goal"):
-                self._servers[name] = offer, ActionServer(self, name, offer.node, offer.kind)
+                self._servers[name] = offer, ActionServer(self, offer.node, name, offer.kind)
                 self._warn_of_rival(name, f"{name}/_action/send_goal")
             elif hasattr(offer.kind, "Request"):
-                self._servers[name] = offer, ServiceServer(self, name, offer.node, offer.kind)
+                self._servers[name] = offer, ServiceServer(self, offer.node, name, offer.kind)
                 self._warn_of_rival(name, name)
 
     def _is_part_of_our_action(self, name: str) -> bool:
