@@ -121,6 +121,23 @@ def test_the_layers_shown_are_those_of_the_contract():
     assert shown.split("\n```")[0].splitlines() == [one.replace("tftool.", "") for one in layers]
 
 
+def test_every_environment_variable_of_ours_is_in_the_table_and_every_one_there_is_read():
+    page = (DOCS / "reference" / "commands.md").read_text(encoding="utf-8")
+    table = page.split("## Environment variables\n")[1].split("\n## ")[0]
+    listed = {
+        name
+        for row in table.splitlines()
+        if row.startswith("| `")
+        for name in re.findall(r"`([A-Z_]{4,})`", row.split("|")[1])
+    }
+
+    sources = "".join(one.read_text("utf-8") for one in (ROOT / "tftool").rglob("*.py"))
+    read = set(re.findall(r'"([A-Z][A-Z_]+)"', sources))
+    ours = {name for name in read if name.startswith("TFTOOL_") and "_COMPLETE" not in name}
+    assert ours <= listed
+    assert listed <= read
+
+
 def test_every_file_and_folder_named_is_there():
     named = {
         word

@@ -8,7 +8,7 @@ import sys
 
 import pytest
 
-from tftool.errors import LinkError
+from tftool.errors import LinkError, UsageError
 from tftool.link.options import Options, Reach
 from tftool.link.zenoh import rendezvous
 from tftool.link.zenoh.opening import Opening
@@ -43,6 +43,12 @@ def path_of(endpoint):
 )
 def test_the_folder_is_the_one_named_or_the_users_runtime_folder(environment, expected):
     assert str(folder(environment)) == expected
+
+
+@pytest.mark.parametrize("named", ["sessions", "./sessions", "../s", "~/sessions", "."])
+def test_a_relative_folder_is_refused_as_it_would_be_another_one_everywhere(named):
+    with pytest.raises(UsageError, match=r"TFTOOL_SESSION_DIR='.*' is .*an absolute path"):
+        folder({"TFTOOL_SESSION_DIR": named})
 
 
 @unix_only

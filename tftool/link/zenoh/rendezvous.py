@@ -24,7 +24,7 @@ from collections.abc import Iterator, Mapping, Sequence
 from pathlib import Path
 from typing import Any, Final
 
-from tftool.errors import LinkError
+from tftool.errors import LinkError, UsageError
 
 FOLDER_VARIABLE: Final = "TFTOOL_SESSION_DIR"
 """Environment variable that names another folder: processes that share it find each other."""
@@ -56,10 +56,19 @@ def folder(environment: Mapping[str, str] = os.environ) -> Path:
 
     `TFTOOL_SESSION_DIR`, else `tftool` in `XDG_RUNTIME_DIR`, else a folder of the
     user's own beside other temporary files.
+
+    Raises:
+        UsageError: If `TFTOOL_SESSION_DIR` is a relative path: commands run in two folders
+            would each look in one of their own, and not find each other.
     """
     named = environment.get(FOLDER_VARIABLE)
     if named:
-        return Path(named).absolute()
+        if not Path(named).is_absolute():
+            raise UsageError(
+                f"{FOLDER_VARIABLE}={named!r:.80} is another folder wherever a command is run: "
+                "set it to an absolute path, or unset it."
+            )
+        return Path(named)
     runtime = environment.get("XDG_RUNTIME_DIR")
     if runtime and Path(runtime).is_absolute():
         return Path(runtime) / "tftool"
