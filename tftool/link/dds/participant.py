@@ -10,7 +10,7 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Any, Final
 
-from tftool.errors import LinkError
+from tftool.errors import LinkError, UsageError
 from tftool.link.dds.settings import MOST_PARTICIPANTS, Network
 from tftool.link.dds.types import Raw
 from tftool.link.inbox import Inbox
@@ -29,7 +29,7 @@ PATIENCE: Final = 1_000_000_000
 NO_WHEEL: Final = (
     "DDS needs the package 'cyclonedds', which is missing here ({error}): pip install "
     "'tftool-tf2[dds]'. Where there is no wheel of it (Linux on arm64), build it from source with "
-    "Cyclone DDS, or run zenoh-bridge-ros2dds on the robot and use --connect"
+    "Cyclone DDS, or run zenoh-bridge-ros2dds on the robot and use --connect."
 )
 
 
@@ -108,13 +108,14 @@ class Participant:
             user_data: What is written beside it.
 
         Raises:
-            LinkError: If the library is missing, or there is no way in.
+            UsageError: If the extra `dds` is not installed.
+            LinkError: If there is no way in.
         """
         try:
             from cyclonedds.core import DDSException, Policy, Qos
             from cyclonedds.domain import DomainParticipant
         except (ImportError, OSError) as error:
-            raise LinkError(NO_WHEEL.format(error=error)) from error
+            raise UsageError(NO_WHEEL.format(error=error)) from error
         self._domain = domain
         self.oversized = 0
         self.inbox = Inbox()
