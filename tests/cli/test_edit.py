@@ -10,6 +10,8 @@ pytest.importorskip("rosbags", reason="writes the test files")
 pytest.importorskip("mcap", reason="writes the test files")
 pytest.importorskip("zstandard", reason="the extra 'recordings' is not installed")
 
+from mcap.writer import CompressionType
+
 from tests.sources.writers import SECOND, content, write_mcap
 from tftool.cli.app import main
 from tftool.sources.recording import open_recording
@@ -100,6 +102,14 @@ def test_a_dry_run_writes_nothing(run, capsys):
         (["-o", "b.mcap", "--set", "a:b=1,2,3,0,0,0,2"], 2, "length is 2, not 1"),
         (["-o", "b.mcap", "--drop", "laser"], 2, "PARENT:CHILD"),
         (["-o", "b.mcap", "--rename", "laser"], 2, "OLD=NEW"),
+        (["-o", "b.mcap", "--rename", "odom=/"], 2, "no frame without a name"),
+        (["-o", "b.mcap", "--rename", "odom=//o"], 2, "an empty part between its slashes"),
+        (["-o", "b.mcap", "--rename", "odom=o\n"], 2, "is no name of a frame"),
+        (["-o", "b.mcap", "--prefix", ""], 2, "no frame without a name"),
+        (["-o", "b.mcap", "--prefix", " "], 2, "no frame without a name"),
+        (["-o", "b.mcap", "--prefix", "x//y/"], 2, "an empty part between its slashes"),
+        (["-o", "b.mcap", "--prefix", "r1/ "], 2, "is no name of a frame"),
+        (["-o", "b.mcap", "--prefix", "/r1"], 2, "make r1base_link of base_link: end it in a"),
         (["-o", "b.mcap", "--restamp", "now"], 2, "takes 'log'"),
         (["-o", "b.mcap", "--everywhere"], 2, "--everywhere goes with"),
         (["-o", "b.mcap", "--record-time"], 2, "--record-time goes with"),
@@ -117,6 +127,26 @@ def test_what_cannot_be_done_is_said_in_a_sentence_and_leaves_nothing(
     assert told in capsys.readouterr().err
     assert os.listdir() == ["a.mcap"]
     assert (run / "a.mcap").read_bytes() == before
+
+
+@pytest.mark.parametrize(
+    ("words", "name"),
+    [
+        (["--prefix", "r1/"], "r1/laser"),
+        (["--prefix", "/r1/"], "r1/laser"),
+        (["--prefix", "old_"], "old_laser"),
+        (["--rename", "laser=/lidar"], "lidar"),
+    ],
+)
+def test_new_names_can_be_asked_for_as_tf2_keeps_names(run, words, name):
+    write_mcap(run / "a.mcap", SENT, compression=CompressionType.NONE)
+
+    assert main(["edit", "a.mcap", "-o", "b.mcap", *words]) == 0
+
+    with open_recording("b.mcap") as recording:
+        assert name in {edge.child for edge in recording.edges}
+    # As it is written, for readers that strip nothing.
+    assert f"/{name}".encode() not in (run / "b.mcap").read_bytes()
 
 
 def test_a_folder_without_permission_is_said(run, capsys):

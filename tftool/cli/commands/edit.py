@@ -97,7 +97,9 @@ def edit(
     rename: Annotated[
         list[str] | None, option("Rename a frame. Again for more.", metavar="OLD=NEW", panel=NAMES)
     ] = None,
-    prefix: Annotated[str, option("Put r1/ before every frame.", metavar="TEXT", panel=NAMES)] = "",
+    prefix: Annotated[
+        str | None, option("Put r1/ before every frame.", metavar="r1/", panel=NAMES)
+    ] = None,
     strip_slash: Annotated[
         bool, option("Take the slash off /base_link and others.", "--strip-slash", panel=NAMES)
     ] = False,
@@ -174,7 +176,7 @@ def edit(
     edits: Edits = Edits(
         drop=tuple(_link("--drop", text) for text in drop or ()),
         rename=dict(_renamed(text) for text in rename or ()),
-        prefix=_prefix(prefix),
+        prefix=_prefix(prefix) if prefix is not None else "",
         strip_slash=strip_slash,
         poses=dict(_pose(text) for text in poses or ()),
         reparent=dict(_reparented(text) for text in reparent or ()),
@@ -267,14 +269,28 @@ def _renamed(text: str) -> tuple[str, str]:
 
 
 def _prefix(text: str) -> str:
-    return _frame("--prefix", text) if text else ""
+    name = _frame("--prefix", text)
+    if name[-1].isalnum():
+        # ROS 1's tf_prefix put a slash there, ROS 2's frame_prefix puts none.
+        raise UsageError(
+            f"--prefix {text} would make {name}base_link of base_link: end it in a slash, "
+            f"--prefix {name}/"
+        )
+    return name
 
 
-def _frame(option: str, name: str) -> str:
+def _frame(option: str, text: str) -> str:
+    """A name, or the beginning of one, as tf2 keeps it: without the slash in front."""
+    from tftool.frames.tree import stripped
     from tftool.wire.rows import LONGEST_NAME
 
-    if len(name.encode()) > LONGEST_NAME or "\0" in name:
-        raise UsageError(f"{option}: that is no name of a frame.")
+    name = stripped(text)
+    if not name.strip():
+        raise UsageError(f"{option}: '{text}' is empty, and tf2 has no frame without a name.")
+    if name != name.strip() or not name.isprintable() or len(name.encode()) > LONGEST_NAME:
+        raise UsageError(f"{option}: '{text}' is no name of a frame.")
+    if name.startswith("/") or "//" in name:
+        raise UsageError(f"{option}: '{text}' has an empty part between its slashes.")
     return name
 
 
@@ -315,7 +331,7 @@ def _reparented(text: str) -> "tuple[LinkName, str]":
     link = _link("--reparent", name)
     if not equals or not new:
         raise UsageError(f"--reparent takes PARENT:CHILD=NEW, not '{text}'.")
-    return link, stripped(_frame("--reparent", new))
+    return link, stripped(new)
 
 
 def _statics(name: str) -> "tuple[TransformStamped, ...]":
