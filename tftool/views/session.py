@@ -37,9 +37,19 @@ def lines(
         ascii_only: Whether to keep to ASCII for what is drawn.
     """
     writer = _Writer(width, "~" if ascii_only else "…")
-    processes = found["processes"]
-    told = writer.heading("Processes", len(processes))
-    told += writer.rows(
+    told = _processes(writer, found["processes"])
+    ours = {node for one in found["processes"] for node in one["nodes"]}
+    others = [node for node in found["nodes"] if node not in ours]
+    if others:
+        told += writer.heading("Other nodes", len(others))
+        told += writer.rows([visible(node) for node in others])
+    told += _topics(writer, found["topics"])
+    told += _services(writer, found["services"], verbose=verbose)
+    return told
+
+
+def _processes(writer: "_Writer", processes: Sequence[Mapping[str, Any]]) -> list[Text]:
+    return writer.heading("Processes", len(processes)) + writer.rows(
         [f"tftool {visible(one['command'])}" for one in processes],
         [
             TableColumn("", [(f"process {one['pid']}", "dim") for one in processes], goes=1),
@@ -50,14 +60,10 @@ def lines(
         ],
         [_names(one["nodes"], "no nodes") for one in processes],
     )
-    ours = {node for one in processes for node in one["nodes"]}
-    others = [node for node in found["nodes"] if node not in ours]
-    if others:
-        told += writer.heading("Other nodes", len(others))
-        told += writer.rows([visible(node) for node in others])
-    topics = found["topics"]
-    told += writer.heading("Topics", len(topics))
-    told += writer.rows(
+
+
+def _topics(writer: "_Writer", topics: Mapping[str, Any]) -> list[Text]:
+    return writer.heading("Topics", len(topics)) + writer.rows(
         [visible(name) for name in topics],
         [
             TableColumn("", [(f"{one['rate']:.1f} Hz", "") for one in topics.values()], True),
@@ -68,15 +74,18 @@ def lines(
             for one in topics.values()
         ],
     )
-    told += writer.heading("Services", len(found["services"]))
+
+
+def _services(writer: "_Writer", services: Mapping[str, Any], *, verbose: bool) -> list[Text]:
+    told = writer.heading("Services", len(services))
     shown = {
         name: service["type"]
-        for name, service in found["services"].items()
+        for name, service in services.items()
         if verbose or not _goes_without_saying(name, service["type"])
     }
     types = [(visible(ros_type), "cyan") for ros_type in shown.values()]
     told += writer.rows([visible(name) for name in shown], [TableColumn("", types, goes=1)])
-    folded = len(found["services"]) - len(shown)
+    folded = len(services) - len(shown)
     if folded:
         sentence = f"and {folded} of parameters and actions (--verbose lists them)"
         told.append(Text(f"{INDENT}{sentence}", style="dim"))

@@ -53,21 +53,20 @@ def session(
         notice(
             f"No process is here in domain {connection.domain}: start 'tftool demo', for example."
         )
-    found = _listened(connection, link, listen_for)
+    found = _as_object(link, _rates(connection, link, listen_for))
     text = json.dumps(found) if for_programs else _written(found, verbose=verbose)
     sys.stdout.write(text + "\n")
     return ExitStatus.DONE
 
 
-def _listened(connection: Connection, link: "Link", lasting: Duration) -> dict[str, Any]:
-    """Everything that is known of a session after listening for a while."""
+def _rates(connection: Connection, link: "Link", lasting: Duration) -> dict[str, float]:
+    """Listen for a while: messages a second of each topic on which one came in."""
     import asyncio
 
-    from tftool.link.graph import NODE, SERVER
     from tftool.link.seam import Arrived
     from tftool.link.session import is_plain
     from tftool.runtime.clock import run
-    from tftool.runtime.endpoints import PUBLISHER, SUBSCRIPTION
+    from tftool.runtime.endpoints import PUBLISHER
 
     counts: dict[str, int] = {}
     clock = connection.providers.wall_clock()
@@ -89,14 +88,22 @@ def _listened(connection: Connection, link: "Link", lasting: Duration) -> dict[s
 
     if not link.graph.is_empty:
         run(clock, listen())
+    return {name: count / as_seconds(lasting) for name, count in counts.items()}
+
+
+def _as_object(link: "Link", rates: dict[str, float]) -> dict[str, Any]:
+    """Everything that is known of a session; `rates` of topics in hertz."""
+    from tftool.link.graph import NODE, SERVER
+    from tftool.runtime.endpoints import PUBLISHER, SUBSCRIPTION
+
     graph = link.graph
     topics: dict[str, dict[str, Any]] = {}
     for one in graph.entities(PUBLISHER, SUBSCRIPTION):
+        rate = rates.get(one.name, 0.0)
         topic = topics.setdefault(
-            one.name, {"type": one.ros_type, "publishers": [], "subscribers": [], "rate": 0.0}
+            one.name, {"type": one.ros_type, "publishers": [], "subscribers": [], "rate": rate}
         )
         topic["publishers" if one.kind == PUBLISHER else "subscribers"].append(one.node)
-        topic["rate"] = counts.get(one.name, 0) / as_seconds(lasting)
     for topic in topics.values():
         topic["publishers"].sort()
         topic["subscribers"].sort()
