@@ -151,46 +151,45 @@ def as_object(recording: Recording) -> dict[str, Any]:
             "added_moving": list(recording.described.moving),
             "gaps": list(recording.described.gaps),
         },
-        "topics": [
-            {
-                "name": topic.name,
-                "type": topic.type,
-                "encoding": topic.encoding,
-                "count": topic.count,
-                "transforms": topic.transforms,
-                "static": topic.static,
-                "publishers": [
-                    {"node": one.node, "durability": one.durability, "reliability": one.reliability}
-                    for one in publishers[topic.name]
-                ],
-            }
-            for topic in recording.topics
-        ],
-        "edges": [
-            {
-                "parent": one.parent,
-                "child": one.child,
-                "static": one.static,
-                "count": one.count,
-                "rate": one.rate,
-                "first_ns": one.first,
-                "last_ns": one.last,
-                "offset_ns": None
-                if one.offset is None
-                else {
-                    "least": one.offset.least,
-                    "median": one.offset.median,
-                    "most": one.offset.most,
-                },
-                "publishers": list(one.publishers),
-            }
-            for one in edge_facts(recording.transforms)
-        ],
+        "topics": [_topic_object(topic, publishers[topic.name]) for topic in recording.topics],
+        "edges": [_edge_object(edge) for edge in edge_facts(recording.transforms)],
         "trees": [
             {"root": tree.root, "frames": tree.frames} for tree in trees(recording.transforms)
         ],
         "damage": list(recording.damage),
         "odd": oddities(recording),
+    }
+
+
+def _topic_object(topic: RecordedTopic, publishers: Sequence[Publisher]) -> dict[str, Any]:
+    return {
+        "name": topic.name,
+        "type": topic.type,
+        "encoding": topic.encoding,
+        "count": topic.count,
+        "transforms": topic.transforms,
+        "static": topic.static,
+        "publishers": [
+            {"node": one.node, "durability": one.durability, "reliability": one.reliability}
+            for one in publishers
+        ],
+    }
+
+
+def _edge_object(edge: EdgeFacts) -> dict[str, Any]:
+    offset = edge.offset
+    return {
+        "parent": edge.parent,
+        "child": edge.child,
+        "static": edge.static,
+        "count": edge.count,
+        "rate": edge.rate,
+        "first_ns": edge.first,
+        "last_ns": edge.last,
+        "offset_ns": None
+        if offset is None
+        else {"least": offset.least, "median": offset.median, "most": offset.most},
+        "publishers": list(edge.publishers),
     }
 
 
