@@ -108,25 +108,8 @@ class NodeParameters:
         validate_parameter_name(name)
         if name in self._parameters:
             raise ParameterAlreadyDeclaredException(name)
-        kind_of_descriptor: Any = INTERFACES.message("rcl_interfaces/ParameterDescriptor")
-        if descriptor is None:
-            descriptor = kind_of_descriptor()
-        if not isinstance(descriptor, kind_of_descriptor):
-            raise TypeError(
-                f"a descriptor must be a ParameterDescriptor, not {type(descriptor).__name__}"
-            )
-        if isinstance(value, INTERFACES.message("rcl_interfaces/ParameterValue")):
-            if not descriptor.dynamic_typing:
-                raise ValueError(
-                    "a ParameterValue declares nothing: give its value, or a Parameter.Type"
-                )
-            value = value_of(value)
-        if isinstance(value, Type):
-            kind, value = value, None
-        elif isinstance(value, Parameter):
-            kind, value = value.type_, value.value
-        else:
-            kind = Type.from_parameter_value(value)
+        descriptor = _checked_descriptor(descriptor)
+        kind, value = _kind_and_value(value, descriptor)
         self._unused_parameters.pop(name, None)
         if not ignore_override and name in self._parameter_overrides:
             value = self._parameter_overrides[name]
@@ -435,6 +418,33 @@ def set_result(successful: bool, reason: str) -> Any:
     """What setting parameters answers."""
     kind = INTERFACES.message("rcl_interfaces/SetParametersResult")
     return kind(successful=successful, reason=reason)
+
+
+def _checked_descriptor(descriptor: Any) -> Any:
+    """A ParameterDescriptor, an empty one for None."""
+    wanted: Any = INTERFACES.message("rcl_interfaces/ParameterDescriptor")
+    if descriptor is None:
+        return wanted()
+    if not isinstance(descriptor, wanted):
+        raise TypeError(
+            f"a descriptor must be a ParameterDescriptor, not {type(descriptor).__name__}"
+        )
+    return descriptor
+
+
+def _kind_and_value(declared: Any, descriptor: Any) -> tuple[Type, Any]:
+    """The type and the default that a parameter is declared with; None without a default."""
+    if isinstance(declared, INTERFACES.message("rcl_interfaces/ParameterValue")):
+        if not descriptor.dynamic_typing:
+            raise ValueError(
+                "a ParameterValue declares nothing: give its value, or a Parameter.Type"
+            )
+        declared = value_of(declared)
+    if isinstance(declared, Type):
+        return declared, None
+    if isinstance(declared, Parameter):
+        return declared.type_, declared.value
+    return Type.from_parameter_value(declared), declared
 
 
 def _word(value: Any) -> str:
