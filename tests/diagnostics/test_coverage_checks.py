@@ -1,12 +1,14 @@
 """The checks of what is missing when, each on a small robot of its own."""
 
 import math
+from dataclasses import replace
 
 import pytest
 
 from tests.diagnostics.judged import found, ids
 from tests.diagnostics.robots import NO_TURN, START, Robot, drives, robot, stands
 from tftool.diagnostics.findings import Severity
+from tftool.diagnostics.judge import judge
 from tftool.diagnostics.model import Settings
 from tftool.sources.contract import Publisher
 from tftool.stamps import seconds
@@ -18,6 +20,16 @@ def test_an_edge_that_stops_explains_why_scans_cannot_be_placed():
     assert ids(made) == ["edge-stopped"]
     outran = found(made, "sensor-outruns-tf")
     assert outran.because_of == "edge-stopped"
+
+
+@pytest.mark.parametrize(("goes_on", "told"), [(5.02, []), (5.5, []), (7.0, ["edge-stopped"])])
+def test_links_that_stop_together_before_the_end_are_no_fault_of_the_first_of_them(goes_on, told):
+    """So a session looks whose host left: nothing else goes on, and one link is the last."""
+    made = robot(odometry=False, scans=False)
+    made.moving("odom", "base_link", end=5.0)
+    made.moving("base_link", "arm", end=goes_on)
+    material = replace(made.material(), end=seconds(START) + seconds(9))
+    assert [finding.id for finding in judge(material).findings] == told
 
 
 def test_a_hole_is_told_with_its_ends():

@@ -120,6 +120,19 @@ def test_an_edge_that_ended_does_not_come_back():
     assert found.links[1].short_by == seconds(1.02)
 
 
+def test_a_question_after_the_recording_blames_no_link_that_went_on_until_its_end():
+    made = robot(odometry=False)
+    made.moving("odom", "base_link", end=LASTS)
+
+    found = asked(made, "odom", "laser", LASTS + 4)
+
+    assert (found.cause, found.check) == (Cause.AFTER_END, None)
+    assert found.why == (
+        "the recording ends with base_link in odom at 1750000007.980, 4.02 s before the question",
+    )
+    assert found.remedies[0].text == "ask about 1750000007.980, or before"
+
+
 def test_a_moment_in_a_hole_waits_for_its_end():
     made = robot(odometry=False)
     made.moving("odom", "base_link", without=(3.0, 5.0))

@@ -89,7 +89,9 @@ def edge_stopped(model: Model, limits: Limits) -> Iterator[Hit]:
         latest = model.parents.get(track.child)
         if latest is not None and latest.parent != track.parent:
             continue
-        if not any(o is not track and len(o.logs) and o.logs[-1] > last for o in _alive(model)):
+        # What all ends at once, as a session does that its host leaves, is no link's own fault.
+        others = (int(o.logs[-1]) for o in _alive(model) if o is not track and len(o.logs))
+        if max(others, default=last) - last <= least:
             continue
         yield Hit(
             edges=(track.edge,),

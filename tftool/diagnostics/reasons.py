@@ -6,6 +6,7 @@ from enum import Enum
 
 import numpy as np
 
+from tftool.diagnostics.catalogue import CHECKS
 from tftool.diagnostics.coverage import Waits, least_rate, rounded_up, waits_of
 from tftool.diagnostics.model import Model
 from tftool.diagnostics.names import alike_frames
@@ -28,6 +29,7 @@ class Cause(Enum):
     STOPPED = "stopped"
     GAP = "gap"
     BEFORE_START = "before-start"
+    AFTER_END = "after-end"
     CACHE = "cache"
     UNKNOWN_FRAME = "unknown-frame"
     SPLIT = "split"
@@ -205,6 +207,8 @@ def refusing_link(known: TraceResult) -> Reason:
     if trace.moment < first:
         return _before_start(known, link, track, first)
     if trace.moment > last:
+        if _goes_on(trace, track):
+            return _after_end(link, trace, last)
         return _stopped(link, trace, last)
     return _late(known, link, track)
 
@@ -280,6 +284,28 @@ def _before_start(known: TraceResult, link: TracedLink, track: Track, first: Sta
         tuple(why),
         (Remedy("skip", f"skip messages before {moment(first)}{lost}"),),
         ("a timeout, a larger cache: older data will not come",),
+    )
+
+
+def _goes_on(trace: LookupTrace, track: Track) -> bool:
+    """Whether the link goes on until all there is ends, as `edge-stopped` sees it."""
+    material, limits = trace.model.material, CHECKS["edge-stopped"].limits
+    least = max(limits["periods"] * track.period, limits["seconds"] * NANOSECONDS)
+    ends = material.recorded or material.kind == "scenario"
+    return ends and trace.model.end - int(track.logs[-1]) <= least
+
+
+def _after_end(link: TracedLink, trace: LookupTrace, last: Stamp) -> Reason:
+    material = trace.model.material
+    ended = "recording" if material.recorded else material.kind
+    return Reason(
+        Cause.AFTER_END,
+        (
+            f"the {ended} ends with {link.name} at {moment(last)}, "
+            f"{span(trace.moment - last)} before the question",
+        ),
+        (Remedy("skip", f"ask about {moment(last)}, or before"),),
+        ("a timeout: nothing comes any more",),
     )
 
 
