@@ -97,3 +97,19 @@ def test_monitor_follows_a_chain_of_a_recording(tftool, file):
 
     assert result.status == 0
     assert "RESULTS: for base_link in odom" in result.out
+
+
+def test_monitor_waits_in_silence_for_a_link_that_is_recorded_later(tftool, tmp_path):
+    """What is to come is there at once: a line that tells a cure would send people astray."""
+    sent = content(500)
+    late = [one for one in sent if one.log_time > sent[0].log_time + 3 * SECOND]
+    early = [one for one in sent if one not in late and one.topic == "/tf_static"]
+    assert early
+    assert late
+
+    result = tftool(
+        "monitor", "odom", "base_link", write_mcap(tmp_path / "late.mcap", early + late)
+    )
+
+    assert result.status == 0
+    assert re.fullmatch(r"Gathering data on base_link in odom for [\d.]+ s \.\.\.\n", result.err)

@@ -270,6 +270,11 @@ def decimals(words: str) -> Any:
     )
 
 
+Target = Annotated[
+    str, typer.Argument(metavar="TARGET", help="Frame to look from: the answer is given in it.")
+]
+Source = Annotated[str, typer.Argument(metavar="SOURCE", help="Frame to look at.")]
+
 From = Annotated[
     str | None,
     typer.Argument(
@@ -306,7 +311,7 @@ Every = Annotated[
 
 Pairs = Annotated[
     list[str] | None,
-    option("A pair of frames; again and again for several.", "--pair", metavar="TARGET:SOURCE"),
+    option("A pair of frames. Again for more.", "--pair", metavar="TARGET:SOURCE"),
 ]
 
 StampsOf = Annotated[

@@ -36,7 +36,7 @@ def convert(
         list[str] | None,
         option(
             "Chain another one behind it: the pose of its child in the first one's parent. "
-            "May be repeated.",
+            "Again for more.",
             metavar="ROTATION",
         ),
     ] = None,

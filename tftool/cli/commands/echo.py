@@ -13,7 +13,9 @@ from tftool.cli.options import (
     AtOption,
     CacheTime,
     Json,
+    Source,
     StampsOf,
+    Target,
     decimals,
     finite,
     not_negative,
@@ -30,10 +32,8 @@ if TYPE_CHECKING:
 
 def echo(
     connection: "Connection",
-    target: Annotated[
-        str, typer.Argument(metavar="TARGET", help="Frame to look from: the answer is given in it.")
-    ],
-    source: Annotated[str, typer.Argument(metavar="SOURCE", help="Frame to look at.")],
+    target: Target,
+    source: Source,
     place: Annotated[
         str | None,
         typer.Argument(

@@ -14,6 +14,8 @@ from tftool.cli.options import (
     From,
     Json,
     RunFor,
+    Source,
+    Target,
     duration,
     moment,
     moment_option,
@@ -30,8 +32,8 @@ if TYPE_CHECKING:
 
 def explain(
     connection: "Connection",
-    target: Annotated[str, typer.Argument(metavar="TARGET", help="Frame to express it in.")],
-    source: Annotated[str, typer.Argument(metavar="SOURCE", help="Frame whose pose is asked for.")],
+    target: Target,
+    source: Source,
     place: From = None,
     at: AtOption = None,
     message: Annotated[

@@ -31,8 +31,9 @@ def monitor(
         list[str] | None,
         typer.Argument(
             metavar="[A B] [FROM]",
-            help="Two frames, for the chain between them; then a world to host: "
-            "a scenario's name or file.",
+            help="Two frames, for the chain between them; then whose frames: a scenario (name or "
+            "file) or a recording (file, folder, glob); if not said, the session that runs, else "
+            "the turtles.",
             show_default=False,
         ),
     ] = None,
@@ -82,7 +83,8 @@ def monitor(
         every = every or run_for
     if every is None:
         every = seconds(1) if style is ReportStyle.TABLE else seconds(10)
-    watching = Monitor(session.world, frames, style, period=every)
+    # What has not come yet of a recording comes at once: no wait is worth a line.
+    watching = Monitor(session.world, frames, style, period=every, tells=not session.is_played)
     session.run(watching.run(run_for))
     return ExitStatus.DONE
 
@@ -119,6 +121,7 @@ class Monitor:
         style: ReportStyle,
         *,
         period: Duration,
+        tells: bool = True,
     ) -> None:
         """Prepare to listen.
 
@@ -127,11 +130,13 @@ class Monitor:
             frames: Target and source of the chain to report on; None for all frames.
             style: How to report.
             period: Nanoseconds between two reports.
+            tells: Whether to say what it waits for.
         """
         self.world = world
         self.frames = frames
         self.style = style
         self.period = period
+        self.tells = tells
         self.traffic = Traffic()
         self.chain: view.Chain | None = None
 
@@ -160,7 +165,7 @@ class Monitor:
             self.world.tf_static.subscribe(lambda message: self._hear(message, True), "monitor"),
         ]
         self._hear_statics()
-        self._announce()
+        self._announce(duration)
         try:
             if self.style is ReportStyle.TABLE:
                 with Redrawing(clock) as redrawing:
@@ -206,7 +211,8 @@ class Monitor:
 
         advice = "--for SECONDS ends the wait."
         pair = FramePair(target, source)
-        await Waiter(self.world, pair, patience=patience, advice=advice).wait()
+        waiter = Waiter(self.world, pair, patience=patience, tells=self.tells, advice=advice)
+        await waiter.wait()
         frames = tuple(self.world.buffer.chain(target, source)) or (target,)
         from tftool.views import monitor as view
 
@@ -242,12 +248,15 @@ class Monitor:
                 sample = TransformStamped(now, info.parent, info.frame, info.transform)
                 self.traffic.receive(now, [sample], info.authority or "", is_static=True)
 
-    def _announce(self) -> None:
+    def _announce(self, duration: Duration | None) -> None:
         from tftool.cli.notices import notice
         from tftool.views.echo import in_words
 
         about = "all frames" if self.frames is None else in_words(*self.frames)
-        notice(f"Gathering data on {about}, a report every {as_seconds(self.period):g} s ...")
+        if self.period == duration:
+            notice(f"Gathering data on {about} for {round(as_seconds(duration), 3):g} s ...")
+        else:
+            notice(f"Gathering data on {about}, a report every {as_seconds(self.period):g} s ...")
 
     def _write(self) -> None:
         from tftool.views import monitor as view

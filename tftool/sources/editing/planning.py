@@ -177,19 +177,19 @@ def _no_such_link(link: LinkName, links: "set[LinkName]") -> str:
     parent, child = link
     others = sorted(p for p, c in links if c == child)
     if others:
-        hint = f"'{child}' hangs from '{others[0]}': {others[0]}:{child}"
+        hint = f"'{child}' hangs from '{others[0]}': {others[0]}:{child}."
     else:
         hint = _near(f"{parent}:{child}", {f"{one}:{below}" for one, below in links})
-    return f"No link {parent}:{child} was recorded; {hint}."
+    return f"No link {parent}:{child} was recorded; {hint}"
 
 
 def _no_such_frame(name: str, frames: "set[str]") -> str:
-    return f"No frame '{name}' was recorded; {_near(name, frames)}."
+    return f"No frame '{name}' was recorded; {_near(name, frames)}"
 
 
 def _near(name: str, names: "set[str]") -> str:
     near = near_names(name, sorted(names), 3)
     if near:
-        return f"did you mean {' or '.join(near)}?".rstrip("?")
+        return f"did you mean {' or '.join(near)}?"
     shown = ", ".join(sorted(names)[:8])
-    return f"there are {shown}{' ...' if len(names) > 8 else ''}"
+    return f"there are {shown}{' ...' if len(names) > 8 else '.'}"
