@@ -47,15 +47,15 @@ MAX_NAME = 4_096
 """How many bytes a name may have, in UTF-8, unless `max_name` says otherwise; tf2 has no limit."""
 
 Listener: TypeAlias = Callable[[TransformStamped, bool, str], object]
-"""Is called with each accepted sample, whether it is static, and its authority."""
+"""Called with each accepted sample, whether it is static, and its authority."""
 
-# A memory shorter than this was hardly meant to be so many nanoseconds.
+# A cache time below this many nanoseconds was probably meant in seconds.
 _LIKELY_SECONDS: Final = 1_000_000
 
-# What a sample may raise that is none, is of a frame not known yet, or whose stamp is too long.
+# Raised by an argument that is no sample, by an unknown frame, or by a stamp beyond 64 bits.
 _NOT_PLAIN: Final = (KeyError, TypeError, ValueError, AttributeError, struct.error)
 
-# Of so many newest samples it is looked who sent them.
+# How many of the newest samples are searched for rival senders.
 _TURNS: Final = 4096
 
 _NO_PATHS: dict[str, Path] = {}
@@ -193,7 +193,7 @@ class Buffer(Door):
         return True
 
     def _tell_of(self, transform: TransformStamped, authority: str) -> None:
-        """Tell of a sample that was taken as it came, but for its quaternion's length and sign."""
+        """Notify of a stored sample, unchanged but for its quaternion's length and sign."""
         stamp, parent, child, pose = transform
         kept: tuple[TransformStamped, ...] = ()
         if self._listening:
@@ -233,7 +233,7 @@ class Buffer(Door):
         pose = rigid.transform(pose.translation, rotation)
         origin = trees.origin(parent, authority)
         outcome = link.insert(stamp, origin, pose, True)
-        # A name that comes up is news even if the sample is refused; a parent that was
+        # A new name wakes requests even if the sample is refused; a parent that was
         # known is none, or each new child would wake every request below its parent.
         named = [new.name for new in trees.frames[known:]]
         if outcome == TOO_OLD:

@@ -31,7 +31,7 @@ Sample: TypeAlias = tuple[float, float, float, float, float, float, float]
 IDENTITY: Sample = (0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 1.0)
 
 NO_POSE: Sample = (nan, nan, nan, nan, nan, nan, nan)
-"""In place of a pose: none; NaN throughout, as is what it is chained with."""
+"""Stands for "no pose": NaN throughout, and so is every product with it."""
 
 Refusal: TypeAlias = tuple[int, Stamp]
 """Why a link has no pose at a moment: NO_DATA, FORWARD or BACKWARD, and the stamp it does have."""
@@ -43,10 +43,10 @@ Words: TypeAlias = "array[int] | memoryview[int]"
 """Records, one behind the other."""
 
 MOST_ALIKE: Final = 32
-"""Among how many samples of one stamp it is looked whether one that comes is known."""
+"""How many samples of equal stamp are compared with a new one to find a duplicate."""
 
 NO_PARENT: Final = -1
-"""In place of a parent's number or an origin: none."""
+"""Stands for "no parent" or "no origin"."""
 
 WORDS: Final = 8
 """How many 64-bit words a record takes."""
@@ -217,7 +217,7 @@ class History(Fields):
         self.origin: int = NO_PARENT
         self.origins: array[int] | None = None
         self.mixed: bool = False
-        # So many pruned records are too many to leave where they are.
+        # At this many pruned records the array is compacted.
         self._compact_at: int = _LEAST_SLACK
         # Where the newest samples that share a parent begin; of use while mixed.
         self._newest_parent_start: int = 0
@@ -502,7 +502,7 @@ class History(Fields):
         place = self._after(stamp)
         behind = place - 1
         sample = _unpack_pose(record, 8)
-        # Not all of them: who never sets a stamp has every sample look at those before.
+        # Bounded: a publisher that never sets a stamp would make every insert scan all before it.
         last = max(self.start, place - MOST_ALIKE)
         while behind >= last and self._stamp(behind) == stamp:
             if self._sample(behind) == sample and self._parent(behind) == parent:
@@ -601,7 +601,7 @@ class History(Fields):
 
     def replace(self, records: "Words", origins: "array[int]") -> None:
         """Remember these instead: not none, oldest first, of equal stamps the newest last."""
-        # Of what is borrowed nothing is asked that a view cannot do.
+        # Borrowed records are only used in ways that a read-only view supports.
         self.records = cast("array[int]", records)
         self.count = len(records) // WORDS
         self._compact_at = max(_LEAST_SLACK, self.count >> _SLACK)
@@ -666,7 +666,7 @@ class History(Fields):
     # Pruning
 
     def keep_last(self, number: int) -> None:
-        """Let go of all but so many samples, two at least."""
+        """Drop the oldest samples until `number` remain, at least two."""
         if len(self) > (number := max(2, number)):
             self._let_go(self.count - number)
 

@@ -11,8 +11,8 @@ from tftool.frames.tree import ARRIVED, LOOP, REFUSED, FrameTree, Walk
 from tftool.stamps import Duration, Stamp
 
 MOST_PATHS: Final = 20_000
-"""So many pairs of frames are remembered; a program that asks for more than this in turn pays
-for each path anew rather than with memory."""
+"""How many paths are cached; a program that cycles through more pairs of frames than this
+recomputes each path, and memory stays bounded."""
 
 _LOOKUP = "lookupTransform"
 

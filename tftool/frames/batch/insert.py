@@ -28,11 +28,11 @@ Flags: TypeAlias = npt.NDArray[np.bool_]
 """One yes or no for each row."""
 
 MOST_LINES = 10
-"""So many refused rows are logged with their reasons; of the others, the number."""
+"""How many refused rows are logged with their reasons; the others are only counted."""
 
 _LEAST = -(2**63)
 
-_BLOCK = 8192  # rows that are looked at together, while the cache holds them
+_BLOCK = 8192  # rows per chunk, so that a chunk fits the processor's cache
 
 
 @dataclass(frozen=True, slots=True, eq=False)

@@ -129,7 +129,7 @@ class MovingEdge:
     __slots__ = ("_buckets", "column", "intervals")
 
     def __init__(self, column: Column, count: int) -> None:
-        """Make a link ready for so many moments."""
+        """Prepare a link for a batch of `count` moments."""
         self.column = column
         k = len(column.stamps)
         self.intervals = (
@@ -160,20 +160,20 @@ Edge: TypeAlias = "MovingEdge | StaticEdge"
 
 
 class _RowAllocator:
-    """Hands out rows of some room, one after the other."""
+    """Hands out rows of a block of memory, one after the other."""
 
     def __init__(self, room: Floats, count: int) -> None:
         self._rows = room[: ROWS * count].reshape(ROWS, count)
         self._taken = 0
 
     def __call__(self, number: int) -> Floats:
-        """The next so many rows, of as many columns as there are moments."""
+        """The next `number` rows, with one column for each moment."""
         self._taken += number
         return self._rows[self._taken - number : self._taken]
 
 
 class _Side:
-    """What came together on the way up from the source, or from the target."""
+    """The product of the links on one side, from the source or from the target upward."""
 
     __slots__ = ("empty", "place", "square", "turn", "unused")
 
@@ -189,12 +189,12 @@ ROWS = 56 + 4 * GROUP
 """How many numbers are kept for each moment of a block."""
 
 
-# So many numbers fill a line of the processor's cache.
+# Doubles in one line of the processor's cache.
 _LINE = 8
 
 
 def blocks(count: int, most: int) -> Iterator[slice]:
-    """Cut so many moments, at least one, into blocks of at most so many: alike but the last."""
+    """Split `count` moments into blocks of equal size, at most `most`; the last may be shorter."""
     size = -(-count // -(-count // most))
     # Rows of whole lines: an operation that crosses them at each step takes longer.
     size += -size % _LINE
@@ -203,7 +203,7 @@ def blocks(count: int, most: int) -> Iterator[slice]:
 
 
 def room(count: int) -> Floats:
-    """Room for blocks of at most so many moments.
+    """Allocate working memory for blocks of at most `count` moments.
 
     In one piece, because the system maps a large one by large pages: it is made and
     reached more quickly than many small ones.
@@ -217,7 +217,7 @@ class BlockArrays:
     """The arrays in which a block of moments is worked on, and what is done in them."""
 
     def __init__(self, room: Floats, count: int) -> None:
-        """Lay out some room for blocks of exactly so many moments."""
+        """Lay out memory from `room` for blocks of exactly `count` moments."""
         self.count = count
         rows = _RowAllocator(room, count)
         self._flags = rows(1)[0].view(np.bool_)[:count]
@@ -313,7 +313,7 @@ class BlockArrays:
         multiply(squares, shares, squares)
         terms = [intervals.terms for intervals in found]
         tan_ratio(squares, ratios, min(terms) and max(terms))
-        # What the turns are long, squared, as their vector part is the tangent.
+        # The squared lengths of these quaternions, whose vector part is the tangent.
         multiply(squares, ratios, squares)
         multiply(squares, ratios, squares)
         add(squares, 1.0, squares)
@@ -356,7 +356,7 @@ class BlockArrays:
         multiply(share, more.T[:3], place.xyz)
         add(place.xyz, some.T[:3], place.xyz)
         if intervals.endless:
-            # No way leads from or to infinity, but a sample is met as it is.
+            # Nothing interpolates from or to infinity, but a sample itself is returned as it is.
             met = np.flatnonzero(share == 0.0)
             place.xyz[:, met] = some[met, :3].T
         intervals.fetch(intervals.starts, index, some)

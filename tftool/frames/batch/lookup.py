@@ -23,12 +23,12 @@ if IS_NATIVE:
     from tftool.frames import _kernel
 
 CHUNK = 1 << 16
-"""So many rows are looked at together; what a batch needs beyond its answers grows with it."""
+"""Rows per chunk; a batch's temporary memory grows with it."""
 
 SECTION = 1 << 18
-"""The same where histories are long: moments in no order are sorted first, so many at a time."""
+"""Rows per chunk for long histories, where moments in no order are sorted first."""
 
-# Of shorter blocks, no thread has much before it must wait for another.
+# In shorter blocks, threads spend their time waiting for each other.
 _LEAST_BLOCK = 1 << 11
 
 # Below this, a second thread costs more than it brings.
@@ -143,7 +143,7 @@ class _Batch:
             if len(column) > kernel.MOST_INTERVALS:
                 self.sorts = True
         self.rows_at_once = SECTION if self.sorts else CHUNK
-        # There the intervals are worked out anew for each block, which takes room as well.
+        # There the intervals are recomputed for each block, which needs memory as well.
         self.block = kernel.BLOCK // 2 if self.sorts else kernel.BLOCK
         self.ready: dict[int, kernel.Edge] = {}
         self.rooms: list[Floats] = []
@@ -161,7 +161,7 @@ class _Batch:
         crowd = max(workers / 2, 1)
         self.block = max(int(self.block / crowd), _LEAST_BLOCK)
         most = max(int(self.rows_at_once / crowd), self.block)
-        # Alike, so that no thread is left with more than the others.
+        # Of equal size, so that no thread is left with more than the others.
         pieces = -(-n // (most * workers)) * workers
         self.rows_at_once = -(-n // pieces) if pieces else 1
         starts = range(0, n, self.rows_at_once)
@@ -289,7 +289,7 @@ class _Batch:
         return tuple(found)
 
     def room(self) -> Floats:
-        """Some that no thread works in."""
+        """Arrays that no thread uses at the moment."""
         try:
             return self.rooms.pop()
         except IndexError:
@@ -313,7 +313,7 @@ class _Batch:
         return ready
 
     def fill_latest(self, rows: Indices) -> None:
-        """Answer the rows that ask for the latest: all alike."""
+        """Answer the rows that ask for the latest; all get the same answer."""
         if not len(rows):
             return
         if self.latest is None:
@@ -350,7 +350,7 @@ def _paths_by_moment(
     share one walk. Indices that no path is given for are refused.
     """
     marks = _marks(tree, columns, (target, source))
-    # Odd on a mark, even between two.
+    # Odd numbers are marks, even numbers the spans between two.
     interval = np.searchsorted(marks, times, "left") + np.searchsorted(marks, times, "right")
     found, first, member = np.unique(interval, return_index=True, return_inverse=True)
     paths: dict[tuple[tuple[int, ...], tuple[int, ...]], Path] = {}
