@@ -60,7 +60,7 @@ class RecordingOptions:
     """What the command line says about how a recording is read.
 
     Attributes:
-        no_cache: Whether its columns are read anew, and not kept.
+        no_cache: Whether its columns are read again, and not kept.
         with_odometry: Whether odometry and poses count as transforms.
     """
 

@@ -111,7 +111,7 @@ class FoldedLog:
             tell_record(record)
 
     def end(self) -> None:
-        """Say how many lines were not shown, and begin anew."""
+        """Say how many lines were not shown, and start counting again."""
         for first, more in () if self._whole else self._more.values():
             if more:
                 text = visible(first.text.splitlines()[0] if first.text else "")

@@ -29,7 +29,7 @@ LISTENING = seconds(10)
 """How long a command listens to a live session before it judges or writes what it heard."""
 
 FIRST_STAMP = 100_000_000
-"""From so many seconds on a moment is a stamp; below, it counts from the beginning."""
+"""In seconds: a moment from here on is a stamp; a smaller one counts from the beginning."""
 
 _FRACTION = re.compile(r"[.,](\d+)")
 

@@ -168,7 +168,7 @@ class Display:
             tell_record(record)
 
     def draw(self) -> None:
-        """Draw the line anew."""
+        """Redraw the line."""
         if not self._is_terminal:
             return
         player = self._player

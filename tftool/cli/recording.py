@@ -97,7 +97,7 @@ class RecordingRun:
         return next(iter(diagnosis.findings), None)
 
     def _draw(self, now: Stamp) -> None:
-        """Draw the line anew, if stderr is a terminal."""
+        """Redraw the line, if stderr is a terminal."""
         if not self._is_terminal:
             return
         then, count = self._before

@@ -68,7 +68,7 @@ def require_descriptors() -> None:
 
 
 def has_no_reader() -> bool:
-    """Whether stdout is a pipe that nobody reads any more."""
+    """Whether stdout is a pipe whose reader has gone."""
     import select
 
     if not hasattr(select, "poll"):

@@ -70,7 +70,7 @@ class TopicFeed:
         self._read_to: Stamp | None = 0
 
     def seek(self, moment: Stamp) -> None:
-        """Go on from a moment: the file is read anew."""
+        """Continue from a moment; the file is read again."""
         self._messages = self._source.messages(self.topics) if self.topics else iter(())
         self._waiting.clear()
         self._bytes, self._read_to = 0, 0

@@ -15,7 +15,7 @@ CLIENT: Final = "client"
 KINDS: Final = (NODE, PUBLISHER, SUBSCRIPTION, SERVER, CLIENT)
 
 MOST: Final = 20_000
-"""Entries that are kept; what strangers show on top of that is passed over."""
+"""How many entries are kept; what other processes announce beyond that is ignored."""
 
 MOST_DOMAINS: Final = 100
 """Other domains that are remembered, to say so once of each."""

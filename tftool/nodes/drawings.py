@@ -16,7 +16,7 @@ from tftool.runtime.node import Node
 SERVICE: Final = "_drawing"
 
 MOST_STROKES: Final = 2000
-"""In one answer; the next one has the next."""
+"""Strokes in one answer; the next answer continues there."""
 
 INTERFACES.add(
     "tftool_interfaces",

@@ -24,7 +24,7 @@ SILENT: Final = seconds(1)
 """A turtle that sends no pose for so long is gone, or its simulator is."""
 
 MOST: Final = 50
-"""So many turtles are listened to: each sends 62 poses a second."""
+"""How many turtles are subscribed to at most: each sends 62 poses a second."""
 
 PERIOD: Final = seconds(0.05)
 """How often the simulator is asked for new strokes while a turtle moves."""

@@ -81,7 +81,7 @@ class IdleDrawing(Node):
             self._send(self._steer(pose))
 
     def touch(self) -> None:
-        """Somebody is there: stop, and wait anew."""
+        """Stop because a person or a process is there, and restart the wait."""
         self._since = self.clock.now()
         if self.is_drawing:
             self.is_drawing = False

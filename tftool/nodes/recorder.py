@@ -193,7 +193,7 @@ class Recorder:
         self._guarded(put)
 
     def _guarded(self, put: Callable[[], None]) -> None:
-        """Keep a failure for who asks next: listeners' own ones are only reported."""
+        """Keep a failure for the next call: an exception in a listener is only reported."""
         if self._failure is not None:
             return
         try:

@@ -78,7 +78,7 @@ class Teleop(Node):
     """Turn keys into commands for a turtle; one press is one message.
 
     Keys come from `press` and from the topic `keys`. Stopping is the simulator's
-    timeout. Parameters, read anew at every press: scale_linear, scale_angular.
+    timeout. Parameters, read at every press: scale_linear, scale_angular.
     """
 
     def __init__(

@@ -130,7 +130,7 @@ class Turtle:
         self._teleports.append(where)
 
     def set_pen(self, color: Color, width: int, off: bool) -> None:
-        """Lift the pen, or put it down anew; width 0 means one pixel."""
+        """Lift the pen, or put it down with other settings; width 0 means one pixel."""
         self.pen_on = not off
         if not off:
             self.color, self.width = color, max(width, 1)

@@ -12,7 +12,8 @@ if TYPE_CHECKING:
     from tftool.runtime.world import World
 
 KEPT: Final = 100
-"""Goals of an action under way or, for who asks late, ended; beyond that none is taken."""
+"""Goals kept for each action, running ones and, for late requests, ended ones; beyond this
+number of running goals a new one is refused."""
 
 CANCEL_GOAL: Final = "action_msgs/srv/CancelGoal"
 STATUS: Final = "action_msgs/msg/GoalStatusArray"

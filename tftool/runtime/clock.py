@@ -88,7 +88,7 @@ class Clock(ABC):
 
     @abstractmethod
     def real_timer(self, patience: float) -> "asyncio.Future[None]":
-        """A future that is done after so many real seconds; cancel it to give it up."""
+        """A future that is done after `patience` real seconds; cancel it to give it up."""
 
     async def wait_for_end(
         self, tasks: "Collection[asyncio.Task[Any]]"
@@ -189,7 +189,7 @@ class SimClock(Clock):
             self.stopper.limit(None, None if until is None else STANDSTILL)
 
     def real_timer(self, patience: float) -> "asyncio.Future[None]":
-        """A future that is done after so many real seconds, however much is simulated in them."""
+        """A future that is done after `patience` real seconds, however much is simulated."""
         loop = asyncio.get_running_loop()
         future: asyncio.Future[None] = loop.create_future()
 
@@ -285,7 +285,7 @@ class WallClock(Clock):
     def timer(
         self, stamp: Stamp, phase: Phase = Phase.CONSUME, rank: int = 0
     ) -> "asyncio.Future[None]":
-        """A future that is done at `stamp`; the alarm is set anew if that is the earliest."""
+        """A future that is done at `stamp`; the alarm is reset if that is the earliest."""
         future = super().timer(stamp, phase, rank)
         if self._waiters[0][4] is future:
             self._set_alarm()
@@ -299,7 +299,7 @@ class WallClock(Clock):
             self.stopper.limit(None if wait is None or wait > 1e9 else max(wait, 0.0))
 
     def real_timer(self, patience: float) -> "asyncio.Future[None]":
-        """A future that is done after so many real seconds, whatever the rate."""
+        """A future that is done after `patience` real seconds, whatever the rate."""
         loop = asyncio.get_running_loop()
         future: asyncio.Future[None] = loop.create_future()
         alarm = loop.call_later(patience, _set, future)

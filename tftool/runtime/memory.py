@@ -61,7 +61,7 @@ class MemoryBound:
         self._said: set[str] = set()
 
     def note(self, samples: int) -> None:
-        """Note that so many samples came in; now and then it is looked how much they take."""
+        """Count `samples` more; now and then, check how much memory all of them take."""
         self._unseen += samples
         if self._unseen >= EVERY:
             self._unseen = 0

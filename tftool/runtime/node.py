@@ -96,7 +96,7 @@ class Node(Resident):
         slipped = False
         while True:
             await self.clock.sleep_until(due, self.phase, self.rank)
-            # A clock that others set may have fallen back meanwhile: the grid begins anew there.
+            # A clock set from outside may have fallen back meanwhile: the grid restarts there.
             due = min(due, self.clock.now())
             missed = (self.clock.now() - due) // period
             if missed > CATCH_UP:

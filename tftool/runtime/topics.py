@@ -246,7 +246,7 @@ class GoalHandle:
         """Ask the server to stop.
 
         Does nothing once the goal has ended, or while a cancellation is considered or accepted;
-        a server that refused is asked anew.
+        a server that refused is asked again.
         """
         considered = self._cancellation is not None and not self._cancellation.done()
         if self.done or self.cancel_requested or considered:

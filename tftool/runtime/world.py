@@ -81,7 +81,7 @@ class TopicPublisher(Generic[T]):
         self._topic: Topic[Any] | None = None
 
     def publish(self, value: T) -> None:
-        """Publish a value, on a topic that is made anew where it was removed meanwhile."""
+        """Publish a value; a topic that was removed meanwhile is created again."""
         door = self._door
         if door is None or self._topic is None or self._topic.is_removed:
             door = self._open()
@@ -698,7 +698,7 @@ class World:
         self._supervisor = supervision
 
     def _log_buffer(self, level: str, text: str) -> None:
-        # A node that sends what is refused does so many times a second.
+        # A node whose samples are refused usually sends them at a high rate.
         kind = text.partition(" because ")[0].partition(" at time ")[0]
         if kind not in self._refused and len(self._refused) >= MOST_REFUSALS:
             self._refused.clear()

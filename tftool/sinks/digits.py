@@ -19,7 +19,7 @@ DECIMALS: Final = 9
 """How many decimals the fast way writes: nanometres, nanoseconds."""
 
 FULL: Final = 17
-"""With so many decimals a number is written as short as it can be read back."""
+"""From this many decimals on, a number is written as the shortest text that reads back to it."""
 
 BLOCK: Final = 4096
 """Rows that are written at once: their text stays in the processor's cache."""

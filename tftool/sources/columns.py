@@ -93,7 +93,7 @@ class _Column:
         self.count = 0
 
     def room(self, count: int, share: float = 1.0) -> npt.NDArray[Any]:
-        """So many rows more, to be written.
+        """Append rows to be written.
 
         Args:
             count: How many.

@@ -171,7 +171,7 @@ class File:
         self.read = 0
 
     def at(self, place: int, count: int) -> bytes:
-        """So many bytes from a place on.
+        """Read `count` bytes from a place on.
 
         Raises:
             InputError: If the file does not have them.
@@ -210,7 +210,7 @@ class File:
         return self._file.fileno()
 
     def up_to(self, place: int, count: int) -> bytes:
-        """At most so many bytes from a place on; fewer at the end of the file."""
+        """Read at most `count` bytes from a place on; fewer at the end of the file."""
         return self.at(place, max(0, min(count, self.size - place)))
 
     def close(self) -> None:

@@ -197,7 +197,7 @@ class Progress(Protocol):
     """Is told how far reading has come."""
 
     def __call__(self, done: int, total: int) -> None:
-        """So many bytes of so many are read."""
+        """Report that `done` of `total` bytes are read."""
 
 
 class Source(Protocol):

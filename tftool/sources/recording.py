@@ -170,7 +170,7 @@ class Recording:
         found = None if self._kept is None else self._kept.load()
         if found is None:
             found = self._readable.transforms(progress=self._progress)
-            # What was damaged is read anew, and told again.
+            # A damaged file is read again, and its damage reported again.
             if self._kept is not None and not self.source.damage and not found.damage:
                 self._kept.store(found)
         topics = self.odometry

@@ -97,7 +97,7 @@ class Ink:
 
 
 class LooseInk(Ink):
-    """Dots drawn anew at every look: only the cells with dots in them are kept.
+    """Dots that are redrawn at every look: only the cells with dots in them are kept.
 
     Attributes:
         marks: By row and column, the dots of a cell and the colour drawn there last.

@@ -48,7 +48,7 @@ MOST_NAMED: Final = 80
 """Of more frames, only the first have their names beside them."""
 
 MOST_TURNING: Final = 1500
-"""Of a drawing that moves, so many strokes are drawn: all of them are new at every look."""
+"""How many strokes of a moving drawing are drawn: each of them is redrawn at every look."""
 
 WITH_SCALE: Final = (26, 9)
 """Columns and rows from which the grid's metres stand at its sides."""
@@ -115,7 +115,7 @@ class Canvas:
         self._palette = palette
         self._paper = paper(palette)
         self._field_colors: PaperColors | None = None
-        # No view is like it: the first one begins anew.
+        # Equal to no view, so that the first one starts from scratch.
         self._view = Viewport(0.0, 0.0, 0.0)
         self._placer = Placer(self.columns, self.rows)
 
@@ -145,7 +145,7 @@ class Canvas:
     # What stays from look to look
 
     def _fresh(self, view: Viewport) -> None:
-        """Begin anew with another part of the plane."""
+        """Start again with another part of the plane."""
         self._view = view
         self._wide, self._high = 0.5 * view.per_row * self.columns, view.per_row * self.rows
         self._pen, self._pen_ink = _Pens(), self._new_ink()
@@ -195,7 +195,7 @@ class Canvas:
                 self._inside[row] = first, min(self.columns, math.floor(ends[1] + 0.5))
 
     def _follow(self, picture: PlanePicture) -> None:
-        """Draw what the trails have grown by; begin anew where they are others, or shorter."""
+        """Draw what was appended to the trails; start again where they changed or got shorter."""
         field = picture.field
         if field is not None:
             moved = (field.x, field.y, field.theta)
@@ -215,7 +215,7 @@ class Canvas:
         if moves or total < pens.done or is_cut:
             ink, first = self._new_ink(), 0
             self._kept = [None] * self.rows
-            # On a sheet that moves from look to look all of it is drawn anew every time.
+            # On a sheet that moves from look to look everything is redrawn every time.
             is_cut = moves and pens.is_new and len(drawn.strokes) > MOST_TURNING
             first = len(drawn.strokes) - MOST_TURNING if is_cut else 0
         turned = field is not None and (field.x, field.y, field.theta) != (0.0, 0.0, 0.0)
@@ -356,7 +356,7 @@ class Canvas:
         return kept.line
 
     def _base(self, row: int) -> "_KeptRow":
-        """A row of all that stays, composed anew only where a trail grew."""
+        """A row of everything static, recomposed only where a trail grew."""
         ground = None if self._field_colors is None else self._field_colors.ground
         state = (
             self._pen_ink.revisions[row],

@@ -8,7 +8,7 @@ from rich.cells import cell_len
 from tftool.messages import Color
 
 FARTHEST_ROWS = 7
-"""So many rows away from its frame a name may stand; then a line leads to it."""
+"""How many rows away from its frame a label may stand; then a line leads to it."""
 
 
 @dataclass(frozen=True, slots=True)

@@ -23,7 +23,7 @@ if TYPE_CHECKING:
 
 
 def misplaced(words: Sequence[str], own: Collection[str]) -> list[str]:
-    """What to tell who seems to mean this command, or ROS 2, by a word the node is given.
+    """Hints about words for the node that look like options of this command, or of ROS 2.
 
     Args:
         words: What stands after FILE.

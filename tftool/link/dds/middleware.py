@@ -348,7 +348,7 @@ class _Claim:
 
 
 class _Listening:
-    """What listens to a topic: a reader, which is made anew where it asked for too much."""
+    """The reader of a topic; created again with lower QoS where it requested too much."""
 
     def __init__(
         self,

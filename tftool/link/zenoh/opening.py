@@ -164,7 +164,7 @@ def _no_answer_at(reach: Reach) -> str:
 
 
 def _await(condition: Callable[[], bool], patience: float) -> bool:
-    """Look until something holds, for so many seconds at most; say whether it does."""
+    """Poll until a condition holds, for `patience` seconds at most; return whether it does."""
     clock, pause = WallClock(), threading.Event()
     # Measured, not counted: a look takes as long as those take who are asked.
     while not (held := condition()) and clock.elapsed() < seconds(patience):

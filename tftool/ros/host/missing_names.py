@@ -7,7 +7,7 @@ from tftool.near_names import near_names
 from tftool.ros.host import import_table
 
 FEW = 12
-"""So many names are told in a sentence; more would hide what it says."""
+"""How many names a sentence lists; more would hide what it says."""
 
 WHERE_TO_LOOK = (
     "the page 'What of ROS is covered' in tftool's docs lists what runs without ROS; "

@@ -302,7 +302,7 @@ class Launch(Node):
         self._start_task(work(), self._watches)
 
     def later(self, action: Any, period: float, actions: Sequence[Any]) -> None:
-        """Carry actions out after so many seconds, in the scope of now; `action` asks for it."""
+        """Carry actions out after `period` seconds, in the present scope; `action` asks for it."""
         kept = self.context.kept()
 
         async def wait() -> None:
@@ -447,7 +447,7 @@ class Launch(Node):
             self._program_ended(action, label, node)
 
     def _program_ended(self, action: Any, label: str, ended: Program) -> None:
-        # Its name is free again: it may be started anew.
+        # Its name is free: it may be started again.
         self.world.remove(ended)
         reason = "" if ended.failure is None else error_sentence(ended.failure)
         if isinstance(ended.failure, SystemExit):

@@ -122,7 +122,7 @@ class Cache(SimpleFilter):
 
 
 class TimeSynchronizer(SimpleFilter):
-    """Hands on sets of messages with equal stamps, one of each filter."""
+    """Passes on sets of messages with equal stamps, one of each filter."""
 
     def __init__(self, fs: Sequence[SimpleFilter], queue_size: int) -> None:
         super().__init__()
@@ -154,7 +154,7 @@ class TimeSynchronizer(SimpleFilter):
 
 
 class ApproximateTimeSynchronizer(TimeSynchronizer):
-    """Hands on sets of messages whose stamps lie less than `slop` seconds apart."""
+    """Passes on sets of messages whose stamps lie less than `slop` seconds apart."""
 
     def __init__(
         self,

@@ -287,7 +287,7 @@ class NodeParameters:
             after(changes)
 
     def set_descriptor(self, name: str, descriptor: Any, alternative_value: Any = None) -> Any:
-        """Describe a declared parameter anew; its name and type stay.
+        """Replace the descriptor of a declared parameter; its name and type stay.
 
         Args:
             name: The parameter.

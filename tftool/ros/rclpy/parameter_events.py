@@ -44,7 +44,7 @@ def teller(seat: NodeSeat) -> Callable[..., None]:
 
 @dataclass(eq=False, slots=True)
 class ParameterCallbackHandle:
-    """Who wants to hear of one parameter of one node."""
+    """The handle of a callback for one parameter of one node."""
 
     parameter_name: str
     node_name: str
@@ -53,7 +53,7 @@ class ParameterCallbackHandle:
 
 @dataclass(eq=False, slots=True)
 class ParameterEventCallbackHandle:
-    """Who wants to hear of every event."""
+    """The handle of a callback for every event."""
 
     callback: Callable[[Any], object]
 

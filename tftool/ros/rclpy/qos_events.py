@@ -134,7 +134,7 @@ class Silence:
             self._timer.cancel()
 
     def _wait(self, limit: int) -> None:
-        # Not made anew with every sign, of which there may be thousands: looked at when it ends.
+        # Not restarted at each sign of life, of which there may be thousands: checked at its end.
         clock = self._seat.program.clock
         self._timer = clock.timer(self._last + limit, Phase.WATCH)
         self._timer.add_done_callback(lambda timer: self._look(timer, limit))

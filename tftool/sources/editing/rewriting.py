@@ -1,4 +1,4 @@
-"""A recording written anew with changes: what they do not touch stays as it was, byte for byte.
+"""A recording rewritten with changes: what they do not touch stays as it was, byte for byte.
 
 Every piece is read once, copied where it may be, else taken apart and changed. Then the result
 is opened, and all of it compared with what was to be written. Only then it gets its name.
@@ -69,7 +69,7 @@ def edit(
     dry_run: bool = False,
     progress: Progress | None = None,
 ) -> EditReport:
-    """Write recordings anew, as one, with changes.
+    """Rewrite recordings as one, with changes.
 
     Args:
         names: The recordings: files or folders; several are joined.
