@@ -387,6 +387,15 @@ def test_lengths_that_no_batch_has_are_survived(data):
     assert missing is None or 0 <= missing <= n
 
 
+def test_no_moments_may_lie_anywhere():
+    from tftool.frames import _kernel
+
+    # From Python 3.13 on, an empty bytearray does.
+    nothing = memoryview(bytearray(16))
+
+    assert [_kernel.solve((), (), *[nothing[k:k]] * 4) for k in range(9)] == [0] * 9
+
+
 @pytest.mark.parametrize("arguments", [(), (1,), (1, 2, 3, 4), ({}, 1, 2, 3, 4, 5, 6)])
 def test_wrong_arguments_of_a_batch_are_told(arguments):
     from tftool.frames import _kernel

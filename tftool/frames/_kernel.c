@@ -763,7 +763,8 @@ static PyObject *solve(PyObject *module, PyObject *args) {
     const Py_ssize_t rows = views[0].len / sizes[0];
     int fits = 1;
     for (int i = 0; i < 4; i++)
-        fits &= views[i].len == rows * sizes[i] && (i == 3 || (uintptr_t)views[i].buf % 8 == 0);
+        fits &= views[i].len == rows * sizes[i]
+            && (i == 3 || rows == 0 || (uintptr_t)views[i].buf % 8 == 0);
     if (!fits)
         PyErr_SetString(PyExc_ValueError, "moments, translations, rotations and valid are "
             "aligned rows of 8, 24, 32 and 1 bytes, of each equally many");
