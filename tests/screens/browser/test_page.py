@@ -299,6 +299,8 @@ def test_numbers_stand_in_one_line_each_and_panels_keep_clear_of_the_bars(
         for panel in (left, right):
             if panel["width"]:
                 assert bar["bottom"] <= panel["top"] < panel["bottom"] <= time["top"]
+        # What the plot says of its lines and of its height stands in one line, side by side.
+        assert chromium.execute_script(box, "line")["width"] > 500
     finally:
         chromium.execute_cdp_cmd("Emulation.clearDeviceMetricsOverride", {})
 
