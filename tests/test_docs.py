@@ -23,7 +23,7 @@ def named(page):
     return str(page.relative_to(ROOT))
 
 
-FILE = re.compile(r"# [\w./-]+\.(py|yaml)\n")
+FILE = re.compile(r"(?:# |<!-- )([\w./-]+\.(?:py|yaml|urdf))(?: -->)?\n")
 """The first line of a block that is a file: its name."""
 
 EXCERPT = re.compile(r"^<!-- From (\S+)\. -->\n```\w+\n(.*?)^```$", re.MULTILINE | re.DOTALL)
@@ -53,8 +53,8 @@ def test_a_page_can_be_followed_line_by_line(page, tmp_path, monkeypatch):
             follow(text)
         elif kind == "text" and previous is not None:
             assert said_by(previous) == text
-        elif FILE.fullmatch(first + "\n"):
-            (tmp_path / first[2:]).write_text(text, encoding="utf-8")
+        elif named_file := FILE.fullmatch(first + "\n"):
+            (tmp_path / named_file[1]).write_text(text, encoding="utf-8")
         previous = text if kind == "python" and not FILE.match(text) else None
 
 
