@@ -30,19 +30,19 @@ from tftool.sources.rosbag1_records import (
     CHUNK_INFO,
     CONNECTION,
     INDEX,
+    LARGEST_INDEX,
     MESSAGE,
     U32,
-    U64,
     Entries,
+    chunk_info,
     fields_of,
+    index_of,
     indexed,
     reason_of,
     record_head,
     records_in,
     time_of,
 )
-
-_LARGEST_INDEX = 1 << 30
 
 
 @dataclass(slots=True, eq=False)
@@ -116,30 +116,21 @@ class Rosbag1:
 
     def _read_index(self) -> bool:
         """Take what the index at the end tells; whether there is one."""
-        header, _, _ = record_head(self._file, len(ROS1_MAGIC))
-        if header.get(b"op") != BAG:
-            raise InputError("the bag's own header is missing")
-        (place,) = U64.unpack(header[b"index_pos"])
-        (chunks,) = U32.unpack(header[b"chunk_count"])
+        bag, place, data = index_of(self._file)
+        (chunks,) = U32.unpack(bag[b"chunk_count"])
         if place == 0:
             self.damage.append("The recording was not closed.")
             return False
-        if place > self.size or self.size - place > _LARGEST_INDEX:
-            raise InputError(f"it should begin at byte {place} of {self.size}")
-        data = self._file.at(place, self.size - place)
         low, high = 2**62, 0
         for header, first, last in records_in(data):
             code = header.get(b"op")
             if code == CONNECTION:
                 self._take_connection(header, data[first:last])
             elif code == CHUNK_INFO:
-                (position,) = U64.unpack(header[b"chunk_pos"])
-                pairs = struct.iter_unpack("<II", data[first : first + (last - first) // 8 * 8])
-                chunk = _Chunk(position, dict(pairs))
-                self._chunks.append(chunk)
-                if chunk.counts:
-                    low = min(low, time_of(header[b"start_time"]))
-                    high = max(high, time_of(header[b"end_time"]))
+                info = chunk_info(header, data[first:last])
+                self._chunks.append(_Chunk(info.position, info.counts))
+                if info.counts:
+                    low, high = min(low, info.start), max(high, info.end)
         if len(self._chunks) != chunks:
             raise InputError(f"it names {len(self._chunks)} chunks of {chunks}")
         if any(chunk.position >= place for chunk in self._chunks):
@@ -307,7 +298,7 @@ class Rosbag1:
         """The index records behind a chunk: chosen connections with messages, and what is told."""
         position = chunk.place + chunk.packed
         expected = len(chunk.counts) * 64 + 12 * sum(chunk.counts.values()) + 64
-        data = self._file.up_to(position, min(expected, _LARGEST_INDEX))
+        data = self._file.up_to(position, min(expected, LARGEST_INDEX))
         found = []
         missing = set(chunk.counts)
         for header, first, last in records_in(data, partial=True):

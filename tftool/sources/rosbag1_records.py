@@ -5,7 +5,7 @@ Source: wiki.ros.org/Bags/Format/2.0.
 
 import struct
 from collections.abc import Iterator
-from typing import Final, TypeAlias
+from typing import Final, NamedTuple, TypeAlias
 
 import numpy as np
 import numpy.typing as npt
@@ -14,6 +14,7 @@ from tftool.errors import InputError
 from tftool.sources.columns import words_at
 from tftool.sources.container import File
 from tftool.sources.contract import Stamps
+from tftool.sources.find import ROS1_MAGIC
 from tftool.stamps import NANOSECONDS, Stamp
 from tftool.wire.native import SCAN
 from tftool.wire.rows import Bytes
@@ -27,6 +28,9 @@ INDEX: Final = b"\x04"
 CHUNK: Final = b"\x05"
 CHUNK_INFO: Final = b"\x06"
 CONNECTION: Final = b"\x07"
+
+LARGEST_INDEX: Final = 1 << 30
+"""Bytes of an index that are read at most."""
 
 U32: Final = struct.Struct("<I")
 U64: Final = struct.Struct("<Q")
@@ -51,6 +55,47 @@ def record_head(file: File, position: int) -> tuple[dict[bytes, bytes], int, int
         block = file.at(position, length + 8)
     (size,) = U32.unpack_from(block, 4 + length)
     return fields_of(block[4 : 4 + length]), position + 8 + length, size
+
+
+class ChunkInfo(NamedTuple):
+    """What a bag's index tells of a chunk: where it begins, its times, messages by connection."""
+
+    position: int
+    start: Stamp
+    end: Stamp
+    counts: dict[int, int]
+
+
+def index_of(file: File) -> tuple[dict[bytes, bytes], int, bytes]:
+    """A bag's own header, where its index begins, and the index; 0 and b"" if it has none.
+
+    Raises:
+        InputError: If the header is missing, or the index lies elsewhere than in the file.
+        KeyError: If the header lacks a field.
+        struct.error: If a field of it is cut.
+    """
+    header, _, _ = record_head(file, len(ROS1_MAGIC))
+    if header.get(b"op") != BAG:
+        raise InputError("the bag's own header is missing")
+    (place,) = U64.unpack(header[b"index_pos"])
+    if place == 0:
+        return header, 0, b""
+    if place > file.size or file.size - place > LARGEST_INDEX:
+        raise InputError(f"it should begin at byte {place} of {file.size}")
+    return header, place, file.at(place, file.size - place)
+
+
+def chunk_info(header: dict[bytes, bytes], data: bytes) -> ChunkInfo:
+    """Read a chunk info record.
+
+    Raises:
+        KeyError: If its header lacks a field.
+        struct.error: If a field of it is cut.
+    """
+    (position,) = U64.unpack(header[b"chunk_pos"])
+    start, end = time_of(header[b"start_time"]), time_of(header[b"end_time"])
+    pairs = struct.iter_unpack("<II", data[: len(data) // 8 * 8])
+    return ChunkInfo(position, start, end, dict(pairs))
 
 
 def indexed(data: Bytes, entries: Entries, connection: int) -> tuple[Stamps, Stamps, Stamps]:

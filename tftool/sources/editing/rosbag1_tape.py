@@ -3,7 +3,7 @@
 import struct
 from collections.abc import Iterator, Mapping
 from pathlib import Path
-from typing import Any, Final
+from typing import Any
 
 from tftool.errors import InputError
 from tftool.sources.compressed import unpack, unpack_beginning
@@ -19,8 +19,10 @@ from tftool.sources.rosbag1_records import (
     INDEX,
     MESSAGE,
     U32,
-    U64,
+    ChunkInfo,
+    chunk_info,
     fields_of,
+    index_of,
     reason_of,
     record_head,
     records_in,
@@ -28,8 +30,6 @@ from tftool.sources.rosbag1_records import (
 )
 from tftool.sources.writing.channel import Channel
 from tftool.stamps import Stamp
-
-_LARGEST_INDEX: Final = 1 << 30
 
 
 class Rosbag1Tape:
@@ -56,7 +56,7 @@ class Rosbag1Tape:
         self.extras = Extras()
         self.damage = self.file.damage
         self.style: dict[str, Any] = {"compression": "none", "chunk_size": 0}
-        self._infos: dict[int, tuple[int, int, dict[int, int]]] = {}
+        self._infos: dict[int, ChunkInfo] = {}
         if self.file.up_to(0, len(ROS1_MAGIC)) != ROS1_MAGIC:
             self.close()
             raise InputError(f"'{path}' is no ROS 1 bag.")
@@ -71,25 +71,17 @@ class Rosbag1Tape:
         self.file.close()
 
     def _read_index(self) -> None:
-        header, _, _ = record_head(self.file, len(ROS1_MAGIC))
-        if header.get(b"op") != BAG:
-            raise InputError("the bag's own header is missing")
-        (place,) = U64.unpack(header[b"index_pos"])
-        if not place:
+        _, place, data = index_of(self.file)
+        if place == 0:
             self.damage.append("The recording was not closed.")
             return
-        if place > self.size or self.size - place > _LARGEST_INDEX:
-            raise InputError(f"it should begin at byte {place} of {self.size}")
-        data = self.file.at(place, self.size - place)
         for header, first, last in records_in(data):
             code = header.get(b"op")
             if code == CONNECTION:
                 self.learn(header, data[first:last])
             elif code == CHUNK_INFO:
-                (position,) = U64.unpack(header[b"chunk_pos"])
-                pairs = struct.iter_unpack("<II", data[first : first + (last - first) // 8 * 8])
-                times = time_of(header[b"start_time"]), time_of(header[b"end_time"])
-                self._infos[position] = (*times, dict(pairs))
+                info = chunk_info(header, data[first:last])
+                self._infos[info.position] = info
         if self._infos:
             # How it is written shows in its first chunk.
             position = min(self._infos)
@@ -174,8 +166,8 @@ class Rosbag1Tape:
         chunk.behind = position
         info = self._infos.get(chunk.position)
         known = counts.keys() <= self.channels.keys()
-        if info is not None and known and info[2] == counts:
-            chunk.start, chunk.end, chunk.channels = info
+        if info is not None and known and info.counts == counts:
+            chunk.start, chunk.end, chunk.channels = info.start, info.end, counts
             chunk.whole = True
         return position
 
