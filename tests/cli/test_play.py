@@ -10,7 +10,7 @@ pytest.importorskip("zstandard", reason="the extra 'recordings' is not installed
 
 from tests.sources.writers import content, write_mcap
 from tests.terminals import Terminal
-from tftool.cli.playing import keys_in
+from tftool.cli.keypresses import keys_in
 
 
 @pytest.fixture

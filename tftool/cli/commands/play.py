@@ -163,7 +163,8 @@ class _Playing:
 
     async def play(self, pace: "Clock", link: "Link | None") -> None:
         """Play, and share it."""
-        from tftool.cli.playing import Display, keyboard, press
+        from tftool.cli.keypresses import keyboard
+        from tftool.cli.playing import Display, press
         from tftool.cli.session import shared
         from tftool.runtime.clock import FollowedClock
         from tftool.runtime.supervisor import beside, live
