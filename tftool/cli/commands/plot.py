@@ -80,8 +80,8 @@ def plot(
     """Plot where SOURCE is in TARGET over time, in the terminal or as a picture.
 
     Position, roll pitch yaw, distance, speed and turn rate; where a lookup refuses, the span
-    is shaded and the reason is told. A session that runs is drawn live; a recording or a
-    scenario as a whole. Times are seconds since the start of FROM.
+    is shaded and the reason is told. A session that runs is drawn live, until q; a recording
+    or a scenario as a whole. Times are seconds since the start of FROM.
 
     tftool plot turtle2 turtle1
     tftool plot map base_link run.mcap --only x,y,yaw --from 5 --to 20
@@ -215,11 +215,12 @@ def _live(
     window: Duration,
     lasting: Duration | None,
 ) -> None:
-    """Draw a session as it goes on, until it is stopped."""
+    """Draw a session as it goes on, until q is pressed or it is stopped."""
     from rich.console import Console
     from rich.live import Live
 
     from tftool.cli.hosting import open_session
+    from tftool.cli.keypresses import keyboard
     from tftool.runtime.clock import Phase
     from tftool.runtime.stopping import leave_screen
 
@@ -229,14 +230,21 @@ def _live(
     world.clock.when_killed.add(leave_screen, "screen")
     start = min(world.clock.now(), world.clock.epoch) or world.clock.now()
 
+    typed: set[str] = set()
+
     async def draw() -> None:
-        with Live(console=console, auto_refresh=False, screen=True) as live:
+        with (
+            keyboard(typed.add) as takes_keys,
+            Live(console=console, auto_refresh=False, screen=True) as live,
+        ):
+            hint = "q quits" if takes_keys else ""
             due = world.clock.now()
             end = None if lasting is None else due + lasting
             world.clock.limit(end)
-            while end is None or due <= end:
-                text = _newest(world, pairs, plotted, start, window, console)
-                live.update(text, refresh=True)
+            while not typed & {"q", "Q"} and (end is None or due <= end):
+                height = console.height - bool(hint)
+                text = _newest(world, pairs, plotted, start, window, console, height)
+                live.update(text.append(hint), refresh=True)
                 due = max(due + seconds(0.2), world.clock.now())
                 await world.clock.sleep_until(due, Phase.WATCH)
 
@@ -250,6 +258,7 @@ def _newest(
     start: Stamp,
     window: Duration,
     console: "Console",
+    height: int,
 ) -> "Text":
     """Draw the last `window` of a world that goes on, or say what it waits for."""
     from rich.text import Text
@@ -271,6 +280,6 @@ def _newest(
             sample(world.buffer, *pair, Moments(begin, arrived(*pair), period)) for pair in pairs
         ]
     except (TransformException, UsageError, InputError) as refusal:
-        return Text(f"Waiting: {refusal}", style="yellow", overflow="fold")
+        return Text(f"Waiting: {refusal}\n", style="yellow", overflow="fold")
     span = as_seconds(begin - start), as_seconds(now - start)
-    return plotted.text(found, start, console, height=console.height, span=span)
+    return plotted.text(found, start, console, height=height, span=span)

@@ -1,4 +1,4 @@
-"""The demo in a real terminal: tmux is one that can be asked what is on it."""
+"""Screens in a real terminal: tmux is one that can be asked what is on it."""
 
 import re
 import shutil
@@ -282,3 +282,11 @@ def test_the_words_of_ros2_for_teleop_drive_too(terminal):
 
     teleop.press("q")
     assert "Reading from keyboard" in teleop.ended(0)
+
+
+def test_q_leaves_a_live_plot_and_gives_the_terminal_back(terminal):
+    plot = terminal(80, 24, "-m", "tftool", "plot", "turtle2", "turtle1", "--host")
+
+    plot.until(lambda screen: "distance, m" in screen and "q quits" in screen, "a plot")
+    plot.press("x", "q")
+    plot.ended(0)
