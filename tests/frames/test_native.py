@@ -191,9 +191,23 @@ def test_a_history_of_many_sizes_keeps_the_same_samples():
         assert ours.poses.tobytes() == plain.poses.tobytes()
 
 
-def test_late_samples_are_put_where_they_belong_while_a_batch_reads():
-    from tftool.frames.batch.columns import Column
+def columns_read(monkeypatch):
+    """What batches of the native package read from now on, kept as one in a thread keeps it."""
+    from tftool.frames.batch import columns
 
+    read = []
+
+    class Kept(columns.Column):
+        def __init__(self, history):
+            super().__init__(history)
+            read.append(self)
+
+    monkeypatch.setattr(columns, "Column", Kept)
+    return read
+
+
+def test_late_samples_are_put_where_they_belong_while_a_batch_reads(monkeypatch):
+    read = columns_read(monkeypatch)
     twins = Twins(seconds(1))
     random = Random(4)
     held = []
@@ -209,7 +223,7 @@ def test_late_samples_are_put_where_they_belong_while_a_batch_reads():
             assert ours.stamps.tolist() == plain.stamps.tolist()
             assert ours.poses.tobytes() == plain.poses.tobytes()
             # Some are read for a while, as by a batch in another thread.
-            column = Column(twins.pair[0]._tree.frames[0].link)
+            column = read[-1]
             held = [*held[-(number % 3) :], (column, column.records.copy())]
         assert all(np.array_equal(column.records, before) for column, before in held)
     assert twins.logs[0] == twins.logs[1] != []
@@ -518,15 +532,15 @@ def test_listeners_and_requests_are_told_of_what_the_kernel_took():
     assert told == [(2, "me"), True]
 
 
-def test_a_batch_and_inserts_go_together():
+def test_a_batch_and_inserts_go_together(monkeypatch):
     # What a batch reads cannot grow; the insert takes a copy, and the batch keeps what it has.
-    from tftool.frames.batch.columns import Column
-
+    read = columns_read(monkeypatch)
     buffer = Buffer(seconds(1))
     pose = Transform((1.0, 0.0, 0.0))
     for number in range(1, 200):
         buffer.set_transform(TransformStamped(number * 10**7, "a", "b", pose))
-    column = Column(buffer._tree.frames[0].link)
+    buffer.samples("b")
+    (column,) = read
     before = column.records.copy()
 
     for number in range(200, 600):

@@ -60,7 +60,7 @@ class MemoryMiddleware:
     def listen(self, name, ros_type, on_message, *, is_latched=False):
         ear = (name, ros_type, on_message)
         self.heard.append(ear)
-        for other in self._others() if is_latched else ():
+        for other in self.others() if is_latched else ():
             for key, kept in getattr(other, "kept", {}).items():
                 if key[0] == name:
                     for arrived in kept:
@@ -88,7 +88,7 @@ class MemoryMiddleware:
         if self.watcher is not None:
             self.call(lambda found: self.watcher.graph_changed(found, there), found)
 
-    def _others(self):
+    def others(self):
         return [one for one in self.members if one is not self]
 
     def _entity(self, kind, node, name, ros_type, quality):
@@ -100,7 +100,7 @@ class MemoryMiddleware:
     def _show(self, found):
         key = f"{self.session}/{next(self.numbers)}"
         self.shown[key] = found
-        for other in self._others():
+        for other in self.others():
             new = other.graph.add(key, found)
             if new is not None:
                 other.report(new, True)
@@ -108,7 +108,7 @@ class MemoryMiddleware:
 
     def _hide(self, key):
         self.shown.pop(key, None)
-        for other in self._others():
+        for other in self.others():
             gone = other.graph.remove(key)
             if gone is not None:
                 other.report(gone, False)
@@ -123,13 +123,13 @@ class Publisher:
 
     @property
     def is_wanted(self):
-        ears = [ear for other in self.middleware._others() for ear in other.heard]
+        ears = [ear for other in self.middleware.others() for ear in other.heard]
         return self.entity.quality.is_latched or any(ear[0] == self.entity.name for ear in ears)
 
     def put(self, payload, stamp):
         arrived = Arrived(payload, self.entity.gid)
         self.kept.append(arrived)
-        for other in self.middleware._others():
+        for other in self.middleware.others():
             for name, _, on_message in other.heard:
                 if name == self.entity.name:
                     other.call(on_message, arrived)
@@ -161,7 +161,7 @@ class Client:
                 is_refusal = isinstance(outcome, Exception)
                 (answer.set_exception if is_refusal else answer.set_result)(outcome)
 
-        for other in self.middleware._others():
+        for other in self.middleware.others():
             if self.entity.name in other.servers:
                 other.call(other.servers[self.entity.name], Request(payload, settle))
                 return await answer

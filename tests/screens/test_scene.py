@@ -342,10 +342,16 @@ def test_the_background_is_the_simulators(turtles):
     assert scene.moment(None, "", "").picture.field.color == Color(1, 86, 255)
 
 
-def test_looking_costs_a_bounded_memory(turtles):
-    scene = turtles(30.0, (), followed=False)
+def test_what_no_moment_can_be_asked_for_any_more_is_forgotten(turtles):
+    def paint(world):
+        world.node("turtlesim").set_parameter("background_r", 1)
 
-    assert len(scene._seen) <= 10 / 0.05 + 2
+    scene = turtles(15.0, (), followed=False, extra=lambda world: At(world, 3, paint))
+
+    # At 2 s it had another colour, but the buffer reaches back to 5 s.
+    long_ago = scene.start + seconds(2)
+    assert scene.oldest() > long_ago
+    assert scene.moment(long_ago, "", "").picture.field.color == Color(1, 86, 255)
 
 
 def test_a_scene_can_begin_before_its_world(turtles):

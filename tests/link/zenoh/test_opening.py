@@ -9,7 +9,8 @@ import sys
 
 import pytest
 
-from tftool.link.options import Options
+from tftool.errors import LinkError
+from tftool.link.options import Options, Reach
 from tftool.link.zenoh import opening
 from tftool.link.zenoh.opening import Opening
 from tftool.link.zenoh.transport import Wire
@@ -92,6 +93,7 @@ def test_a_process_that_is_only_busy_is_waited_for(neighbour, monkeypatch, stopp
 
 def test_a_wait_is_over_at_its_time_however_long_each_look_takes(monkeypatch):
     looks = itertools.count()
+    seen = []
 
     class Slow:
         """Each time it is read, 0.4 s have gone by."""
@@ -99,10 +101,22 @@ def test_a_wait_is_over_at_its_time_however_long_each_look_takes(monkeypatch):
         def elapsed(self):
             return next(looks) * 400_000_000
 
-    monkeypatch.setattr(opening, "WallClock", Slow)
-    seen = []
+    class Deaf(Wire):
+        """Reaches nothing, however often it is asked."""
 
-    assert not opening._await(lambda: seen.append(0) or False, 1.0)
-    assert len(seen) == 4
-    assert opening._await(lambda: True, 0.0)
-    assert not opening._await(lambda: False, 0.0)
+        @property
+        def reached(self):
+            seen.append(0)
+            return frozenset()
+
+    monkeypatch.setattr(opening, "WallClock", Slow)
+    monkeypatch.setattr(opening, "Wire", Deaf)
+    monkeypatch.setattr(opening, "REACHING", 1.0)
+
+    with socket.socket() as mute:
+        mute.bind(("127.0.0.1", 0))
+        there = f"tcp/127.0.0.1:{mute.getsockname()[1]}"
+        with pytest.raises(LinkError, match="no process answers at"):
+            Opening(Options(reach=Reach(connect=(there,))))
+    # One for the neighbours, of whom there are none; the others at 0, 0.4, 0.8 and 1.2 s.
+    assert len(seen) == 1 + 4
