@@ -3,6 +3,7 @@
 import asyncio
 import os
 from collections.abc import Callable, Sequence
+from dataclasses import dataclass
 from typing import TYPE_CHECKING, Final
 
 from tftool.errors import InputError, LinkError
@@ -337,14 +338,14 @@ class DdsMiddleware:
             )
 
 
+@dataclass(frozen=True, slots=True, eq=False)
 class _Claim:
-    """A subscription that a node states."""
+    """A subscription that a node states; each is another one."""
 
-    def __init__(self, node: str, name: str, ros_type: str, quality: Quality) -> None:
-        self.node = node
-        self.name = name
-        self.ros_type = ros_type
-        self.quality = quality
+    node: str
+    name: str
+    ros_type: str
+    quality: Quality
 
 
 class _Listening:
