@@ -1,7 +1,10 @@
-"""Results on stdout: as wide as the terminal, or a line each where there is none."""
+"""Results on stdout, as wide as the terminal or a line each where there is none; and in files."""
 
 import sys
+from pathlib import Path
 from typing import TYPE_CHECKING
+
+from tftool.errors import InputError
 
 if TYPE_CHECKING:
     from rich.console import RenderableType
@@ -10,18 +13,37 @@ LOG_WIDTH = 2000
 """How wide a line gets where there is no terminal to wrap it for."""
 
 
-def write(what: "RenderableType", *, end: str = "\n") -> None:
+def write(what: "RenderableType", *, end: str = "\n", is_wide: bool = True) -> None:
     """Write a renderable to stdout, and `end` after it.
 
-    In a log, which may be searched by line, what is one sentence stays in one.
+    Args:
+        what: What is written.
+        end: What comes after it.
+        is_wide: Whether lines are up to `LOG_WIDTH` long where there is no terminal: in a log,
+            which may be searched by line, what is one sentence stays in one.
     """
     from rich.console import Console
 
     console = Console()
-    if not console.is_terminal:
+    if is_wide and not console.is_terminal:
         console.width = LOG_WIDTH
     # Written by us: rich ends the process with 1 when a reader (`| head`) is gone.
     with console.capture() as captured:
         console.print(what, end=end)
     for line in captured.get().splitlines():
         sys.stdout.write(f"{line.rstrip()}\n")
+
+
+def write_file(path: Path, content: str | bytes) -> None:
+    """Write a file as a whole, a text in UTF-8.
+
+    Raises:
+        InputError: If that fails.
+    """
+    try:
+        if isinstance(content, bytes):
+            path.write_bytes(content)
+        else:
+            path.write_text(content, encoding="utf-8")
+    except OSError as error:
+        raise InputError(f"'{path}' cannot be written: {error.strerror or error}.") from error

@@ -22,9 +22,6 @@ if TYPE_CHECKING:
 
 _IN_PLACE = re.compile(r"([A-Za-z_]\w*)=(.*)", re.DOTALL)
 
-LOG_WIDTH = 2000
-"""How wide a line gets where there is no terminal to wrap it for."""
-
 
 def check(
     scenarios: Annotated[
@@ -91,9 +88,8 @@ def check(
 
     from rich.console import Console
 
-    from tftool.errors import InputError
+    from tftool.cli.printing import write, write_file
     from tftool.views import judgements
-    from tftool.views.escaping import visible
 
     with _judge_of(programs or (), launched, force=force, verbose=verbose) as judge:
         judged = [_judge(word, judge, recordings, own_nodes=launched is None) for word in scenarios]
@@ -101,28 +97,19 @@ def check(
     if for_programs:
         sys.stdout.write(json.dumps(judgements.as_rows(reports), indent=2) + "\n")
     else:
-        console = Console()
-        if not (verbose or console.is_terminal):
-            # A log may be searched by line: what is one sentence stays in one.
-            console.width = LOG_WIDTH
-        if console.is_terminal and sys.stderr.isatty():
+        if Console().is_terminal and sys.stderr.isatty():
             # The terminal has the whole sentence already.
             reports = [
                 report if readable else replace(report, failure="cannot be read")
                 for report, readable in judged
             ]
-        # Written by us: rich ends the process with 1 when a reader (`| head`) is gone.
-        with console.capture() as table:
-            console.print(judgements.render_all(reports) if verbose else judgements.render(reports))
-        for line in table.get().splitlines():
-            sys.stdout.write(f"{line.rstrip()}\n")
+        write(
+            judgements.render_all(reports) if verbose else judgements.render(reports),
+            is_wide=not verbose,
+        )
         sys.stdout.write(f"{judgements.summary(reports)}\n")
     if junit is not None:
-        try:
-            junit.write_text(judgements.as_junit(reports), encoding="utf-8")
-        except OSError as error:
-            reason = error.strerror or error
-            raise InputError(f"'{visible(str(junit))}' cannot be written: {reason}.") from error
+        write_file(junit, judgements.as_junit(reports))
     if not all(readable for _, readable in judged):
         return ExitStatus.UNREADABLE
     return ExitStatus.DONE if all(report.ok for report in reports) else ExitStatus.FAILED

@@ -117,7 +117,7 @@ def doctor(
     import json
 
     from tftool.cli import fleet, fleet_tasks
-    from tftool.cli.printing import write
+    from tftool.cli.printing import write, write_file
     from tftool.cli.workers import workers_of
     from tftool.diagnostics.findings import Severity
     from tftool.diagnostics.judge import refuse_unknown
@@ -160,22 +160,29 @@ def doctor(
     elif markdown:
         sys.stdout.write("\n".join(view.as_markdown(one) for one in diagnoses))
     else:
-        for number, one in enumerate(diagnoses):
-            if number:
-                sys.stdout.write("\n")
-            write(view.render(one, verbose=verbose))
-            if statistics:
-                write(view.statistics(one.model))
-        if len(rows) > 1:
-            sys.stdout.write("\n")
-            write(view.compared(rows))
+        _print(rows, verbose=verbose, statistics=statistics)
     if junit is not None:
-        try:
-            junit.write_text(view.as_junit(rows, fails), encoding="utf-8")
-        except OSError as error:
-            reason = error.strerror or error
-            raise InputError(f"'{junit}' cannot be written: {reason}.") from error
+        write_file(junit, view.as_junit(rows, fails))
     return _status(rows, fails)
+
+
+def _print(
+    rows: "Sequence[tuple[str, Diagnosis | str]]", *, verbose: bool, statistics: bool
+) -> None:
+    """Each diagnosis for a person; of several sources, what differs at the end."""
+    from tftool.cli.printing import write
+    from tftool.views import findings as view
+
+    diagnoses = [found for _, found in rows if not isinstance(found, str)]
+    for number, one in enumerate(diagnoses):
+        if number:
+            sys.stdout.write("\n")
+        write(view.render(one, verbose=verbose))
+        if statistics:
+            write(view.statistics(one.model))
+    if len(rows) > 1:
+        sys.stdout.write("\n")
+        write(view.compared(rows))
 
 
 def _diagnosed(

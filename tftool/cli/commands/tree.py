@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Annotated
 
 from tftool.cli.app import ExitStatus
 from tftool.cli.options import OUTPUT, AtOption, CacheTime, From, Json, RunFor, option, output_file
-from tftool.errors import InputError, UsageError
+from tftool.errors import UsageError
 from tftool.stamps import Duration, seconds
 
 if TYPE_CHECKING:
@@ -151,13 +151,9 @@ def _write(
         else:
             sys.stdout.write(content)
         return
-    try:
-        if isinstance(content, bytes):
-            output.write_bytes(content)
-        else:
-            output.write_text(content, encoding="utf-8")
-    except OSError as error:
-        raise InputError(f"'{output}' cannot be written: {error.strerror or error}.") from error
+    from tftool.cli.printing import write_file
+
+    write_file(output, content)
 
 
 def _content(
