@@ -103,3 +103,29 @@ def test_who_would_have_to_wait_unpacks_a_piece_behind():
         found += [outcome(ahead.take(number).result) for number in range(1, 20)]
 
     assert found == [b"text"] * 20
+
+
+def test_pieces_that_are_passed_over_make_room_for_those_behind():
+    pieces = [("bz2", bz2.compress(text), len(text)) for text in TEXTS * 10]
+
+    with Ahead(
+        range(len(pieces)), lambda n: (pieces[n][0], lambda: pieces[n][1], pieces[n][2])
+    ) as it:
+        if it.take(0) is None:
+            pytest.skip("one processor: nothing is unpacked ahead")
+        numbers = range(40, len(pieces), 7)
+        coming = [it.take(number).result() for number in numbers]
+
+    assert coming == [TEXTS[number % len(TEXTS)] for number in numbers]
+
+
+def test_of_pieces_that_are_not_to_be_unpacked_no_more_are_looked_at_than_of_others():
+    told = []
+
+    def packed(number):
+        told.append(number)
+
+    with Ahead(range(1000), packed) as ahead:
+        assert [ahead.take(number) for number in range(10)] == [None] * 10
+
+    assert len(told) < 100

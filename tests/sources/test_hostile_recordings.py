@@ -3,6 +3,8 @@
 import os
 import shutil
 import sqlite3
+import struct
+import tracemalloc
 
 import pytest
 
@@ -10,11 +12,15 @@ pytest.importorskip("rosbags", reason="writes the test files")
 pytest.importorskip("mcap", reason="writes the test files")
 pytest.importorskip("zstandard", reason="the extra 'recordings' is not installed")
 
-from mcap.writer import Writer
+import zstandard
+from mcap.writer import CompressionType, Writer
 
 from tests.sources.writers import TF, content, payload, write_mcap
 from tests.sources.writers import write_rosbag1 as write_bag
-from tftool import open_recording
+from tftool import InputError, open_recording
+from tftool.cli.app import main
+from tftool.sources import container, reading
+from tftool.sources.editing import mcap_tape
 
 SENT = content(40)
 
@@ -109,3 +115,261 @@ def test_more_topics_than_are_taken_are_left_out_and_it_ends(tmp_path):
     with open_recording(path) as recording:
         assert len(recording.topics) == 65_000
         assert recording.edges == ()
+
+
+def plain_mcap(path, sent, **options):
+    return write_mcap(path, sent, compression=CompressionType.NONE, **options)
+
+
+@pytest.mark.parametrize("write", [plain_mcap, write_bag], ids=["mcap", "rosbag1"])
+def test_a_chunk_that_is_too_large_to_hold_is_left_out_and_told(tmp_path, monkeypatch, write):
+    path = write(tmp_path / "run", content(600), chunk_size=1 << 30)
+    assert path.stat().st_size > 1 << 18
+    monkeypatch.setattr(container, "LARGEST", 1 << 18)
+
+    with open_recording(path) as recording:
+        found = recording.transforms
+        damage = " ".join(recording.damage)
+
+    assert "more than is read at once (262144)" in damage
+    assert len(found) == 0
+
+
+def test_a_message_outside_of_chunks_that_is_too_large_is_left_out_and_told(tmp_path, monkeypatch):
+    path = plain_mcap(tmp_path / "run", SENT, use_chunking=False)
+    whole = len(open_and_read(path))
+    data = path.read_bytes()
+    (channel,) = struct.unpack_from("<H", data, data.index(b"\x03\x00\x00\x00/tf\x03") - 4)
+    large = struct.pack("<BQHIQQ", 5, 22 + 300_000, channel, 0, 10**18, 10**18)
+    large += bytes(300_000)
+    # In front of the record that ends the data.
+    end = data.rindex(struct.pack("<BQ", 0x0F, 4))
+    path.write_bytes(data[:end] + large + data[end:])
+    monkeypatch.setattr(container, "LARGEST", 1 << 18)
+
+    with open_recording(path) as recording:
+        assert len(recording.transforms) == whole
+        assert any("more than is read at once (262144)" in one for one in recording.damage)
+
+
+@pytest.mark.parametrize("write", [plain_mcap, write_bag], ids=["mcap", "rosbag1"])
+@pytest.mark.parametrize("is_whole", [True, False])
+def test_what_tells_of_a_topic_in_too_many_bytes_is_not_taken(
+    tmp_path, monkeypatch, write, is_whole
+):
+    path = write(tmp_path / "run", SENT)
+    monkeypatch.setattr(container, "LARGEST_TOLD", 10)
+    if not is_whole:
+        path.write_bytes(path.read_bytes()[:-3000])
+    try:
+        with open_recording(path) as recording:
+            assert recording.topics == ()
+            told = " ".join(recording.damage)
+    except InputError as error:
+        told = str(error)
+
+    assert "may have 10" in told or "0 messages were read" in told
+
+
+def first_index(data, code):
+    """Where the first record of a code lies in an MCAP file."""
+    place = 8
+    while data[place] != code:
+        place += 9 + struct.unpack_from("<Q", data, place + 1)[0]
+    return place
+
+
+def changed_mcap(data):
+    """The first channel in a chunk has another number, and an index is wrong: it is walked."""
+    place = data.index(b"\x0a\x00\x00\x00/tf_static") - 4
+    data[place : place + 2] = b"\x63\x00"
+    data[first_index(data, 7)] = 0x70
+
+
+def changed_bag(data):
+    """As of MCAP, of a connection."""
+    chunk = data.index(b"op=\x05")
+    place = data.index(b"conn=", data.index(b"op=\x07", chunk) - 40) + 5
+    data[place] = 99
+    data[data.index(b"op=\x04", chunk) + 3] = 0x70
+
+
+@pytest.mark.parametrize(
+    ("write", "change"),
+    [(plain_mcap, changed_mcap), (write_bag, changed_bag)],
+    ids=["mcap", "rosbag1"],
+)
+def test_what_a_damaged_chunk_tells_of_topics_changes_none_that_are_known(tmp_path, write, change):
+    path = write(tmp_path / "run", SENT)
+    with open_recording(path) as recording:
+        before = [topic.name for topic in recording.topics]
+    data = bytearray(path.read_bytes())
+    change(data)
+    path.write_bytes(data)
+
+    with open_recording(path) as recording:
+        counts = {topic.name: topic.count for topic in recording.topics}
+        assert len(recording.transforms)
+        assert recording.damage
+        # Of none more is known, and each can still be asked for.
+        assert {topic.name: topic.count for topic in recording.topics} == counts
+        assert list(counts) == before
+        assert sum(1 for _ in recording.source.messages(before))
+
+
+COLUMNS = "id, name, type, serialization_format, offered_qos_profiles"
+TOPICS = f"create table topics({COLUMNS})"
+MESSAGES = "create table messages(id, topic_id, timestamp, data)"
+COUNTING = "with recursive c(x) as (select 1 union all select x + 1 from c)"
+
+
+def odd_database(path, statements, rows=(), topics=((1, "/tf", TF, "cdr", ""),)):
+    base = sqlite3.connect(path)
+    for one in statements:
+        base.execute(one)
+    if TOPICS in statements:
+        base.executemany("insert into topics values (?, ?, ?, ?, ?)", topics)
+    if rows:
+        base.executemany("insert into messages values (?, ?, ?, ?)", rows)
+    base.commit()
+    base.close()
+    return path
+
+
+@pytest.mark.parametrize(
+    "statements",
+    [
+        [f"create view topics as {COUNTING} select x as id, 'a' as name, 'b' as type from c"],
+        [
+            TOPICS,
+            f"create view messages as {COUNTING} select x as id, 1 as topic_id, x as timestamp, "
+            "x'00' as data from c",
+        ],
+        [
+            TOPICS,
+            "create table messages(id, topic_id, timestamp, "
+            "data generated always as (zeroblob(900000000)) virtual)",
+        ],
+    ],
+    ids=["topics", "messages", "generated"],
+)
+def test_a_database_whose_rows_are_made_up_is_no_recording(tmp_path, statements):
+    path = odd_database(tmp_path / "run.db3", statements)
+
+    with pytest.raises(InputError, match="holds no recording"):
+        open_recording(path)
+
+
+def test_definitions_that_are_made_up_are_not_read(tmp_path, capsys):
+    endless = f"create view message_definitions as {COUNTING} select 'a' as topic_type, x as "
+    views = [TOPICS, MESSAGES, f"{endless} encoded_message_definition, 'b' as encoding from c"]
+    path = odd_database(tmp_path / "run.db3", views, [(1, 1, 5, b"")])
+
+    with open_recording(path) as recording:
+        assert recording.topics[0].definition == ""
+    assert main(["edit", str(path), "-o", str(tmp_path / "out.mcap")]) == 0
+    assert "1 messages written" in capsys.readouterr().out
+
+
+@pytest.mark.parametrize("number", [None, "abc", b"\x00", float("inf"), 1.5])
+def test_a_topic_whose_number_is_none_is_left_out_and_told(tmp_path, number):
+    topics = [(number, "/odd", TF, "cdr", ""), (2, "/tf", TF, "cdr", "")]
+    path = odd_database(tmp_path / "run.db3", [TOPICS, MESSAGES], topics=topics)
+
+    with open_recording(path) as recording:
+        assert [topic.name for topic in recording.topics] == ["/tf"]
+        assert recording.damage == ("Topic '/odd' is left out: its id is no whole number.",)
+
+
+@pytest.mark.parametrize("odd", [None, "abc", b"\x00", 1e300])
+@pytest.mark.parametrize("is_first", [True, False])
+def test_a_row_without_a_moment_is_left_out_and_told(tmp_path, odd, is_first):
+    sent = [one for one in SENT if one.topic == "/tf"]
+    rows = [(n, 1, one.log_time, payload(one)) for n, one in enumerate(sent, start=1)]
+    rows.insert(0 if is_first else 9, (100 if is_first else 200, 1, odd, rows[0][3]))
+    path = odd_database(tmp_path / "run.db3", [TOPICS, MESSAGES], rows)
+
+    with open_recording(path) as recording:
+        assert len(recording.transforms) == sum(len(one.transforms) for one in sent)
+        assert recording.source.start == sent[0].log_time
+        assert recording.source.end == sent[-1].log_time
+        (damage,) = recording.damage
+        assert "no whole number" in damage
+
+
+def test_rows_whose_numbers_are_texts_are_left_out_and_told(tmp_path):
+    path = odd_database(tmp_path / "run.db3", [TOPICS, MESSAGES], [("a", 1, 5, b"")])
+
+    with open_recording(path, progress=lambda done, total: None) as recording:
+        assert len(recording.transforms) == 0
+        assert any("no whole number" in one for one in recording.damage)
+
+
+def test_moments_before_1970_are_written_as_their_beginning(tmp_path, capsys):
+    path = odd_database(tmp_path / "run.db3", [TOPICS, MESSAGES], [(1, 1, -(2**63), b"1234")])
+    target = tmp_path / "out.mcap"
+
+    assert main(["edit", str(path), "-o", str(target)]) == 0
+
+    with open_recording(target) as recording:
+        assert [one.log_time for one in recording.raw_messages("/tf")] == [0]
+
+
+def test_large_messages_of_a_database_are_not_held_all_at_once(tmp_path):
+    rows = [(number, 1, number, bytes(4 << 20)) for number in range(1, 61)]
+    path = odd_database(tmp_path / "run.db3", [TOPICS, MESSAGES], rows)
+
+    assert largest_held(path) < 300e6
+
+
+def largest_held(path):
+    """Bytes that Python holds at most while every message of /tf is read."""
+    with open_recording(path) as recording:
+        tracemalloc.start()
+        assert sum(1 for _ in recording.raw_messages("/tf")) == 60
+        _, most = tracemalloc.get_traced_memory()
+        tracemalloc.stop()
+    return most
+
+
+def test_messages_that_become_large_are_not_held_all_at_once(tmp_path, monkeypatch):
+    monkeypatch.setattr(reading, "MOST_UNPACKED", 4 << 20)
+    packed = zstandard.ZstdCompressor().compress(bytes(1 << 20))
+    rows = [(number, 1, number, packed) for number in range(1, 61)]
+    path = odd_database(tmp_path / "run.db3", [TOPICS, MESSAGES], rows)
+
+    assert largest_held(path) < 30e6
+
+
+def test_a_compressed_file_that_becomes_far_too_large_is_refused_early(tmp_path):
+    path = tmp_path / "run.mcap.zstd"
+    path.write_bytes(zstandard.ZstdCompressor().compress(b"\x89MCAP0\r\n" + bytes(100_000_000)))
+    assert path.stat().st_size < 20_000
+
+    with pytest.raises(InputError, match=r"unpacks to more than .* no recording"):
+        open_recording(path)
+
+
+def test_messages_outside_of_chunks_are_not_held_all_at_once(tmp_path, monkeypatch):
+    path = plain_mcap(tmp_path / "run", SENT, use_chunking=False)
+    monkeypatch.setattr(mcap_tape, "MOST_BYTES_HELD", 1000)
+    tape = mcap_tape.McapTape(path)
+    try:
+        sizes = [sum(len(one.payload) for one in block.messages()) for block in tape.blocks()]
+    finally:
+        tape.close()
+
+    assert sum(sizes) == sum(len(payload(one)) for one in SENT)
+    assert max(sizes) < 5000
+
+
+def test_memory_that_does_not_suffice_is_told_in_a_sentence(tmp_path, monkeypatch, capsys):
+    path = write_mcap(tmp_path / "run.mcap", SENT)
+
+    def at(*_):
+        raise MemoryError
+
+    monkeypatch.setattr(container.File, "at", at)
+
+    assert main(["info", str(path)]) == 3
+    assert "memory that is left does not suffice" in capsys.readouterr().err

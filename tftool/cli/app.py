@@ -233,6 +233,9 @@ def main(argv: "Sequence[str] | None" = None, providers: "Providers | None" = No
         # buffered would be written at exit, so it goes nowhere.
         streams.forget_output()
         status = ExitStatus.DONE
+    except MemoryError:
+        _complain("tftool", "The memory that is left does not suffice for that.")
+        status = ExitStatus.UNREADABLE
     except OSError as error:
         if isinstance(error, TimeoutError) and error.errno is None:
             # asyncio's own: an OSError by its family alone, and no output has gone wrong.

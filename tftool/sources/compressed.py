@@ -13,15 +13,16 @@ from tftool.errors import InputError, UsageError
 if TYPE_CHECKING:
     from types import ModuleType
 
-LARGEST: Final = 7 << 27
-"""Bytes of the largest piece that is unpacked: lz4 holds twice as many, which is below 2 GB."""
+LARGEST: Final = 1 << 29
+"""Bytes of the largest piece that is read or unpacked: lz4 holds twice as many, and who looks at
+its one message once more, which is below 2 GB."""
 
 MOST_GAIN: Final = 1100
 """How many times larger a piece may become; what we know of stays below."""
 
 _SLACK: Final = 1 << 20
 
-LARGEST_DAMAGED: Final = 1 << 28
+LARGEST_DAMAGED: Final = 1 << 26
 """Bytes that are unpacked of a damaged piece, which is held twice."""
 
 _LARGEST_AHEAD: Final = 16 << 20
@@ -130,13 +131,15 @@ class Ahead:
         """Take what there is to unpack.
 
         Args:
-            keys: Names of the pieces, in the order in which they will be asked for.
+            keys: Names of the pieces, each another one, in the order in which they will be asked
+                for; some may be passed over.
             packed: Tells of a piece; None where it is not to be unpacked ahead. Is called in the
                 thread that asks, not long before that piece is asked for.
         """
         self._keys = iter(keys)
         self._packed = packed
-        self._coming: dict[object, _Coming] = {}
+        # In the order of their keys; None for what is not unpacked ahead.
+        self._coming: dict[object, _Coming | None] = {}
         self._spare: list[_Room] = []
         self._lent: _Room | None = None
         self._workers = min(_processors() - 1, _MOST_WORKERS)
@@ -157,17 +160,31 @@ class Ahead:
         if self._lent is not None:
             self._spare.append(self._lent)
             self._lent = None
-        self._start()
-        if key not in self._coming:
+        found = self._come_to(key)
+        if found is None:
             return None
-        found = self._coming.pop(key)
         self._lent = found.room
         self._start()
         for other in self._coming.values():
             if found.future.done():
                 break
-            other.unpack_here()
+            if other is not None:
+                other.unpack_here()
         return found.future
+
+    def _come_to(self, key: object) -> _Coming | None:
+        """The piece of a key; those before it were passed over, and make room for others."""
+        self._start()
+        while self._coming:
+            passed = next(iter(self._coming))
+            found = self._coming.pop(passed)
+            if passed == key:
+                return found
+            # What a thread is unpacking now keeps its memory until that is done.
+            if found is not None and (found.future.cancel() or found.future.done()):
+                self._spare.append(found.room)
+            self._start()
+        return None
 
     def _start(self) -> None:
         """Have as many on their way as there are threads, and some more for who asks."""
@@ -177,6 +194,7 @@ class Ahead:
                 return
             piece = self._packed(key)
             if piece is None or piece[0] in ("", "none") or piece[2] > _LARGEST_AHEAD:
+                self._coming[key] = None
                 continue
             if self._pool is None:
                 self._pool = ThreadPoolExecutor(self._workers, "tftool-unpack")
@@ -193,7 +211,7 @@ def _processors() -> int:
 
 def unpack_beginning(method: str, packed: bytes, size: int) -> bytes:
     """Unpack as much as there is of a piece that is cut or damaged; may be nothing."""
-    size = min(size, LARGEST, MOST_GAIN * len(packed) + _SLACK)
+    size = min(size, LARGEST, most_of(len(packed)))
     if method in ("", "none"):
         return packed[:size]
     size = min(size, LARGEST_DAMAGED)
@@ -242,13 +260,18 @@ def _in_steps(method: str, packed: bytes, size: int, coarse: int) -> tuple[bytea
     return found, len(packed)
 
 
+def most_of(packed: int) -> int:
+    """How many bytes so many packed ones may become: what is honest stays far below."""
+    return MOST_GAIN * packed + _SLACK
+
+
 def check_size(packed: int, size: int) -> None:
     """Refuse a size that nothing honest declares.
 
     Raises:
         InputError: If it is one.
     """
-    if size > LARGEST or size > MOST_GAIN * packed + _SLACK:
+    if size > LARGEST or size > most_of(packed):
         raise InputError(
             f"{packed} bytes announce {size} unpacked, more than is plausible "
             f"(at most {LARGEST}, and {MOST_GAIN} times)"

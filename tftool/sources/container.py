@@ -10,7 +10,7 @@ from typing import Final, Protocol
 
 from tftool.errors import InputError
 from tftool.sources.columns import Batch
-from tftool.sources.compressed import Ahead, Packed, unpack, unpack_beginning
+from tftool.sources.compressed import LARGEST, Ahead, Packed, unpack, unpack_beginning
 from tftool.sources.contract import Progress
 from tftool.stamps import Stamp
 
@@ -18,6 +18,9 @@ MOST_STREAMS: Final = 65_536
 """Streams of one recording; those beyond are left out, and that is told."""
 
 TRANSIENT_LOCAL: Final = "transient_local"
+
+LARGEST_TOLD: Final = 1 << 26
+"""Bytes of the largest record that tells of a stream: of it copies are made."""
 
 _MOST_NOTED = 20
 
@@ -42,6 +45,18 @@ class Offers:
     durability: str = ""
     reliability: str = ""
     count: int = 0
+
+
+def check_told(count: int) -> None:
+    """Refuse a record that tells of a stream and is too long for that.
+
+    Raises:
+        InputError: If it is.
+    """
+    if count > LARGEST_TOLD:
+        raise InputError(
+            f"a record that tells of a topic has {count} bytes, and may have {LARGEST_TOLD}"
+        )
 
 
 def offers_of(text: str) -> Offers:
@@ -174,11 +189,15 @@ class File:
         """Read `count` bytes from a place on.
 
         Raises:
-            InputError: If the file does not have them.
+            InputError: If the file does not have them, or they are too many to hold.
         """
         if count < 0 or place < 0 or place + count > self.size:
             raise InputError(
                 f"{count} bytes at byte {place} lie beyond the file's end ({self.size})"
+            )
+        if count > LARGEST:
+            raise InputError(
+                f"{count} bytes at byte {place} are more than is read at once ({LARGEST})"
             )
         found = os.pread(self._file.fileno(), count, place)
         while len(found) < count:

@@ -19,6 +19,7 @@ from tftool.sources.container import (
     ChunkedFile,
     MessageStream,
     Offers,
+    check_told,
     offers_of,
 )
 from tftool.sources.contract import Indexes, Progress, Stamps
@@ -43,6 +44,7 @@ from tftool.stamps import LAST_STAMP
 _FOOTER: Final = 0x02
 _SCHEMA: Final = 0x03
 _CHANNEL: Final = 0x04
+_TELLING: Final = (_SCHEMA, _CHANNEL)
 _CHUNK: Final = 0x06
 _MESSAGE_INDEX: Final = 0x07
 _CHUNK_INDEX: Final = 0x08
@@ -136,10 +138,8 @@ class Mcap:
         total, span = 0, (0, 0)
         has_statistics = False
         for code, first, last in records_in(summary):
-            if code == _SCHEMA:
-                self._take_schema(summary[first:last])
-            elif code == _CHANNEL:
-                self._take_channel(summary[first:last])
+            if code in _TELLING:
+                self._learn(code, summary, first, last)
             elif code == _CHUNK_INDEX:
                 chunks.append(chunk_of_index(summary, first, last, size))
             elif code == _STATISTICS:
@@ -167,6 +167,11 @@ class Mcap:
         self.streams.clear()
         self.counts.clear()
         self._numbers.clear()
+
+    def _learn(self, code: int, data: bytes, first: int, last: int) -> None:
+        """Take what a record tells of a schema or a channel; its body lies there."""
+        check_told(last - first)
+        (self._take_schema if code == _SCHEMA else self._take_channel)(data[first:last])
 
     def _take_schema(self, body: bytes) -> None:
         (number,) = _U16.unpack_from(body)
@@ -238,10 +243,9 @@ class Mcap:
                 elif code == _MESSAGE_INDEX and self._chunks and length >= 6:
                     (channel,) = _U16.unpack(file.at(body, 2))
                     self._chunks[-1].indexes[channel] = position
-                elif code == _SCHEMA:
-                    self._take_schema(file.at(body, length))
-                elif code == _CHANNEL:
-                    self._take_channel(file.at(body, length))
+                elif code in _TELLING:
+                    check_told(length)
+                    self._learn(code, file.at(body, length), 0, length)
             except (InputError, struct.error) as error:
                 self._file.note(f"A record at byte {position} cannot be read ({reason_of(error)}).")
             if not whole:
@@ -250,7 +254,7 @@ class Mcap:
         for chunk in self._chunks:
             # A chunk's own records tell of channels that have not come up before.
             if not chunk.indexes or not chunk.indexes.keys() <= self._numbers.keys():
-                self._walk(chunk)
+                self._walk(chunk, learns=True)
             else:
                 self._count(chunk)
         for channel in self._loose.channels:
@@ -285,13 +289,19 @@ class Mcap:
             IndexedChunk(place, there, size, method, start, end, cut=cut or there < packed)
         )
 
-    def _walk(self, chunk: IndexedChunk) -> None:
-        """Walk through a chunk's records; learn its channels, and where its messages are."""
+    def _walk(self, chunk: IndexedChunk, *, learns: bool) -> None:
+        """Walk through a chunk's records and learn where its messages are.
+
+        Args:
+            chunk: The chunk.
+            learns: Whether to count them, and to learn of channels: those that were found when
+                the file was opened stay as they are.
+        """
         found = chunk.walked = WalkedMessages()
-        data = bytes(self._file.unpacked(chunk))
         numbers, counts = self._numbers, self.counts
         low, high = LAST_STAMP, 0
         try:
+            data = bytes(self._file.unpacked(chunk))
             for code, first, last in records_in(data):
                 if code == MESSAGE:
                     _check_length(last - first)
@@ -299,12 +309,10 @@ class Mcap:
                     found.append(channel, log_time, first - 9)
                     low, high = min(low, log_time), max(high, log_time)
                     number = numbers.get(channel)
-                    if number is not None:
+                    if learns and number is not None:
                         counts[number] += 1
-                elif code == _SCHEMA:
-                    self._take_schema(data[first:last])
-                elif code == _CHANNEL:
-                    self._take_channel(data[first:last])
+                elif learns and code in _TELLING:
+                    self._learn(code, data, first, last)
         except (InputError, struct.error) as error:
             if not chunk.cut:
                 self._file.note_chunk(chunk, reason_of(error))
@@ -406,9 +414,7 @@ class Mcap:
     ) -> Batch | None:
         """What walking finds in a chunk, whatever its index says."""
         if chunk.walked is None:
-            counts = list(self.counts)
-            self._walk(chunk)
-            self.counts[:] = counts
+            self._walk(chunk, learns=False)
         walked = chunk.walked
         assert walked is not None
         if not len(walked.places):
@@ -437,7 +443,10 @@ class Mcap:
         places = np.frombuffer(self._loose.places, dtype=np.int64)[channels[owners] >= 0]
         singly = SingleMessages(self._file, channels, head)
         for place in places.tolist():
-            singly.read([place], 0, self.size)
+            try:
+                singly.read([place], 0, self.size)
+            except InputError as error:
+                self._file.note(f"A message at byte {place} cannot be read ({error}).")
             if singly.is_full:
                 yield singly.taken()
                 if progress is not None:

@@ -31,6 +31,9 @@ from tftool.wire.rows import LONGEST_NAME
 TRANSFORM_TYPES: Final = ("tf2_msgs/TFMessage", "tf/tfMessage")
 """Types whose messages are lists of transforms, short."""
 
+MOST_UNPACKED: Final = 1 << 26
+"""Bytes of messages that were compressed each by itself, held at once but for the last one."""
+
 CLOCK_TYPE: Final = "rosgraph_msgs/Clock"
 
 _LAYOUTS = {"cdr": CDR, "ros1": ROS1}
@@ -243,7 +246,7 @@ class Recorded:
         for batch in self._container.batches(wanted, progress, head):
             start = int(batch.starts[0])
             if batch.buffer[start : start + 4].tobytes() == ZSTD_MAGIC:
-                yield _unpacked(batch)
+                yield from _unpacked(batch)
             else:
                 yield batch
 
@@ -299,16 +302,21 @@ class _Heads:
         )
 
 
-def _unpacked(batch: Batch) -> Batch:
-    """The same messages, each unpacked by itself; empty where that fails."""
-    pieces = [b""]
+def _unpacked(batch: Batch) -> Iterator[Batch]:
+    """The same messages, each unpacked by itself, in pieces; empty where that fails."""
+    pieces: list[bytes] = []
+    first = held = 0
     for number in range(len(batch)):
-        packed = batch.payload(number)
-        pieces.append(unpack_beginning("zstd", packed, LARGEST))
-    lengths = np.fromiter(map(len, pieces[1:]), dtype=np.int64, count=len(batch))
-    starts = np.cumsum(lengths) - lengths
-    buffer = np.frombuffer(b"".join(pieces) or b"\0", dtype=np.uint8)
-    return Batch(buffer, starts, lengths, batch.log_times, batch.senders)
+        pieces.append(unpack_beginning("zstd", batch.payload(number), LARGEST))
+        held += len(pieces[-1])
+        if held < MOST_UNPACKED and number + 1 < len(batch):
+            continue
+        lengths = np.fromiter(map(len, pieces), dtype=np.int64, count=len(pieces))
+        starts = np.cumsum(lengths) - lengths
+        buffer = np.frombuffer(b"".join(pieces) or b"\0", dtype=np.uint8)
+        which = slice(first, number + 1)
+        yield Batch(buffer, starts, lengths, batch.log_times[which], batch.senders[which])
+        pieces, first, held = [], number + 1, 0
 
 
 def _by_cutter(

@@ -21,6 +21,7 @@ from tftool.sources.container import (
     ChunkedFile,
     MessageStream,
     Offers,
+    check_told,
 )
 from tftool.sources.contract import Progress
 from tftool.sources.find import ROS1_MAGIC
@@ -125,6 +126,7 @@ class Rosbag1:
         for header, first, last in records_in(data):
             code = header.get(b"op")
             if code == CONNECTION:
+                check_told(last - first)
                 self._take_connection(header, data[first:last])
             elif code == CHUNK_INFO:
                 info = chunk_info(header, data[first:last])
@@ -181,8 +183,9 @@ class Rosbag1:
                     chunk = _Chunk(position)
                     self._look_at(chunk, header, data, min(length, self.size - data), cut)
                     self._chunks.append(chunk)
-                    self._walk(chunk)
+                    self._walk(chunk, learns=True)
                 elif code == CONNECTION and not cut:
+                    check_told(length)
                     self._take_connection(header, self._file.at(data, length))
                 elif code not in (BAG, INDEX, CHUNK_INFO, CONNECTION):
                     break
@@ -215,12 +218,18 @@ class Rosbag1:
         chunk.method = header[b"compression"].decode("ascii", "replace")
         (chunk.size,) = U32.unpack(header[b"size"])
 
-    def _walk(self, chunk: _Chunk) -> None:
-        """Walk through a chunk's records; learn its connections, and where its messages are."""
+    def _walk(self, chunk: _Chunk, *, learns: bool) -> None:
+        """Walk through a chunk's records and learn where its messages are.
+
+        Args:
+            chunk: The chunk.
+            learns: Whether to count them, and to learn of connections: those that were found
+                when the file was opened stay as they are.
+        """
         walked = chunk.walked = array("q"), array("q"), array("q")
         connections, log_times, places = walked
-        data = bytes(self._file.unpacked(chunk))
         try:
+            data = bytes(self._file.unpacked(chunk))
             for header, first, last in records_in(data):
                 code = header.get(b"op")
                 if code == MESSAGE:
@@ -229,9 +238,10 @@ class Rosbag1:
                     connections.append(connection)
                     places.append(first)
                     number = self._numbers.get(connection)
-                    if number is not None:
+                    if learns and number is not None:
                         self.counts[number] += 1
-                elif code == CONNECTION:
+                elif learns and code == CONNECTION:
+                    check_told(last - first)
                     self._take_connection(header, data[first:last])
         except (InputError, struct.error, KeyError) as error:
             if not chunk.cut:
@@ -266,7 +276,11 @@ class Rosbag1:
                     batch = self._batch(chunk, chosen, ahead)
                 except (InputError, struct.error, KeyError) as error:
                     self._file.note_chunk(chunk, reason_of(error))
-                    batch = self._rest_of(chunk, chosen)
+                    try:
+                        batch = self._rest_of(chunk, chosen)
+                    except InputError as worse:
+                        batch = None
+                        self._file.note(f"A chunk at byte {chunk.position} is lost ({worse}).")
                 if batch is not None and len(batch):
                     yield batch
             if progress is not None:
@@ -323,9 +337,7 @@ class Rosbag1:
         if chunk.walked is None:
             if not chunk.place:
                 return None
-            counts = list(self.counts)
-            self._walk(chunk)
-            self.counts[:] = counts
+            self._walk(chunk, learns=False)
         assert chunk.walked is not None
         connections, log_times, places = chunk.walked
         which = [row for row, connection in enumerate(connections) if connection in chosen]

@@ -11,7 +11,7 @@ from pathlib import Path
 from typing import Any, Final
 
 from tftool.errors import InputError
-from tftool.sources.compressed import LARGEST, zstandard
+from tftool.sources.compressed import most_of, zstandard
 from tftool.sources.container import Container
 from tftool.sources.find import METADATA, Found, Kind, kind_of_file
 from tftool.sources.joined import Joined
@@ -20,7 +20,7 @@ from tftool.sources.rosbag1 import Rosbag1
 from tftool.sources.sqlite import Sqlite
 
 _LARGEST_METADATA: Final = 1 << 24
-_LARGEST_UNPACKED: Final = 16 * LARGEST
+_LARGEST_UNPACKED: Final = 1 << 34
 _STEP: Final = 1 << 20
 
 
@@ -194,6 +194,7 @@ def unpack_file(path: Path, target: Path) -> str:
     """Unpack a file; what was wrong with it, as a sentence."""
     free = shutil.disk_usage(target.parent).free
     limit = min(_LARGEST_UNPACKED, free - (1 << 26))
+    plausible = most_of(path.stat().st_size)
     done = 0
     with path.open("rb") as packed, target.open("wb") as out:
         stream = zstandard().ZstdDecompressor().stream_reader(packed, read_across_frames=True)
@@ -207,6 +208,8 @@ def unpack_file(path: Path, target: Path) -> str:
             if not piece:
                 return ""
             done += len(piece)
+            if done > plausible:
+                raise InputError(f"'{path}' unpacks to more than {plausible} bytes: no recording.")
             if done > limit:
                 raise InputError(
                     f"'{path}' unpacks to more than {limit} bytes, which is all there is room "

@@ -20,7 +20,10 @@ from tftool.wire.native import SCAN
 
 _ROWS: Final = 2048  # fetched at a time
 _ROOM: Final = bytes(8)
+_MOST_BYTES: Final = 1 << 26  # of them, but for the last one
 _MOST_COPIED: Final = 1 << 30
+_LARGEST_VALUE: Final = 1 << 28  # bytes of one value
+_MOST_DEFINED: Final = 1 << 26  # characters of all definitions
 _MOST_GAPS: Final = 40
 _LEAST_HEAD: Final = 4096
 
@@ -31,6 +34,9 @@ _COLUMNS: Final = [
     ("timestamp", "INTEGER", 0),
     ("data", "BLOB", 0),
 ]
+
+_NAMES: Final = {name for name, _, _ in _COLUMNS}
+_DEFINITION: Final = "encoded_message_definition"
 
 # The second where what sqlite says of a damaged file quotes bytes that are no text.
 _FAULTS: Final = (sqlite3.Error, UnicodeDecodeError)
@@ -89,22 +95,21 @@ class Sqlite:
             self._copy.cleanup()
 
     def _read_topics(self) -> None:
-        names = {row[1] for row in self._base.execute("pragma table_info(topics)")}
-        if not {"id", "name", "type"} <= names:
+        names = self._columns("topics")
+        if not ({"id", "name", "type"} <= names and self._columns("messages") >= _NAMES):
             raise InputError(f"'{self._path}' is a database, but holds no recording of rosbag2.")
         offers = "offered_qos_profiles" if "offered_qos_profiles" in names else "''"
         form = "serialization_format" if "serialization_format" in names else "'cdr'"
-        definitions: dict[str, str] = {}
-        tables = {row[0] for row in self._base.execute("select name from sqlite_master")}
-        if "message_definitions" in tables:
-            asked = "select topic_type, encoded_message_definition from message_definitions"
-            definitions = {str(kind): str(text) for kind, text in self._base.execute(asked)}
+        definitions = self._definitions()
         asked = f"select id, name, type, {form}, {offers} from topics order by id"
         for number, name, kind, encoding, text in self._base.execute(asked):
             if len(self.streams) >= MOST_STREAMS:
                 self.damage.append(f"Only the first {MOST_STREAMS} topics are read.")
                 break
-            self._ids.append(int(number))
+            if not isinstance(number, int):
+                self._tell(f"Topic '{name}' is left out: its id is no whole number.")
+                continue
+            self._ids.append(number)
             self.streams.append(
                 MessageStream(
                     str(name),
@@ -116,12 +121,36 @@ class Sqlite:
                 )
             )
 
+    def _columns(self, table: str) -> set[str]:
+        """The columns that stand in a table; none of a view, which may never come to an end."""
+        asked = "select count(*) from sqlite_master where lower(name) = ? and type = 'table'"
+        if self._base.execute(asked, (table,)).fetchone() != (1,):
+            return set()
+        return {row[1] for row in self._base.execute(f"pragma table_info({table})")}
+
+    def _definitions(self) -> dict[str, str]:
+        """The definition of each type, where they are recorded."""
+        found: dict[str, str] = {}
+        if not self._columns("message_definitions") >= {"topic_type", _DEFINITION}:
+            return found
+        left = _MOST_DEFINED
+        asked = f"select topic_type, {_DEFINITION} from message_definitions"
+        for kind, text in self._base.execute(asked):
+            left -= len(str(text))
+            if left < 0:
+                self.damage.append("The definitions of its types are too long: some are left out.")
+                break
+            found[str(kind)] = str(text)
+        return found
+
     def _span(self) -> tuple[int, int]:
-        asked = (
-            "select (select min(timestamp) from messages), (select max(timestamp) from messages)"
-        )
-        low, high = self._base.execute(asked).fetchone()
-        return int(low or 0), int(high or 0)
+        # At once where there is an index, as a rule; all is looked at where that gives a text.
+        for where in ("", " where typeof(timestamp) = 'integer'"):
+            ends = (f"(select {end}(timestamp) from messages{where})" for end in ("min", "max"))
+            low, high = self._base.execute(f"select {', '.join(ends)}").fetchone()
+            if isinstance(low, int) and isinstance(high, int):
+                return low, high
+        return 0, 0
 
     @property
     def topic_ids(self) -> list[int]:
@@ -169,9 +198,15 @@ class Sqlite:
             rows: list[Any] = []
             try:
                 cursor = self._base.execute(asked, (last,))
-                while rows := cursor.fetchmany(_ROWS):
-                    yield _batch(rows, streams)
-                    last, gap = rows[-1][0], 1
+                while rows := _some(cursor):
+                    # The columns of a table may hold anything.
+                    sound = [row for row in rows if type(row[0]) is type(row[-2]) is int]
+                    if len(sound) < len(rows):
+                        self._note("an id or a timestamp is no whole number")
+                    if not sound:
+                        continue
+                    yield _batch(sound, streams)
+                    last, gap = sound[-1][0], 1
                     if progress is not None:
                         progress(self.size * last // max(top, 1), self.size)
                 return
@@ -181,7 +216,7 @@ class Sqlite:
                 gaps += 1
                 if gaps > _MOST_GAPS:
                     return
-                last, gap = max(last, 0) + gap, gap * 2
+                last, gap = min(max(last, 0) + gap, 2**63 - 1), gap * 2
 
     def _table(self) -> int:
         """The page at which the tree of the messages begins; 0 where the table is another one."""
@@ -202,12 +237,15 @@ class Sqlite:
 
     def _last_row(self) -> int:
         try:
-            return int(self._base.execute("select max(id) from messages").fetchone()[0] or 0)
+            (last,) = self._base.execute("select max(id) from messages").fetchone()
         except _FAULTS:
             return 0
+        return last if isinstance(last, int) else 0
 
-    def _note(self, error: Exception) -> None:
-        damage = f"A part of its messages cannot be read ({error})."
+    def _note(self, reason: object) -> None:
+        self._tell(f"A part of its messages cannot be read ({reason}).")
+
+    def _tell(self, damage: str) -> None:
         if damage not in self.damage:
             self.damage.append(damage)
 
@@ -217,9 +255,21 @@ def _connected(uri: str) -> sqlite3.Connection:
         base = sqlite3.connect(uri, uri=True, check_same_thread=False)
     except _FAULTS as error:
         raise InputError(f"The database cannot be opened: {error}.") from error
+    base.setlimit(sqlite3.SQLITE_LIMIT_LENGTH, _LARGEST_VALUE)
     # Texts may be anything.
     base.text_factory = lambda raw: raw.decode("utf-8", "backslashreplace")
     return base
+
+
+def _some(cursor: sqlite3.Cursor) -> list[Any]:
+    """The next rows, as many as are held at once; their data comes last."""
+    rows, held = [], 0
+    for row in cursor:
+        rows.append(row)
+        held += len(row[-1]) if isinstance(row[-1], bytes) else 0
+        if len(rows) >= _ROWS or held >= _MOST_BYTES:
+            break
+    return rows
 
 
 def _batch(rows: list[Any], streams: dict[int, int]) -> Batch:

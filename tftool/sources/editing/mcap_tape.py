@@ -8,7 +8,7 @@ from typing import Any, Final
 
 from tftool.errors import InputError
 from tftool.sources.compressed import unpack, unpack_beginning
-from tftool.sources.container import ChunkedFile
+from tftool.sources.container import ChunkedFile, check_told
 from tftool.sources.editing.pieces import Piece
 from tftool.sources.editing.tape import Extras, Taken, described
 from tftool.sources.find import MCAP_MAGIC
@@ -23,6 +23,10 @@ _MESSAGE_HEAD = struct.Struct("<HIQQ")
 _FOOTER_SIZE: Final = 37
 _DATA_END_SIZE: Final = 13
 _LARGEST_SUMMARY: Final = 1 << 30
+_MOST_HELD: Final = 4096  # messages outside of chunks that are given at once
+
+MOST_BYTES_HELD: Final = 1 << 26
+"""Bytes of messages outside of chunks that are given at once, but for the last one."""
 
 
 class McapTape:
@@ -119,6 +123,8 @@ class McapTape:
 
     def learn(self, code: int, body: bytes) -> None:
         """Take what a record tells of schemas and channels."""
+        if code in (format.SCHEMA, format.CHANNEL):
+            check_told(len(body))
         if code == format.SCHEMA:
             (number,) = _U16.unpack_from(body)
             name, place = text_at(body, 2, errors=AS_IT_IS)
@@ -146,6 +152,7 @@ class McapTape:
         """Its chunks, and the messages between them."""
         position, size = len(MCAP_MAGIC), self.size
         loose: list[Taken] = []
+        held = 0
         ended = False
         while position + 9 <= size:
             code, length = format.RECORD.unpack(self.file.at(position, 9))
@@ -159,7 +166,7 @@ class McapTape:
                 if code == format.CHUNK:
                     if loose:
                         yield _Loose(loose)
-                        loose = []
+                        loose, held = [], 0
                     chunk = McapChunk(self, position, min(end, size), end > size)
                     position = chunk.behind
                     yield chunk
@@ -167,9 +174,10 @@ class McapTape:
                 if code == format.MESSAGE:
                     message = _message(self.file.at(body, length), 0, length)
                     loose += described([message], self.channels, self.file)
-                    if len(loose) >= 4096:
+                    held += length
+                    if len(loose) >= _MOST_HELD or held >= MOST_BYTES_HELD:
                         yield _Loose(loose)
-                        loose = []
+                        loose, held = [], 0
                 elif code in (format.SCHEMA, format.CHANNEL):
                     self.learn(code, self.file.at(body, length))
                 elif code == format.ATTACHMENT:

@@ -7,7 +7,7 @@ from typing import Any
 
 from tftool.errors import InputError
 from tftool.sources.compressed import unpack, unpack_beginning
-from tftool.sources.container import ChunkedFile
+from tftool.sources.container import ChunkedFile, check_told
 from tftool.sources.editing.pieces import Piece
 from tftool.sources.editing.tape import Extras, Taken, described
 from tftool.sources.find import ROS1_MAGIC
@@ -93,6 +93,7 @@ class Rosbag1Tape:
         (number,) = U32.unpack(header[b"conn"])
         if number in self.channels:
             return
+        check_told(len(data))
         fields = fields_of(data)
 
         def text(name: bytes) -> str:

@@ -8,6 +8,8 @@ from pathlib import Path
 from typing import Any, Final
 from urllib.parse import quote
 
+import numpy as np
+
 from tftool.errors import InputError
 from tftool.sources.columns import Batch
 from tftool.sources.compressed import LARGEST, unpack_beginning
@@ -75,7 +77,15 @@ class SqliteTape:
         for batch in self._base.batches(list(self.channels)):
             if len(batch):
                 # Kept while further ones are read, into the same memory.
-                yield _Rows(replace(batch, buffer=batch.buffer.copy()), self._unpacks)
+                # No other container has moments before 1970.
+                yield _Rows(
+                    replace(
+                        batch,
+                        buffer=batch.buffer.copy(),
+                        log_times=np.maximum(batch.log_times, 0),
+                    ),
+                    self._unpacks,
+                )
 
 
 class _Rows:
@@ -119,8 +129,12 @@ def _told(path: Path) -> dict[str, tuple[str, str, str]]:
             offers = "offered_qos_profiles" if "offered_qos_profiles" in columns else "''"
             kind = "type_description_hash" if "type_description_hash" in columns else "''"
             forms: dict[str, str] = {}
-            with suppress(sqlite3.Error):
-                forms = dict(base.execute("select topic_type, encoding from message_definitions"))
+            asked = "select type from sqlite_master where lower(name) = 'message_definitions'"
+            # Of a view there may be no end.
+            if base.execute(asked).fetchone() == ("table",):
+                with suppress(sqlite3.Error):
+                    asked = "select topic_type, encoding from message_definitions"
+                    forms = dict(base.execute(asked))
             for topic, name, text, kind_hash in base.execute(
                 f"select name, type, {offers}, {kind} from topics"
             ):
