@@ -5,7 +5,7 @@ library's π or a field edge in double precision would print other poses.
 """
 
 import math
-import struct
+from array import array
 from typing import Final, NamedTuple
 
 from tftool.errors import UsageError
@@ -43,8 +43,6 @@ ROTATION_TOLERANCE: Final = 0.02
 
 # Above this the quotient of `wrap` has no fraction left to speak of.
 _FAR = 1e9
-_ONE = struct.Struct("@f")
-_POSE = struct.Struct("@5f")
 _LARGEST = 3.4028234663852886e38
 
 
@@ -134,9 +132,8 @@ def float32(value: float) -> float:
 
     Beyond the largest such float the result is infinite.
     """
-    # The machine's own conversion: packing for elsewhere would refuse what overflows.
-    rounded: float = _ONE.unpack(_ONE.pack(value))[0]
-    return rounded
+    # An array converts as C does; `struct` refuses what overflows, from Python 3.14 on always.
+    return array("f", (value,))[0]
 
 
 def float32_finite(value: float, what: str) -> float:
@@ -159,4 +156,5 @@ def published(
     x: float, y: float, theta: float, speed: float, turn: float
 ) -> tuple[float, float, float, float, float]:
     """Round the five numbers of a pose message to 32-bit floats."""
-    return _POSE.unpack(_POSE.pack(x, y, theta, speed, turn))
+    x, y, theta, speed, turn = array("f", (x, y, theta, speed, turn))
+    return x, y, theta, speed, turn
