@@ -68,9 +68,10 @@ def test_a_screen_that_fails_says_so_in_a_sentence(monkeypatch):
 @pytest.mark.parametrize(("action", "interrupted"), [("leave", False), ("interrupt", True)])
 def test_leaving_ends_the_world_too(action, interrupted):
     app, world = live_app(Waiting)
-    ended = []
+    begun, ended = [], []
 
     async def life():
+        begun.append(True)
         try:
             await live(world)
         finally:
@@ -78,7 +79,7 @@ def test_leaving_ends_the_world_too(action, interrupted):
 
     async def main():
         showing = asyncio.ensure_future(show(app, life(), headless=True))
-        while not app.is_running:
+        while not begun:
             await world.clock.sleep(seconds(0.01))
         getattr(app, f"action_{action}")()
         await showing
