@@ -506,3 +506,26 @@ def test_the_edge_is_the_simulators_own():
     from tftool.motion.unicycle import FIELD
 
     assert EDGE == FIELD
+
+
+def letters(lines, row):
+    """The colour of every letter of a row, and whether it stands on the field."""
+    found = []
+    for segment in lines[row]:
+        style = segment.style
+        on_field = style is not None and style.bgcolor is not None
+        found += [(style.color.name, on_field) for sign in segment.text if sign.isalpha()]
+    return found
+
+
+def test_a_name_across_the_edge_of_the_field_is_read_on_both_grounds():
+    def named(x):
+        frame = PlaneFrame("a_long_name", x, CENTRE, ())
+        drawn = draw(sheet(frame), rows=40, size=2 * EDGE, palette=theme.LIGHT)
+        return max((letters(drawn, row) for row in range(40)), key=len)
+
+    (on_field,), (beside,) = set(named(1.0)), set(named(1.3 * EDGE))
+    assert on_field[1]
+    assert not beside[1]
+    assert on_field[0] != beside[0]
+    assert set(named(EDGE - 2.5)) == {on_field, beside}

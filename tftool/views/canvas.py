@@ -287,8 +287,9 @@ class Canvas:
                 labels.append(self._label(one, place, reaches[one.name]))
         # Lines and axes had better stay in sight.
         soft = {(row, column) for row, cells in loose.marks.items() for column in cells}
+        named = {one.name: one for one in picture.frames}
         for placed in self._placer.placed(labels, hard, soft):
-            self._write(signs, placed)
+            self._write(signs, placed, named[placed.label.name])
         return signs
 
     def _sprite(
@@ -329,22 +330,26 @@ class Canvas:
         text = fitted(text, self.columns, more=more)
         if self._ascii:
             text = text.encode("ascii", "replace").decode("ascii")
-        color = self._ink_of(one, place)
-        if not theme.is_stale(one.age):
-            color = theme.blend(color, theme.WHITE, 0.4) if self._on_field(place) else color
         row = min(self.rows - 1, max(0, math.floor(place[1])))
-        return Label(one.name, text, math.floor(place[0]), row, reach, color)
+        return Label(one.name, text, math.floor(place[0]), row, reach)
 
     def _ink_of(self, one: PlaneFrame, place: Point) -> Color:
         """A frame's colour on the ground it stands on; amber and red where it is stale."""
         palette = theme.DARK if self._on_field(place) else self._palette
         return theme.of_age(theme.readable(theme.of_name(one.name), palette), one.age, palette)
 
-    def _write(self, signs: _Overlay, placed: PlacedLabel) -> None:
-        label = placed.label
+    def _write(self, signs: _Overlay, placed: PlacedLabel, one: PlaneFrame) -> None:
+        """Write a name, each letter in the colour that is read where it stands."""
         cells = signs.setdefault(placed.row, {})
-        for offset, sign in cells_of(label.text):
-            cells[placed.column + offset] = Cell(sign, label.color)
+        inks: dict[bool, Color] = {}
+        for offset, sign in cells_of(placed.label.text):
+            place = placed.column + offset, placed.row
+            on_field = self._on_field(place)
+            if on_field not in inks:
+                ink = self._ink_of(one, place)
+                brightens = on_field and not theme.is_stale(one.age)
+                inks[on_field] = theme.blend(ink, theme.WHITE, 0.4) if brightens else ink
+            cells[place[0]] = Cell(sign, inks[on_field])
 
     # Cells to lines
 

@@ -5,8 +5,6 @@ from dataclasses import dataclass
 
 from rich.cells import cell_len
 
-from tftool.messages import Color
-
 FARTHEST_ROWS = 7
 """How many rows away from its frame a label may stand; then a line leads to it."""
 
@@ -21,7 +19,6 @@ class Label:
         column: The cell of what it belongs to.
         row: The cell of what it belongs to.
         reach: How many cells that takes to either side.
-        color: The text's colour.
     """
 
     name: str
@@ -29,7 +26,6 @@ class Label:
     column: int
     row: int
     reach: int
-    color: Color
 
 
 @dataclass(frozen=True, slots=True)
