@@ -225,6 +225,18 @@ def test_the_key_help_says_how_it_closes(danced):
     assert "? or Esc closes them" in "\n".join(shown(danced, keys=("?",)))
 
 
+def test_the_key_help_names_no_key_that_does_nothing(danced):
+    """As of a recording: nothing can be driven there, and no other scenario chosen."""
+    quiet = "\n".join(shown(danced, keys=("?",), press=None))
+    full = "\n".join(shown(danced, keys=("?",), press=lambda key: None, scenarios=lambda: OFFERED))
+
+    for words in ("drive turtle1", "give the turn up", "another scenario"):
+        assert words not in quiet
+        assert words in full
+    assert "next panel" in quiet
+    assert "quit" in quiet
+
+
 def test_a_turtle_that_draws_by_itself_is_said_and_a_key_stops_it(turtles):
     drawing = []
 

@@ -4,12 +4,15 @@ from collections.abc import Sequence
 
 from tftool.screens.panels import Hint
 
-KEYS = """\
+DRIVING = """\
  Arrow keys   drive turtle1; a press lasts a second
  g t r e      turn to 0, 45, 90, 135 degrees
  d c v b      turn to 180, -135, -90, -45 degrees
  f            give the turn up
 
+"""
+
+LOOKING = """\
  Tab          next panel (Shift+Tab: back)
  Up, Down     in the tree: pick a frame (also j, k)
  Enter        measure from the frame picked
@@ -24,11 +27,27 @@ KEYS = """\
  l            back to live
 
  L            open the log, or close it (Esc closes it too)
+"""
+
+CHOOSING = """\
  o            another scenario
+"""
+
+LEAVING = """\
  m            light or dark
  ? or Esc     close these keys
  q            quit
 """
+
+
+def told(*, drives: bool, chooses: bool) -> str:
+    """Say what every key does, a line each; none that does nothing here.
+
+    Args:
+        drives: Whether something can be driven.
+        chooses: Whether another scenario can be chosen.
+    """
+    return f"{DRIVING if drives else ''}{LOOKING}{CHOOSING if chooses else ''}{LEAVING}"
 
 
 def hints(

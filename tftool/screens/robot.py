@@ -61,7 +61,6 @@ class RobotApp(PanelApp):
     .ascii #keys { border: ascii $accent; }
     """
     KEYS_WIDTH = 56
-    KEYS_TOLD = KEYS
     BINDINGS: ClassVar[list[BindingType]] = [
         Binding("up,k", "choose(-1)", show=False, priority=True),
         Binding("down,j", "choose(1)", show=False, priority=True),
@@ -95,6 +94,10 @@ class RobotApp(PanelApp):
         self._first = 0
 
     # Building
+
+    def keys_told(self) -> str:
+        """Say what the keys do."""
+        return KEYS
 
     def compose(self) -> ComposeResult:
         """Make the panels."""

@@ -83,7 +83,6 @@ class TurtleApp(PanelApp):
     .ascii #log:focus { border: ascii $accent; }
     """
     KEYS_WIDTH = 76
-    KEYS_TOLD = keys.KEYS
     BINDINGS: ClassVar[list[BindingType]] = [
         *(
             Binding(key, f"steer('{key}')", show=False, priority=True)
@@ -226,6 +225,12 @@ class TurtleApp(PanelApp):
             self._idle.touch()
         self.scene.look()
         self._draw(panels_too=self._count % PANELS_EVERY == 0 or self._stale)
+
+    def keys_told(self) -> str:
+        """Say what the keys do that do something here."""
+        return keys.told(
+            drives=self.press_key is not None, chooses=self.setting.scenarios is not None
+        )
 
     def redraw(self) -> None:
         """Draw everything that changed, now."""

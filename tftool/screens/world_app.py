@@ -96,9 +96,6 @@ class PanelApp(WorldApp):
     KEYS_WIDTH: ClassVar[int]
     """Cells that the panel of the keys takes."""
 
-    KEYS_TOLD: ClassVar[str]
-    """What the keys do, a line each."""
-
     BINDINGS: ClassVar[list[BindingType]] = [
         Binding("q,Q", "leave", show=False, priority=True),
         Binding("m", "shade", show=False),
@@ -148,11 +145,15 @@ class PanelApp(WorldApp):
         """Keep the keys in the middle."""
         self._place_keys(event.size)
 
+    def keys_told(self) -> str:
+        """Say what the keys do, a line each."""
+        raise NotImplementedError
+
     def _place_keys(self, size: Size) -> None:
         panel = self.panel("keys")
         if not panel.display:
             return
-        lines = self.KEYS_TOLD.splitlines()
+        lines = self.keys_told().splitlines()
         width, height = size
         panel.styles.width = min(self.KEYS_WIDTH, width)
         panel.styles.height = min(len(lines) + 2, height)
