@@ -362,6 +362,8 @@ FAULTS = (
          ("base_footprint",)),
     Case("dated back", also(lambda r: nav(r, without=("odom",)),
          lambda r: r.moving("map", "odom", 10.0, slow, latency=0.8)), ("stale-stamp",), ("odom",)),
+    Case("a stamp of another year", also(nav, lambda r: r.sent("odom", "base_footprint", 4.0,
+         stamp=seconds(START) + seconds(63_072_000))), ("wild-stamp",), ("base_footprint",)),
     Case("two clocks", also(nav, lambda r: r.hears("/lidar", "base_scan", 20.0, CLOUD,
          latency=-0.08)), ("clock-offset",), ("/lidar",)),
     Case("stamp of zero", lambda r: frozen(r, 0), ("zero-stamp",), ("arm_link",)),

@@ -1,5 +1,7 @@
 """The checks of clocks and stamps, each on a small robot of its own."""
 
+import pytest
+
 from tests.diagnostics.judged import found, ids
 from tests.diagnostics.robots import LASTS, START, Robot, drives, robot, stands
 from tftool.diagnostics.findings import Severity
@@ -27,6 +29,46 @@ def test_a_simulation_with_its_clock_is_healthy():
     made.clock = [(seconds(12.0 + 0.1 * i), seconds(START + 0.1 * i)) for i in range(81)]
     assert ids(made) == []
     assert made.judged().model.reference == ""
+
+
+@pytest.mark.parametrize("tick", [0, 90, 399])
+@pytest.mark.parametrize("years", [2, -2])
+def test_a_single_stamp_of_another_year_is_named_and_makes_no_hole(tick, years):
+    made = robot(odometry=False)
+    made.moving("odom", "base_link")
+    stamps = made.records["odom", "base_link", False]
+    stamp, *rest = stamps[tick]
+    stamps[tick] = (stamp + years * 31_536_000 * 10**9, *rest)
+
+    if tick == 0 and years < 0:
+        # Old at the start: what was latched is, by intention.
+        assert "wild-stamp" not in ids(made, notes=True)
+        return
+    finding = found(made, "wild-stamp")
+    assert finding.edges == (("odom", "base_link"),)
+    assert finding.facts["stamp"] == stamps[tick][0]
+    assert finding.facts["off"] == pytest.approx(2 * 31_536_000 * 10**9, rel=1e-6)
+    assert finding.facts["side"] == ("ahead of" if years > 0 else "behind")
+    # What follows from it is not told beside it.
+    assert ids(made) == ["wild-stamp"]
+    assert "gap" not in ids(made, notes=True)
+
+
+def test_two_publishers_of_two_clocks_by_turns_have_no_wild_stamps():
+    made = robot(odometry=False)
+    made.moving("odom", "base_link", hz=20)
+    made.moving("odom", "base_link", hz=10, offset=7200.0)
+    assert "wild-stamp" not in ids(made, notes=True)
+
+
+def test_messages_of_a_sensor_have_wild_stamps_too():
+    made = robot()
+    made.static("base_link", "laser")
+    made.hears("/scan", "laser")
+    _, messages = made.heard["/scan"]
+    stamp, *rest = messages[30]
+    messages[30] = (stamp + seconds(7200), *rest)
+    assert found(made, "wild-stamp").topics == ("/scan",)
 
 
 def test_transforms_from_the_future_and_of_long_ago():

@@ -486,6 +486,30 @@ _LIST = (
         why="AMCL dates its transform 1 s ahead, and offsets of 0.1 s are in use",
     ),
     Check(
+        "wild-stamp",
+        _C,
+        _W,
+        "single stamps far from those before and after",
+        "at most one stamp in a hundred, or one, lies more than an hour from where those of the "
+        "arrivals before and after lie",
+        "{where} {concerned:has|have} a stamp that lies {off:span} {side} the others",
+        "{what}: {count} of {of}, {stamp:dated}",
+        "a transform stamped ahead has tf2 drop what follows, until time reaches it; one that is "
+        "stamped behind is dropped itself",
+        (
+            Fix(
+                "look at what the publisher stamps from: `tftool edit` cuts what lies --from and --to"
+            ),
+        ),
+        (
+            "memory that was never set, or a number read with the wrong bytes",
+            "one message stamped before the clock was set",
+        ),
+        (),
+        needs=("log times",),
+        why="a late message or a slow clock is off by seconds, and its neighbours are, too",
+    ),
+    Check(
         "stale-stamp",
         _C,
         _W,
@@ -1146,6 +1170,7 @@ FOLDS: tuple[tuple[tuple[str, ...], tuple[str, ...], str], ...] = (
         ("sensor-outruns-tf",),
         "path",
     ),
+    (("wild-stamp",), ("old-data", "out-of-order", "late-start"), "edge"),
     (("edge-stopped", "nan-transform"), ("gap",), "edge"),
     (("zero-stamp",), ("frozen-stamp", "single-sample"), "edge"),
     (("cache-short",), ("stale-stamp",), "stream"),

@@ -95,6 +95,36 @@ def _ahead(model: Model, track: Track, ahead: int, severity: Severity) -> Hit:
     )
 
 
+def wild_stamp(model: Model, limits: Limits) -> Iterator[Hit]:
+    """Single stamps far from those before and after."""
+    streams: list[Track | Heard] = [*model.dynamic, *model.heard]
+    for one in streams:
+        places = np.flatnonzero(one.wild)
+        if not len(places):
+            continue
+        # How much further off than the one beside it, which is at home.
+        beside = np.where(places > 0, places - 1, places + 1)
+        off = one.latency[beside] - one.latency[places]
+        worst = int(np.abs(off).argmax())
+        place = int(places[worst])
+        yield Hit(
+            edges=(one.edge,) if isinstance(one, Track) else (),
+            topics=() if isinstance(one, Track) else (one.topic,),
+            frames=() if isinstance(one, Track) else (one.frame,),
+            publishers=one.nodes if isinstance(one, Track) else (),
+            since=int(one.logs[place]),
+            count=len(places),
+            facts={
+                "what": _name(one),
+                "count": len(places),
+                "of": len(one.stamps),
+                "stamp": int(one.stamps[place]),
+                "off": abs(int(off[worst])),
+                "side": "ahead of" if off[worst] > 0 else "behind",
+            },
+        )
+
+
 def stale_stamp(model: Model, limits: Limits) -> Iterator[Hit]:
     """Transforms or messages dated long before their arrival."""
     cache = model.settings.cache_time

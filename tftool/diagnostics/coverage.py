@@ -66,7 +66,8 @@ def _least_gap(track: Track, limits: Limits) -> float:
 
 def holes(track: Track, limits: Limits) -> list[tuple[int, int]]:
     """Stamps between which an edge has nothing, although it should."""
-    stamps = track.sorted_stamps
+    # Between a stamp that is years off and the others nothing is missing.
+    stamps = track.stamps[track.by_stamp[~track.wild[track.by_stamp]]]
     if len(stamps) < limits["samples"] or not track.period:
         return []
     if len(track.steps) < 0.5 * (len(stamps) - 1):

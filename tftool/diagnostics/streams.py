@@ -14,7 +14,7 @@ from tftool.sources.contract import (
     Stamps,
     Transforms,
 )
-from tftool.stamps import NANOSECONDS, SIMULATED_BELOW
+from tftool.stamps import NANOSECONDS, SIMULATED_BELOW, seconds
 
 Mask = npt.NDArray[np.bool_]
 
@@ -23,6 +23,12 @@ Places = npt.NDArray[np.intp]
 
 NEVER = np.iinfo(np.int64).max
 """The arrival of what never arrives."""
+
+WILD = seconds(3600)
+"""How far from where it belongs a single stamp is no late message and no slow clock."""
+
+FEW = 0.01
+"""What share of the stamps may be such."""
 
 ZERO_QUATERNION = 1e-12
 """A rotation whose squared length is below this has no direction: tf2 drops it."""
@@ -70,6 +76,28 @@ class Stream:
         """Nanoseconds; of those whose stamp is not 0."""
         stamped = self.latency[self.stamps != 0]
         return int(np.median(stamped)) if len(stamped) else 0
+
+    @cached_property
+    def wild(self) -> Mask:
+        """Which stamps lie far from where the arrivals before and after have theirs, shape (n,).
+
+        No stamp does where they are many: those are two clocks by turns, and no accident.
+        """
+        far = np.zeros(len(self.stamps), dtype=np.bool_)
+        if len(far) < 3:
+            return far
+        steps = np.diff(self.latency)
+        up, down = steps > WILD, steps < -WILD
+        far[1:-1] = (up[:-1] & down[1:]) | (down[:-1] & up[1:])
+        # At the ends there is one neighbour alone, which has to be at home itself.
+        # A first message that was latched is old by intention.
+        far[0] = up[0] and not far[1]
+        far[-1] = (up[-1] or down[-1]) and not far[-2]
+        # Where the stamp is none, or of the other clock, that is another fault.
+        is_sim = self.stamps < SIMULATED_BELOW
+        far &= (self.stamps != 0) & (is_sim == (2 * np.count_nonzero(is_sim) > len(is_sim)))
+        few = max(1.0, FEW * len(far))
+        return far if np.count_nonzero(far) <= few else np.zeros_like(far)
 
     @cached_property
     def families(self) -> tuple[int, int]:
