@@ -5,7 +5,7 @@ topics names its ROS type, as the classes of messages do: `interface__`.
 """
 
 from dataclasses import dataclass
-from typing import ClassVar
+from typing import ClassVar, Final
 
 from tftool.stamps import Stamp
 
@@ -43,6 +43,10 @@ class Color:
     r: int
     g: int
     b: int
+
+
+BACKGROUND: Final = Color(69, 86, 255)
+"""The field's colour unless parameters say otherwise."""
 
 
 @dataclass(frozen=True, slots=True)

@@ -8,6 +8,7 @@ from hypothesis import strategies as st
 from tests.nodes.harness import After, At, Before, log_texts, new_world, play
 from tftool.errors import TftoolError, UsageError
 from tftool.messages import (
+    BACKGROUND,
     Clear,
     Color,
     Kill,
@@ -25,7 +26,7 @@ from tftool.nodes import turtlesim as turtlesim_module
 from tftool.nodes.tick_queue import MOST_WAITING
 from tftool.nodes.trail import BLANK
 from tftool.nodes.turtle import PEN_COLOR, Turtle
-from tftool.nodes.turtlesim import BACKGROUND, Turtlesim
+from tftool.nodes.turtlesim import Turtlesim
 from tftool.runtime.clock import SimClock, WallClock, run
 from tftool.runtime.supervisor import live
 from tftool.runtime.world import World

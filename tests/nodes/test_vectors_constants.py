@@ -4,9 +4,10 @@ import pytest
 import yaml
 
 from tests.nodes.vectors import FILE, TESTED_IN, VECTORS, load
+from tftool import messages
 from tftool.geometry import planar
 from tftool.motion import pursuit, unicycle
-from tftool.nodes import follower, teleop, trail, turtle, turtlesim
+from tftool.nodes import follower, teleop, trail, turtle
 from tftool.stamps import seconds
 
 CONSTANTS = VECTORS["constants"]
@@ -26,7 +27,7 @@ def test_every_number_of_the_constants_is_ours():
         "cmd_timeout_ns": unicycle.COMMAND_TIMEOUT,
         "pi_used": unicycle.PI,
         "two_pi_used": unicycle.TWO_PI,
-        "background_rgb": _rgb(turtlesim.BACKGROUND),
+        "background_rgb": _rgb(messages.BACKGROUND),
         "pen_rgb": _rgb(turtle.PEN_COLOR),
         "pen_width_px": turtle.PEN_WIDTH,
         "blank_sensor_rgb": _rgb(trail.BLANK),

@@ -7,10 +7,10 @@ from hypothesis import strategies as st
 from rich.cells import cell_len
 
 from tftool.messages import Color
+from tftool.motion.unicycle import CENTRE, FIELD
 from tftool.views import paper, sprites, theme
 from tftool.views.canvas import Canvas
 from tftool.views.plane import (
-    EDGE,
     Drawn,
     PlaneFrame,
     PlanePicture,
@@ -21,18 +21,17 @@ from tftool.views.plane import (
 )
 
 PEN = Color(179, 184, 255)
-CENTRE = EDGE / 2
 
 
 def words(lines):
     return ["".join(segment.text for segment in line) for line in lines]
 
 
-def view(rows, size=EDGE, left=0.0, bottom=0.0):
+def view(rows, size=FIELD, left=0.0, bottom=0.0):
     return Viewport(left, bottom, size / rows)
 
 
-def draw(picture, rows=16, size=EDGE, **how):
+def draw(picture, rows=16, size=FIELD, **how):
     return Canvas(2 * rows, rows, scaled=False, **how).lines(picture, view(rows, size))
 
 
@@ -171,7 +170,7 @@ def test_up_is_up_and_right_is_right():
 
 
 def test_the_edges_of_the_field_are_inside():
-    corners = [(0.0, 0.0), (EDGE, 0.0), (0.0, EDGE), (EDGE, EDGE)]
+    corners = [(0.0, 0.0), (FIELD, 0.0), (0.0, FIELD), (FIELD, FIELD)]
     picture = sheet(*(turtle(f"t{n}", x, y) for n, (x, y) in enumerate(corners)))
 
     text = words(draw(picture, rows=10, ascii_only=True))
@@ -284,8 +283,8 @@ def test_another_background_is_painted_everywhere():
 def test_the_field_lies_in_the_picture_as_its_frame_does():
     """Ten metres to the right, and turned by a quarter: its colour is there, and nowhere else."""
     lines = Canvas(80, 20, scaled=False).lines(
-        sheet(x=10.0 + EDGE, theta=math.pi / 2, strokes=(stroke(1.0, 2.0, 9.0, 2.0),)),
-        Viewport(0.0, 0.0, EDGE / 20 * 2),
+        sheet(x=10.0 + FIELD, theta=math.pi / 2, strokes=(stroke(1.0, 2.0, 9.0, 2.0),)),
+        Viewport(0.0, 0.0, FIELD / 20 * 2),
     )
 
     blue = {
@@ -297,7 +296,7 @@ def test_the_field_lies_in_the_picture_as_its_frame_does():
     # Two thirds of a metre to a column: 18 of 80 cells of 0.554 m are 10 m, 20 more the field.
     assert blue == {(column, row) for row in range(10, 20) for column in range(18, 38)}
     # What was drawn along its x axis, two metres from it, goes up, two metres from the right.
-    assert {column for column, _ in dotted(lines)} == {math.floor((8.0 + EDGE) / EDGE * 20)}
+    assert {column for column, _ in dotted(lines)} == {math.floor((8.0 + FIELD) / FIELD * 20)}
 
 
 def test_names_stand_beside_turtles_and_do_not_hide_each_other():
@@ -502,12 +501,6 @@ def test_without_colour_a_big_turtle_is_an_arrow():
     assert "▐←▌" in "".join(words(lines))
 
 
-def test_the_edge_is_the_simulators_own():
-    from tftool.motion.unicycle import FIELD
-
-    assert EDGE == FIELD
-
-
 def letters(lines, row):
     """The colour of every letter of a row, and whether it stands on the field."""
     found = []
@@ -521,11 +514,11 @@ def letters(lines, row):
 def test_a_name_across_the_edge_of_the_field_is_read_on_both_grounds():
     def named(x):
         frame = PlaneFrame("a_long_name", x, CENTRE, ())
-        drawn = draw(sheet(frame), rows=40, size=2 * EDGE, palette=theme.LIGHT)
+        drawn = draw(sheet(frame), rows=40, size=2 * FIELD, palette=theme.LIGHT)
         return max((letters(drawn, row) for row in range(40)), key=len)
 
-    (on_field,), (beside,) = set(named(1.0)), set(named(1.3 * EDGE))
+    (on_field,), (beside,) = set(named(1.0)), set(named(1.3 * FIELD))
     assert on_field[1]
     assert not beside[1]
     assert on_field[0] != beside[0]
-    assert set(named(EDGE - 2.5)) == {on_field, beside}
+    assert set(named(FIELD - 2.5)) == {on_field, beside}

@@ -1,5 +1,6 @@
 import pytest
 
+from tftool.messages import BACKGROUND
 from tftool.views import theme
 
 
@@ -14,7 +15,7 @@ def test_any_name_has_a_colour(name):
 
 
 def test_a_colour_is_written_in_hexadecimal():
-    assert theme.hexadecimal(theme.BACKGROUND) == "#4556ff"
+    assert theme.hexadecimal(BACKGROUND) == "#4556ff"
 
 
 @pytest.mark.parametrize(

@@ -10,12 +10,11 @@ import numpy as np
 import numpy.typing as npt
 
 from tftool.geometry.conversions import NOISE
+from tftool.geometry.quaternions import ROUNDING
 
 Floats: TypeAlias = npt.NDArray[np.float64]
 """Numbers in double precision, of any shape."""
 
-# As in `quaternions`: what is a unit quaternion but for rounding is left as it is.
-_ROUNDING = 8e-16
 _LEAST_SQUARE = 2.0 / 1.7976931348623157e308
 
 
@@ -70,7 +69,7 @@ def unit(quaternions: Floats) -> Floats:
             again = unit(smaller) if np.any(huge) else quaternions
         else:
             huge, again = np.zeros(np.shape(square), dtype=bool), quaternions
-        exact = np.abs(square - 1.0) < _ROUNDING
+        exact = np.abs(square - 1.0) < ROUNDING
         scale = np.where(exact, 1.0, 1.0 / np.sqrt(square))
         usable = (square > _LEAST_SQUARE) & (square < np.inf)
         scaled = np.where(usable[..., None], quaternions * scale[..., None], np.nan)

@@ -22,8 +22,8 @@ IDENTITY: Quad = (0.0, 0.0, 0.0, 1.0)
 
 NAN_QUAD: Quad = (math.nan, math.nan, math.nan, math.nan)
 
-# A quaternion that is a unit one but for rounding is left as it is, to the last bit.
-_ROUNDING = 8e-16
+ROUNDING = 8e-16
+"""A quaternion whose square is this near to 1 is left as it is, to the last bit."""
 
 
 def multiply(first: Quad, second: Quad) -> Quad:
@@ -66,7 +66,7 @@ def unit(quaternion: Quad) -> Quad:
     """
     x, y, z, w = quaternion
     square = x * x + y * y + z * z + w * w
-    if -_ROUNDING < square - 1.0 < _ROUNDING:
+    if -ROUNDING < square - 1.0 < ROUNDING:
         return quaternion
     if square == math.inf:
         # Squares of huge numbers overflow although the direction is plain to see.

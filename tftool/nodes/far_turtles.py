@@ -10,11 +10,11 @@ from tftool.errors import TftoolError
 from tftool.interfaces.classes import INTERFACES
 from tftool.interfaces.parameters import value_of
 from tftool.interfaces.values import message_class
-from tftool.messages import Color, Pose2D
+from tftool.messages import BACKGROUND, Color, Pose2D
 from tftool.nodes.drawings import SERVICE, FarDrawing
 from tftool.nodes.trail import Segment, Trail
 from tftool.nodes.turtle import PEN_COLOR, PEN_WIDTH
-from tftool.nodes.turtlesim import BACKGROUND, BACKGROUND_PARAMETERS
+from tftool.nodes.turtlesim import BACKGROUND_PARAMETERS
 from tftool.runtime.endpoints import PUBLISHER
 from tftool.runtime.node import Node
 from tftool.runtime.world import World

@@ -5,7 +5,7 @@ from types import MappingProxyType
 from typing import ClassVar
 
 from tftool.errors import UsageError
-from tftool.messages import Clear, Color, Kill, Reset, Spawn, Spawned
+from tftool.messages import BACKGROUND, Clear, Color, Kill, Reset, Spawn, Spawned
 from tftool.motion.unicycle import CENTRE, TICK, Placement
 from tftool.nodes.drawings import DrawingService
 from tftool.nodes.parameter_services import ParameterServices
@@ -19,9 +19,6 @@ from tftool.runtime.node import Node
 from tftool.runtime.parameters import Value
 from tftool.runtime.world import World
 from tftool.stamps import Stamp
-
-BACKGROUND = Color(69, 86, 255)
-"""The field's colour unless parameters say otherwise."""
 
 MOST_TURTLES = 1000
 """How many turtles there may be at once: every one is updated at every tick."""

@@ -11,13 +11,14 @@ from tftool.frames.snapshot import rate_of
 from tftool.geometry.planar import heading, transform_from_pose
 from tftool.geometry.rigid import Transform
 from tftool.messages import Color, Pose2D
+from tftool.motion.unicycle import FIELD
 from tftool.nodes.trail import Trail
 from tftool.runtime.world import World
 from tftool.screens.frame_trails import FrameTrails
 from tftool.screens.frames_seen import Lookup, in_snapshot, moving, natural_fixed, pictured
 from tftool.stamps import LATEST, Duration, Stamp, as_seconds, seconds
 from tftool.views.braille_trail import Stroke
-from tftool.views.plane import EDGE, Drawn, PlaneFrame, PlanePicture, TurtleField
+from tftool.views.plane import Drawn, PlaneFrame, PlanePicture, TurtleField
 
 FLASH = seconds(0.4)
 """How long a wall stays lit after it was run into."""
@@ -363,7 +364,7 @@ class Scene:
 
 
 def _sides(x: float, y: float) -> list[str]:
-    far = EDGE - 1e-5
+    far = FIELD - 1e-5
     sides = {"left": x <= 0.0, "bottom": y <= 0.0, "right": x >= far, "top": y >= far}
     return [side for side, met in sides.items() if met]
 

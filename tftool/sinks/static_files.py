@@ -11,9 +11,9 @@ from tftool.errors import InputError, UsageError
 from tftool.frames.buffer import Buffer
 from tftool.geometry.rigid import Transform
 from tftool.notation.writing import publisher_words, urdf_origin
+from tftool.sources.statics import PUBLISHER
 from tftool.stamps import LATEST, Stamp
 
-_PUBLISHER = "static_transform_publisher"
 _NOT_XML = re.compile(r"[\x00-\x08\x0b\x0c\x0e-\x1f\ud800-\udfff\ufffe\uffff]")
 _PLAIN_WORD = re.compile(r"[^\s\"'$\\]+")
 
@@ -111,7 +111,7 @@ def shell(links: Sequence[FixedLink]) -> str:
     """A script that runs a publisher for each link; Ctrl-C ends them all."""
     lines = ["#!/bin/sh", "# Publishes static transforms; Ctrl-C ends them all.", "set -e"]
     lines += [
-        f"ros2 run tf2_ros {_PUBLISHER} {shlex.join(_words(_whole_name(one)))} &" for one in links
+        f"ros2 run tf2_ros {PUBLISHER} {shlex.join(_words(_whole_name(one)))} &" for one in links
     ]
     return "\n".join([*lines, "wait", ""])
 
@@ -130,7 +130,7 @@ def launch_python(links: Sequence[FixedLink]) -> str:
         lines += [
             "        Node(",
             '            package="tf2_ros",',
-            f'            executable="{_PUBLISHER}",',
+            f'            executable="{PUBLISHER}",',
             f'            name="{name}",',
             "            arguments=[",
             *(f"                {line}," for line in _listed(_words(_whole_name(one)))),
@@ -149,7 +149,7 @@ def launch_xml(links: Sequence[FixedLink]) -> str:
     lines = ['<?xml version="1.0"?>', "<launch>"]
     for one, name in zip(links, _node_names(links), strict=True):
         words = _attribute(_plain(one))
-        lines.append(f'  <node pkg="tf2_ros" exec="{_PUBLISHER}" name="{name}" args={words}/>')
+        lines.append(f'  <node pkg="tf2_ros" exec="{PUBLISHER}" name="{name}" args={words}/>')
     return "\n".join([*lines, "</launch>", ""])
 
 
@@ -164,7 +164,7 @@ def launch_yaml(links: Sequence[FixedLink]) -> str:
         lines += [
             "  - node:",
             "      pkg: tf2_ros",
-            f"      exec: {_PUBLISHER}",
+            f"      exec: {PUBLISHER}",
             f"      name: {name}",
             f"      args: {json.dumps(_plain(one))}",
         ]

@@ -3,7 +3,7 @@
 import re
 import struct
 from array import array
-from collections.abc import Collection, Iterator
+from collections.abc import Collection, Iterator, Mapping
 from typing import Final
 
 import numpy as np
@@ -36,7 +36,9 @@ MOST_UNPACKED: Final = 1 << 26
 
 CLOCK_TYPE: Final = "rosgraph_msgs/Clock"
 
-_LAYOUTS = {"cdr": CDR, "ros1": ROS1}
+LAYOUTS: Final[Mapping[str, Layout]] = {"cdr": CDR, "ros1": ROS1}
+"""Which layout messages have, by a topic's encoding."""
+
 _HEAD_BYTES = 16 + LONGEST_NAME
 _COMMENT = re.compile(r"#.*")
 _HEADER_FIELD = re.compile(r"(std_msgs/(msg/)?|roslib/)?Header\s+\w+\s*$")
@@ -161,7 +163,7 @@ class Recorded:
                 continue
             static = is_static(stream)
             if _is_tf(stream):
-                key = _LAYOUTS[stream.encoding], static
+                key = LAYOUTS[stream.encoding], static
                 if key not in cutters:
                     cutters[key] = cutter(table, *key)
                 of_stream[number] = cutters[key]
@@ -216,7 +218,7 @@ class Recorded:
         numbers = {
             number: stream
             for number, stream in enumerate(self._container.streams)
-            if short_type(stream.type) == CLOCK_TYPE and stream.encoding in _LAYOUTS
+            if short_type(stream.type) == CLOCK_TYPE and stream.encoding in LAYOUTS
         }
         for batch in self._batches(numbers.keys(), None, 12):
             for number in range(len(batch)):
@@ -340,7 +342,7 @@ def _stamp(payload: bytes, place: int, order: str = "<") -> Stamp:
 
 
 def _is_tf(stream: MessageStream) -> bool:
-    return short_type(stream.type) in TRANSFORM_TYPES and stream.encoding in _LAYOUTS
+    return short_type(stream.type) in TRANSFORM_TYPES and stream.encoding in LAYOUTS
 
 
 def _has_transforms(stream: MessageStream) -> bool:
@@ -358,7 +360,7 @@ def is_static(stream: MessageStream) -> bool:
 
 def begins_with_header(stream: MessageStream) -> bool:
     """Whether messages of a stream begin with a header that we can read."""
-    if stream.encoding not in _LAYOUTS:
+    if stream.encoding not in LAYOUTS:
         return False
     kind = short_type(stream.type)
     if not stream.definition:

@@ -14,6 +14,7 @@ from typing import Final, TypeAlias
 from rich.segment import Segment
 
 from tftool.messages import Color
+from tftool.motion.unicycle import FIELD
 from tftool.views import sprites, theme
 from tftool.views.braille_trail import Ink, LooseInk, Stroke, sign_of
 from tftool.views.cells import Line, cells_of, line_of, style_of
@@ -30,7 +31,6 @@ from tftool.views.paper import (
     paper,
 )
 from tftool.views.plane import (
-    EDGE,
     FARTHEST,
     Drawn,
     PlaneFrame,
@@ -512,10 +512,10 @@ def _edges(field: TurtleField, sides: Iterable[str]) -> Iterator[tuple[float, fl
 
 
 _SIDES: Final = {
-    "bottom": ((0.0, 0.0), (EDGE, 0.0)),
-    "right": ((EDGE, 0.0), (EDGE, EDGE)),
-    "top": ((EDGE, EDGE), (0.0, EDGE)),
-    "left": ((0.0, EDGE), (0.0, 0.0)),
+    "bottom": ((0.0, 0.0), (FIELD, 0.0)),
+    "right": ((FIELD, 0.0), (FIELD, FIELD)),
+    "top": ((FIELD, FIELD), (0.0, FIELD)),
+    "left": ((0.0, FIELD), (0.0, 0.0)),
 }
 
 

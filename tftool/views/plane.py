@@ -8,12 +8,9 @@ from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from typing import Final, NamedTuple, TypeAlias
 
-from tftool.messages import Color
-from tftool.views import theme
+from tftool.messages import BACKGROUND, Color
+from tftool.motion.unicycle import FIELD
 from tftool.views.braille_trail import Stroke
-
-EDGE: Final = 11.088889122009277
-"""Metres along one side of turtlesim's field."""
 
 _APART: Final = 3.4
 """Rows of the terminal between two lines of a grid, at the least."""
@@ -72,7 +69,7 @@ class TurtleField:
     x: float = 0.0
     y: float = 0.0
     theta: float = 0.0
-    color: Color = theme.BACKGROUND
+    color: Color = BACKGROUND
     walls: frozenset[str] = frozenset()
 
     def place(self, x: float, y: float) -> Point:
@@ -82,7 +79,7 @@ class TurtleField:
 
     def corners(self) -> tuple[Point, ...]:
         """Lower left, lower right, upper right, upper left."""
-        return tuple(self.place(x, y) for x, y in ((0, 0), (EDGE, 0), (EDGE, EDGE), (0, EDGE)))
+        return tuple(self.place(x, y) for x, y in ((0, 0), (FIELD, 0), (FIELD, FIELD), (0, FIELD)))
 
 
 @dataclass(frozen=True, slots=True)

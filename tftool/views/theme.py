@@ -11,7 +11,6 @@ from typing import NamedTuple
 from tftool.messages import Color
 from tftool.stamps import FRAME_TIMEOUT
 
-BACKGROUND = Color(69, 86, 255)
 WALL = Color(255, 92, 87)
 INK = Color(16, 20, 48)
 WHITE = Color(255, 255, 255)

@@ -15,6 +15,7 @@ import numpy.typing as npt
 from tftool.errors import MalformedMessage
 from tftool.stamps import NANOSECONDS, Stamp
 from tftool.wire.layouts import CDR, Layout
+from tftool.wire.transforms import KIND
 
 Bytes: TypeAlias = npt.NDArray[np.uint8]
 """Bytes as an array."""
@@ -31,7 +32,6 @@ LONGEST_NAME: Final = 4096
 SMALLEST: Final = 72
 """Bytes of a transform with empty names: stamp 8, two lengths 8, seven doubles 56."""
 
-_KIND: Final = "tf2_msgs/TFMessage"
 _LITTLE: Final = b"\x00\x01"
 _BIG: Final = b"\x00\x00"
 _SEVEN: Final = {order: struct.Struct(f"{order}7d") for order in "<>"}
@@ -91,7 +91,7 @@ def walk(layout: Layout, payload: bytes) -> Walked:
         # Stamp and numbers take 64 bytes, and two lengths 8, at least.
         if count * SMALLEST > size - position:
             room = (size - position) // SMALLEST
-            raise MalformedMessage(_KIND, f"it announces {count} transforms, with room for {room}")
+            raise MalformedMessage(KIND, f"it announces {count} transforms, with room for {room}")
         for _ in range(count):
             stamp = position if is_cdr else position + 4  # behind the sequence number
             position = stamp + 8
@@ -102,7 +102,7 @@ def walk(layout: Layout, payload: bytes) -> Walked:
                 (length,) = word.unpack_from(payload, position)
                 end = position + 4 + length
                 if length > LONGEST_NAME or end > size:
-                    raise MalformedMessage(_KIND, f"a frame name announces {length} bytes")
+                    raise MalformedMessage(KIND, f"a frame name announces {length} bytes")
                 raw = payload[position + 4 : end]
                 # ROS 2 counts the zero byte that ends a text.
                 raw = raw.removesuffix(b"\x00") if is_cdr else raw
@@ -115,12 +115,12 @@ def walk(layout: Layout, payload: bytes) -> Walked:
             places.append(Place(names[0], names[1], stamp, position))
             position += 56
             if position > size:
-                raise MalformedMessage(_KIND, f"it ends within transform {len(places)} of {count}")
+                raise MalformedMessage(KIND, f"it ends within transform {len(places)} of {count}")
     except struct.error as error:
-        raise MalformedMessage(_KIND, f"it ends within transform {len(places) + 1}") from error
+        raise MalformedMessage(KIND, f"it ends within transform {len(places) + 1}") from error
     # Some writers round a message up to a full word.
     if size - position > (7 if is_cdr else 0):
-        raise MalformedMessage(_KIND, f"{size - position} bytes are left over behind it")
+        raise MalformedMessage(KIND, f"{size - position} bytes are left over behind it")
     return Walked(order, tuple(places), tuple(fixed))
 
 
@@ -142,7 +142,7 @@ def _byte_order(payload: bytes) -> str:
         return "<"
     if head == _BIG:
         return ">"
-    raise MalformedMessage(_KIND, f"its header {payload[:4].hex()} is not that of plain CDR")
+    raise MalformedMessage(KIND, f"its header {payload[:4].hex()} is not that of plain CDR")
 
 
 def row_span(layout: Layout, length: int) -> tuple[int, int]:

@@ -8,8 +8,8 @@ from tftool.errors import MalformedMessage
 from tftool.stamps import NANOSECONDS, Stamp
 from tftool.wire.layouts import CDR, Layout
 from tftool.wire.rows import Place, Walked, sample, walk
+from tftool.wire.transforms import KIND
 
-_KIND: Final = "tf2_msgs/TFMessage"
 _WORD: Final = struct.Struct("<I")
 _SEVEN: Final = struct.Struct("<7d")
 
@@ -115,5 +115,5 @@ def _packed_stamp(layout: Layout, stamp: Stamp, order: str) -> bytes:
         return struct.pack(f"{order}{'i' if layout is CDR else 'I'}I", sec, nanosec)
     except struct.error as error:
         raise MalformedMessage(
-            _KIND, f"the stamp {stamp} ns does not fit into 32-bit seconds"
+            KIND, f"the stamp {stamp} ns does not fit into 32-bit seconds"
         ) from error

@@ -18,7 +18,9 @@ if TYPE_CHECKING:
     import numpy as np
     import numpy.typing as npt
 
-_KIND: Final = "tf2_msgs/TFMessage"
+KIND: Final = "tf2_msgs/TFMessage"
+"""The type of the messages on tf and tf_static."""
+
 _SMALLEST_TRANSFORM: Final = 72  # stamp 8, two empty strings 8, seven doubles 56
 _STAMP_AND_LENGTH: Final = struct.Struct("<iII")
 _LENGTH: Final = struct.Struct("<I")
@@ -50,7 +52,7 @@ def encode_transforms(transforms: Sequence[TransformStamped]) -> bytes:
             parts.append(_STAMP.pack(sec, nanosec))
         except struct.error as error:
             raise MalformedMessage(
-                _KIND,
+                KIND,
                 f"the stamp {sample.stamp} ns does not fit into 32-bit seconds",
             ) from error
         key = (sample.frame_id, sample.child_frame_id, phase)
@@ -106,9 +108,9 @@ def decode_transforms(payload: bytes) -> tuple[TransformStamped, ...]:
             found.append(new(TransformStamped, (stamp, parent, child, pose)))
     except struct.error as error:
         raise MalformedMessage(
-            _KIND, f"it ends within transform {len(found) + 1} of {count}"
+            KIND, f"it ends within transform {len(found) + 1} of {count}"
         ) from error
-    check_rest(_KIND, size - position)
+    check_rest(KIND, size - position)
     return tuple(found)
 
 
@@ -173,7 +175,7 @@ def decode_columns(payload: bytes) -> TransformColumns:
         word += 14
         if word > last:
             raise _ends_within(row, count)
-    check_rest(_KIND, size - word * 4)
+    check_rest(KIND, size - word * 4)
 
     table = np.frombuffer(payload, dtype="<u4", count=last)
     sec = table[starts].astype(np.uint32).view(np.int32).astype(np.int64)
@@ -211,7 +213,7 @@ def _text(name: str) -> bytes:
     try:
         raw = text_bytes(name)
     except ValueError as error:
-        raise MalformedMessage(_KIND, str(error)) from error
+        raise MalformedMessage(KIND, str(error)) from error
     return _LENGTH.pack(len(raw)) + raw
 
 
@@ -225,14 +227,14 @@ def _name(raw: bytes) -> str:
 
 
 def _count_of_transforms(payload: bytes) -> int:
-    if CDR.order(_KIND, payload) != LITTLE:
-        raise MalformedMessage(_KIND, "transforms are read in little endian only")
+    if CDR.order(KIND, payload) != LITTLE:
+        raise MalformedMessage(KIND, "transforms are read in little endian only")
     if len(payload) < 8:
-        raise MalformedMessage(_KIND, "it ends before its number of transforms")
+        raise MalformedMessage(KIND, "it ends before its number of transforms")
     (count,) = _LENGTH.unpack_from(payload, 4)
     room = (len(payload) - 8) // _SMALLEST_TRANSFORM
     if count > room:
-        raise MalformedMessage(_KIND, f"it announces {count} transforms and has room for {room}")
+        raise MalformedMessage(KIND, f"it announces {count} transforms and has room for {room}")
     return int(count)
 
 
@@ -243,4 +245,4 @@ def _cut_off(length: int, rest: int) -> MalformedMessage:
 
 
 def _ends_within(row: int, count: int) -> MalformedMessage:
-    return MalformedMessage(_KIND, f"it ends within transform {row + 1} of {count}")
+    return MalformedMessage(KIND, f"it ends within transform {row + 1} of {count}")

@@ -8,14 +8,14 @@ from typing import TYPE_CHECKING, Any
 
 from tftool.errors import UsageError
 from tftool.frames.sample import TransformStamped
-from tftool.messages import Color
+from tftool.messages import BACKGROUND, Color
 from tftool.near_names import did_you_mean
 from tftool.nodes.broadcasters import Broadcaster, DynamicCarrot, FixedCarrot, StaticBroadcaster
 from tftool.nodes.follower import Follower
 from tftool.nodes.points import MessageBroadcaster, PointDrawer
 from tftool.nodes.squares import DrawSquare, Mimic
 from tftool.nodes.static_turtle import static_turtle
-from tftool.nodes.turtlesim import BACKGROUND, Turtlesim
+from tftool.nodes.turtlesim import Turtlesim
 from tftool.notation import static_arguments
 from tftool.ros.host import importing, user_code
 from tftool.ros.host.names import RosOptions, expand, join, named_twice

@@ -14,17 +14,21 @@ from tftool.interfaces.classes import Interfaces, Message
 from tftool.interfaces.schema import PRIMITIVES, full_name
 from tftool.sources.container import MessageStream, offers_of
 from tftool.sources.editing.tape import Taken
-from tftool.sources.reading import TRANSFORM_TYPES, begins_with_header, is_static, short_type
+from tftool.sources.reading import (
+    LAYOUTS,
+    TRANSFORM_TYPES,
+    begins_with_header,
+    is_static,
+    short_type,
+)
 from tftool.sources.writing.channel import Channel
 from tftool.stamps import NANOSECONDS, Duration, Stamp
 from tftool.wire.codec import Codec
-from tftool.wire.layouts import CDR, ROS1, Layout
 from tftool.wire.splicing import TransformRow, TransformRows
 
 LinkName = tuple[str, str]
 """Parent and child, each without a leading slash; "*" stands for any name."""
 
-LAYOUTS: Final[Mapping[str, Layout]] = {"cdr": CDR, "ros1": ROS1}
 _HEADER: Final = "std_msgs/msg/Header"
 
 

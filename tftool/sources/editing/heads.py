@@ -9,7 +9,6 @@ from tftool.errors import InputError
 from tftool.frames.sample import TransformStamped
 from tftool.frames.tree import stripped
 from tftool.sources.editing.changes import (
-    LAYOUTS,
     Changer,
     Edits,
     carries_statics,
@@ -17,6 +16,7 @@ from tftool.sources.editing.changes import (
 )
 from tftool.sources.editing.outputs import EditedFile
 from tftool.sources.editing.tape import Taken, Tape
+from tftool.sources.reading import LAYOUTS
 from tftool.sources.writing.channel import Channel
 from tftool.sources.writing.ros2 import TRANSFORMS, ros2_channel
 from tftool.stamps import LAST_STAMP, Stamp
