@@ -20,6 +20,17 @@ def test_view_says_where_the_page_is_and_ends_when_told(page, tftool):
     )
 
 
+def test_on_a_narrow_terminal_the_address_has_a_line_of_its_own(page, tftool, monkeypatch):
+    monkeypatch.setattr("sys.stdout.isatty", lambda: True)
+    monkeypatch.setenv("COLUMNS", "60")
+
+    result = tftool("view", "turtles", "--for", "2", "--port", "0")
+
+    assert re.fullmatch(
+        r"The frames of scenario 'turtles' are at\nhttp://127\.0\.0\.1:\d+/\n", result.out
+    )
+
+
 def test_view_takes_the_next_port_when_one_is_taken_and_says_so(page, tftool):
     with socket.create_server(("127.0.0.1", 0)) as holder:
         taken = holder.getsockname()[1]

@@ -220,10 +220,10 @@ def _tell(report: "EditReport", output: Path, *, dry_run: bool, for_programs: bo
     for note in report.notes:
         notice(visible(note))
     for what, count in report.counts.items():
-        sys.stdout.write(f"{count:>9} {what}\n")
+        sys.stdout.write(f"{count:>9,} {what}\n")
     done = "would be written" if dry_run else "written, read again and found equal"
     many = f" ({len(report.files)} files)" if len(report.files) > 1 else ""
-    sys.stdout.write(f"{report.messages:>9} messages {done}: {visible(str(output))}{many}\n")
+    sys.stdout.write(f"{report.messages:>9,} messages {done}: {visible(str(output))}{many}\n")
 
 
 def _moments(

@@ -192,7 +192,7 @@ def _write(
     quantities, xy = plotted.quantities, plotted.from_above
     with interruptible(), whole_file(output, force=force) as file:
         write(found, file, form, start=start, quantities=quantities, xy=xy, dark=dark)
-    notice(visible(f"Drew {sum(len(one.path) for one in found)} moments to {output}."))
+    notice(visible(f"Drew {sum(len(one.path) for one in found):,} moments to {output}."))
 
 
 def _print(found: "list[Trajectory]", start: Stamp, plotted: _Plotted) -> None:

@@ -1,5 +1,6 @@
 """`tftool view`: the frames in 3-D, in a browser."""
 
+import shutil
 import sys
 from functools import partial
 from pathlib import Path
@@ -314,7 +315,11 @@ async def _show(
         begin = session.first_look()
         at = 0 if begin is None else as_seconds(begin - session.world.clock.epoch)
         url = page.url if begin is None else f"{page.url}#at={at:.9f}"
-        sys.stdout.write(f"The frames of {session.name} are at {url}\n")
+        said = f"The frames of {session.name} are at"
+        # An address that is broken at the edge of the terminal cannot be clicked.
+        is_long = len(f"{said} {url}") > shutil.get_terminal_size().columns
+        between = "\n" if is_long and sys.stdout.isatty() else " "
+        sys.stdout.write(f"{said}{between}{url}\n")
         sys.stdout.flush()
         if open_browser and not await _opened(url):
             notice("No browser could be started: open that address yourself.")
