@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING
 from tftool.cli.connection import Connection
 from tftool.cli.hosting import NO_SESSION, join_session, open_session
 from tftool.cli.naming import named, scenario_named
-from tftool.cli.notices import notice
+from tftool.cli.notices import notice, tell_listening
 from tftool.cli.observing import LISTEN
 from tftool.cli.options import LISTENING
 from tftool.cli.session import Session
@@ -15,7 +15,7 @@ from tftool.diagnostics.scope import Scope
 from tftool.errors import UsageError
 from tftool.scenario.doctoring import NO_RULES, DoctorRules, heard_in, rules_beside
 from tftool.sources.find import Kind
-from tftool.stamps import Duration, as_seconds
+from tftool.stamps import Duration
 from tftool.views.escaping import visible
 
 if TYPE_CHECKING:
@@ -73,7 +73,7 @@ def material_of(
         session = join_session(connection)
         if session is not None:
             lasting = lasting or LISTENING
-            notice(f"Listening for {as_seconds(lasting):g} s ...")
+            tell_listening(lasting)
             return _described(_heard(session, lasting, LIVE), scope)
     session = open_session(connection, word, simulated=True, because=NO_SESSION)
     whole = session.duration or LISTEN

@@ -6,6 +6,7 @@ import sys
 from collections.abc import Mapping
 from typing import TYPE_CHECKING
 
+from tftool.stamps import Duration, as_seconds
 from tftool.views.escaping import visible, visible_lines
 
 if TYPE_CHECKING:
@@ -31,6 +32,11 @@ def complain(who: str, sentence: str) -> None:
         sentence: What it was.
     """
     notice(f"{who}: {visible_lines(sentence.rstrip())}")
+
+
+def tell_listening(lasting: Duration) -> None:
+    """Say for how long a session is listened to."""
+    notice(f"Listening for {as_seconds(lasting):g} s ...")
 
 
 def _write(text: str) -> None:

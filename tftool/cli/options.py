@@ -345,6 +345,16 @@ RunFor = Annotated[Duration | None, seconds_option("Stop after so long.", "--for
 
 SkippedFolders = Annotated[bool, option("Say which folders are skipped.", "--verbose", "-v")]
 
+RosFree = Annotated[bool, option("Also where a real ROS 2 is sourced.", "--ros-free")]
+
+Simulated = Annotated[
+    bool, option("On simulated time: at once, the same every time.", "--simulated")
+]
+
+Junit = Annotated[
+    Path | None, option("Write a JUnit report for a build server.", "--junit", metavar="FILE")
+]
+
 Force = Annotated[bool, option("Replace what is there.", "--force", panel=OUTPUT)]
 
 Json = Annotated[bool, option("Print JSON.", "--json", panel=OUTPUT)]

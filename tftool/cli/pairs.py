@@ -61,6 +61,16 @@ def refuse_file_as_frame(target: str, source: str, place: str | None) -> None:
             )
 
 
+def refuse_several_choices(*given: object) -> None:
+    """Refuse more than one of --every, --rate and --at-stamps-of; None is not given.
+
+    Raises:
+        UsageError: If there are more.
+    """
+    if sum(one is not None for one in given) > 1:
+        raise UsageError("--every, --rate and --at-stamps-of each choose the moments: give one.")
+
+
 def moments_of(
     stored: "StoredFrames",
     ends: tuple[Stamp | None, Stamp | None],
@@ -84,8 +94,7 @@ def moments_of(
     from tftool.sources.recording import Recording
     from tftool.trajectories.sampling import Moments
 
-    if sum(one is not None for one in (every, rate, topic)) > 1:
-        raise UsageError("--every, --rate and --at-stamps-of each choose the moments: give one.")
+    refuse_several_choices(every, rate, topic)
     if topic is not None:
         if not isinstance(stored, Recording):
             raise UsageError("--at-stamps-of goes with a recording.")

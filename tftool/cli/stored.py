@@ -11,13 +11,13 @@ from typing import TYPE_CHECKING
 from tftool.cli.connection import Connection
 from tftool.cli.hosting import NO_SESSION, StoredFrames, join_session, open_session, refuse_to_share
 from tftool.cli.naming import named
-from tftool.cli.notices import notice
+from tftool.cli.notices import tell_listening
 from tftool.cli.observing import LISTEN
 from tftool.cli.options import LISTENING
 from tftool.cli.session import Session
 from tftool.errors import LinkError, UsageError
 from tftool.sources.find import Kind
-from tftool.stamps import Duration, Stamp, as_seconds
+from tftool.stamps import Duration, Stamp
 
 if TYPE_CHECKING:
     from collections.abc import Callable
@@ -93,7 +93,7 @@ def session_frames(connection: Connection, lasting: Duration) -> HeardFrames:
 def _listened(
     session: Session, lasting: Duration, beside: "Callable[[World], object] | None" = None
 ) -> HeardFrames:
-    notice(f"Listening for {as_seconds(lasting):g} s ...")
+    tell_listening(lasting)
     return _heard(session, lasting, beside)
 
 

@@ -325,7 +325,7 @@ def _quaternion(numbers: Sequence[float], form: str) -> Written:
     length = math.hypot(x, y, z, w)
     turn = quaternions.unit((x, y, z, w))
     if math.isnan(turn[0]):
-        raise UsageError("A quaternion of four zeros is no rotation: 0 0 0 1 turns nothing.")
+        raise UsageError(static_arguments.NO_ROTATION)
     notes: tuple[str, ...] = ()
     if abs(length - 1.0) > NOT_SCALED:
         notes = (f"The quaternion has length {length:.6g}, and was scaled to 1.",)

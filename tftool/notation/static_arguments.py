@@ -19,6 +19,9 @@ EULER = ("roll", "pitch", "yaw")
 OLD_EULER = ("yaw", "pitch", "roll")
 FRAMES = ("frame-id", "child-frame-id")
 
+NO_ROTATION = "A quaternion of four zeros is no rotation: 0 0 0 1 turns nothing."
+"""Why four zeros are refused."""
+
 OPTIONS = tuple(f"--{name}" for name in (*TRANSLATION, *QUATERNION, *EULER, *FRAMES))
 
 # The whole word must be a number; tf2 reads 3.14abc as 3.14.
@@ -173,7 +176,7 @@ def _split(argv: Sequence[str]) -> tuple[list[str], dict[str, str], bool]:
 def _rotation(numbers: Iterable[float]) -> tuple[float, ...]:
     turn = tuple(numbers)
     if not any(turn):
-        raise UsageError("A quaternion of four zeros is no rotation: 0 0 0 1 turns nothing.")
+        raise UsageError(NO_ROTATION)
     return turn
 
 

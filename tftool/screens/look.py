@@ -24,7 +24,7 @@ class Look(NamedTuple):
 
     def ink(self, color: Color, *, bold: bool = False) -> Style:
         """A style with this ink."""
-        return Style(color=theme.hexadecimal(color), bold=bold or None)
+        return theme.ink(color, bold=bold)
 
     def of_name(self, name: str) -> Color:
         """A name's colour, dark enough to be read on a light panel."""

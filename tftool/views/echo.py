@@ -10,7 +10,7 @@ from tftool.geometry.conversions import rpy_from_quaternion
 from tftool.geometry.rigid import distance
 from tftool.stamps import FRAME_TIMEOUT, NANOSECONDS, Duration, Stamp, as_seconds
 from tftool.views.escaping import visible, visible_lines
-from tftool.views.short_numbers import short_duration
+from tftool.views.short_numbers import finite, short_duration
 
 if TYPE_CHECKING:
     from rich.text import Text
@@ -138,7 +138,7 @@ def as_object(found: TransformStamped, *, with_distance: bool = False) -> dict[s
         "rpy": _named(("roll", "pitch", "yaw"), rpy),
     }
     if with_distance:
-        result["distance"] = _finite(distance(pose))
+        result["distance"] = finite(distance(pose))
     return result
 
 
@@ -152,8 +152,4 @@ def _list(numbers: Any, precision: int) -> str:
 
 
 def _named(names: tuple[str, ...], numbers: Any) -> dict[str, float | None]:
-    return {name: _finite(number) for name, number in zip(names, numbers, strict=True)}
-
-
-def _finite(number: float) -> float | None:
-    return number if math.isfinite(number) else None
+    return {name: finite(number) for name, number in zip(names, numbers, strict=True)}

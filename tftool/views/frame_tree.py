@@ -1,6 +1,5 @@
 """Every tree of frames: as text for people, as data for programs."""
 
-import math
 from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass
 from types import MappingProxyType
@@ -15,6 +14,7 @@ from tftool.stamps import as_seconds, display
 from tftool.views.branches import ASCII, UNICODE, Branch, Guides, branches
 from tftool.views.escaping import distinct, visible
 from tftool.views.forest import grow
+from tftool.views.short_numbers import finite
 
 NOTHING = "No tf data received"
 
@@ -229,10 +229,6 @@ def _pose_object(pose: Transform | None) -> dict[str, list[float | None]] | None
     if pose is None:
         return None
     return {
-        "translation": [_finite(number) for number in pose.translation],
-        "rotation": [_finite(number) for number in pose.rotation],
+        "translation": [finite(number) for number in pose.translation],
+        "rotation": [finite(number) for number in pose.rotation],
     }
-
-
-def _finite(number: float) -> float | None:
-    return number if math.isfinite(number) else None

@@ -5,7 +5,6 @@ from dataclasses import dataclass
 from typing import Final
 
 import numpy as np
-from rich.style import Style
 from rich.text import Text
 
 from tftool.frames.batch.arrays import TransformArray
@@ -75,7 +74,7 @@ def pair_plot(
     if with_axis:
         first, last = (f"{as_seconds(t - span.start):.1f}" for t in (span.first, span.last))
         words = f"{'':{LABELS + 1}}{first}{last + ' s':>{max(0, columns - len(first))}}"
-        lines.append(Text(words, _ink(palette.dim), no_wrap=True))
+        lines.append(Text(words, theme.ink(palette.dim), no_wrap=True))
     return lines
 
 
@@ -102,7 +101,7 @@ def _curve(
     first, last = (as_seconds(one - span.start) for one in (span.first, span.last))
     value = _value_at(curve.times, curve.values, span)
     said = "" if value is None else f"{value:.1f}{unit}" if unit != "m" else f"{value:.3f} {unit}"
-    dim, strong = _ink(palette.dim), _ink(color, bold=True)
+    dim, strong = theme.ink(palette.dim), theme.ink(color, bold=True)
     lines = []
     labels = [""] * rows
     if rows >= TITLED_FROM:
@@ -127,9 +126,9 @@ def _curve(
         line.append(bar, dim)
         for column, cell in enumerate(ink.cells(row, ascii_only=ascii_only)):
             if column == marked:
-                line.append(cursor, _ink(palette.warning, bold=True))
+                line.append(cursor, theme.ink(palette.warning, bold=True))
             elif cell.ink is not None:
-                line.append(cell.text, _ink(cell.ink))
+                line.append(cell.text, theme.ink(cell.ink))
             else:
                 line.append(" ")
         lines.append(line)
@@ -152,7 +151,3 @@ def _scale(title: str, values: np.ndarray) -> tuple[float, float]:
     power = 10.0 ** math.floor(math.log10(max(highest, 1e-3)))
     steps = (1.0, 2.0, 5.0, 10.0)
     return 0.0, next((power * one for one in steps if power * one >= highest), 10.0 * power)
-
-
-def _ink(color: Color, *, bold: bool = False) -> Style:
-    return Style(color=theme.hexadecimal(color), bold=bold or None)

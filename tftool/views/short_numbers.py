@@ -1,4 +1,6 @@
-"""Durations, rates and sizes in few cells, for people and not for arithmetic."""
+"""Durations, rates and sizes in few cells, for people; and numbers as JSON has them."""
+
+import math
 
 from tftool.stamps import Duration, as_seconds
 
@@ -30,3 +32,8 @@ def short_size(size: int) -> str:
         if size >= many:
             return f"{size / many:.1f} {unit}"
     return f"{size} bytes"
+
+
+def finite(number: float) -> float | None:
+    """The number, or None, which JSON writes as null, for NaN and infinities."""
+    return number if math.isfinite(number) else None

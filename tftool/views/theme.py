@@ -6,10 +6,13 @@ Fading as rviz does is the page's: `screens/browser/page/model.js`.
 import zlib
 from collections.abc import Mapping
 from types import MappingProxyType
-from typing import NamedTuple
+from typing import TYPE_CHECKING, NamedTuple
 
 from tftool.messages import Color
 from tftool.stamps import FRAME_TIMEOUT
+
+if TYPE_CHECKING:
+    from rich.style import Style
 
 WALL = Color(255, 92, 87)
 INK = Color(16, 20, 48)
@@ -57,6 +60,13 @@ def of_name(name: str) -> Color:
 def hexadecimal(color: Color) -> str:
     """Write a colour as `#rrggbb`."""
     return f"#{color.r:02x}{color.g:02x}{color.b:02x}"
+
+
+def ink(color: Color, *, bold: bool = False) -> "Style":
+    """The style of text in a colour."""
+    from rich.style import Style
+
+    return Style(color=hexadecimal(color), bold=bold or None)
 
 
 class Palette(NamedTuple):

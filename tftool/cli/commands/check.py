@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 import typer
 
 from tftool.cli.app import ExitStatus
-from tftool.cli.options import Json, option
+from tftool.cli.options import Json, Junit, option
 from tftool.errors import UsageError
 
 if TYPE_CHECKING:
@@ -50,9 +50,7 @@ def check(
     force: Annotated[
         bool, option("Run them also where a real ROS 2 is sourced.", "--ros-free")
     ] = False,
-    junit: Annotated[
-        Path | None, option("Write a JUnit report for a build server.", metavar="FILE")
-    ] = None,
+    junit: Junit = None,
     recordings: Annotated[
         Path | None,
         option(

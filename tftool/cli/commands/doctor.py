@@ -3,7 +3,6 @@
 import sys
 from collections.abc import Sequence
 from enum import StrEnum
-from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
 import typer
@@ -14,6 +13,7 @@ from tftool.cli.options import (
     CacheTime,
     Jobs,
     Json,
+    Junit,
     Resume,
     Rows,
     RunFor,
@@ -90,9 +90,7 @@ def doctor(
     ] = False,
     for_programs: Json = False,
     markdown: Annotated[bool, option("Print it for an issue on the web.", "--markdown")] = False,
-    junit: Annotated[
-        Path | None, option("Write a JUnit report for a build server.", metavar="FILE")
-    ] = None,
+    junit: Junit = None,
     output: Rows = None,
     processes: Jobs = 1,
     resume: Resume = False,

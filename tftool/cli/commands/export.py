@@ -155,6 +155,8 @@ def _refuse_misfits(
     Raises:
         UsageError: If one does.
     """
+    from tftool.cli.pairs import refuse_several_choices
+
     if form.is_trajectory:
         if not pairs:
             raise UsageError(
@@ -166,10 +168,8 @@ def _refuse_misfits(
         raise UsageError(f"{form} holds links, and no pair: tftool export [FROM] -o FILE.")
     elif at:
         raise UsageError("What holds at all times has no moment: --at goes with --with-moving.")
-    chosen = sum(one is not None for one in moments)
-    if chosen > 1:
-        raise UsageError("--every, --rate and --at-stamps-of each choose the moments: give one.")
-    if chosen and not form.is_trajectory:
+    refuse_several_choices(*moments)
+    if any(one is not None for one in moments) and not form.is_trajectory:
         raise UsageError(f"{form} holds links, which are written once: leave out the moments.")
 
 

@@ -6,7 +6,14 @@ import typer
 
 from tftool.cli.app import ExitStatus
 from tftool.cli.connection import Connection, Mode
-from tftool.cli.options import RunFor, SkippedFolders, option, refuse_long_simulation
+from tftool.cli.options import (
+    RosFree,
+    RunFor,
+    Simulated,
+    SkippedFolders,
+    option,
+    refuse_long_simulation,
+)
 
 if TYPE_CHECKING:
     from tftool.runtime.log import LogRecord
@@ -24,11 +31,9 @@ def launch(
     show_args: Annotated[
         bool, option("Show what the file takes.", "-s", "--show-args", "--show-arguments")
     ] = False,
-    force: Annotated[bool, option("Also where a real ROS 2 is sourced.", "--ros-free")] = False,
+    force: RosFree = False,
     run_for: RunFor = None,
-    simulated: Annotated[
-        bool, option("On simulated time: at once, the same every time.", "--simulated")
-    ] = False,
+    simulated: Simulated = False,
     verbose: SkippedFolders = False,
 ) -> ExitStatus:
     """Launch what a ROS 2 launch file says, without ROS (ros2 launch).

@@ -6,7 +6,14 @@ from typing import TYPE_CHECKING, Annotated
 
 import typer
 
-from tftool.cli.options import RunFor, SkippedFolders, option, refuse_long_simulation
+from tftool.cli.options import (
+    RosFree,
+    RunFor,
+    Simulated,
+    SkippedFolders,
+    option,
+    refuse_long_simulation,
+)
 from tftool.views.escaping import visible, visible_lines
 
 ROBOTS = ("robot_state_publisher", "joint_state_publisher")
@@ -64,11 +71,9 @@ def run(
         str | None,
         option("World to host for it: a scenario's name or file.", "--in", metavar="SCENARIO"),
     ] = None,
-    force: Annotated[bool, option("Also where a real ROS 2 is sourced.", "--ros-free")] = False,
+    force: RosFree = False,
     run_for: RunFor = None,
-    simulated: Annotated[
-        bool, option("On simulated time: at once, the same every time.", "--simulated")
-    ] = False,
+    simulated: Simulated = False,
     verbose: SkippedFolders = False,
 ) -> int:
     """Run a node written for ROS 2, unmodified, without ROS (ros2 run).

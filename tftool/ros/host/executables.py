@@ -18,6 +18,7 @@ from tftool.nodes.static_turtle import static_turtle
 from tftool.nodes.turtlesim import Turtlesim
 from tftool.notation import static_arguments
 from tftool.ros.host import importing, user_code
+from tftool.ros.host.missing_names import undeclared
 from tftool.ros.host.names import RosOptions, expand, join, named_twice
 from tftool.ros.host.program import Program
 from tftool.ros.host.workspace import Workspace, missing_package
@@ -385,5 +386,4 @@ def _start_ours(
 def _warn_of_unused(node: Node, unused: Mapping[str, Any], given: Mapping[str, Any]) -> None:
     known = [*node.parameters.values(), *(set(given) - set(unused)), "turtlename", "target_frame"]
     for name in unused:
-        hint = did_you_mean(name, known)
-        node.warn(f"parameter '{name}' was given, but the node declares none of that name{hint}")
+        node.warn(undeclared(name, known))

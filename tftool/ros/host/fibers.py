@@ -216,7 +216,7 @@ class Fiber:
         if arrived is not None:
             loop, future = arrived
             try:
-                loop.call_soon_threadsafe(_done, future)
+                loop.call_soon_threadsafe(finish, future)
             except RuntimeError:  # the loop is closed: this fiber was left alone
                 return
 
@@ -391,7 +391,8 @@ def _taken_lock() -> threading.Lock:
     return lock
 
 
-def _done(future: "asyncio.Future[None]") -> None:
+def finish(future: "asyncio.Future[None]") -> None:
+    """Set the result of a future that may be done or cancelled already."""
     if not future.done():
         future.set_result(None)
 

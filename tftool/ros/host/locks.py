@@ -81,7 +81,7 @@ class StateMonitor:
                 changed: asyncio.Future[None] = loop.create_future()
 
                 def wake(changed: "asyncio.Future[None]" = changed) -> None:
-                    loop.call_soon_threadsafe(_finish, changed)
+                    loop.call_soon_threadsafe(fibers.finish, changed)
 
                 with self._mutex:
                     if take():
@@ -116,11 +116,6 @@ class StateMonitor:
             if not in_time:
                 with self._mutex:
                     return take()
-
-
-def _finish(future: "asyncio.Future[None]") -> None:
-    if not future.done():
-        future.set_result(None)
 
 
 def _limit(blocking: bool, timeout: float | None) -> float | None:

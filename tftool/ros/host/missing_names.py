@@ -1,9 +1,9 @@
 """What is said of a name or a module of ROS 2 that we do not answer to."""
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 
 from tftool.interfaces.classes import INTERFACES
-from tftool.near_names import near_names
+from tftool.near_names import did_you_mean, near_names
 from tftool.ros.host import import_table
 
 FEW = 12
@@ -44,6 +44,12 @@ def missing_name(module: str, name: str, known: Sequence[str]) -> str:
         hint = f"{_listed(module, known)}."
     remedy = DEFINED if package in INTERFACES.packages() else WHERE_TO_LOOK
     return f"'{name}' of {module} is not covered{hint} {_sentence(remedy)}"
+
+
+def undeclared(parameter: str, known: Iterable[str]) -> str:
+    """What to say of a parameter that was given and never declared, among those that were."""
+    hint = did_you_mean(parameter, known)
+    return f"parameter '{parameter}' was given, but the node declares none of that name{hint}"
 
 
 def missing_module(name: str) -> str:

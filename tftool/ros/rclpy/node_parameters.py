@@ -7,7 +7,7 @@ from typing import Any
 
 from tftool.interfaces.classes import INTERFACES
 from tftool.interfaces.parameters import list_result, value_of
-from tftool.near_names import did_you_mean
+from tftool.ros.host.missing_names import undeclared
 from tftool.ros.rclpy.exceptions import (
     InvalidParameterTypeException,
     InvalidParameterValueException,
@@ -407,11 +407,7 @@ def _is_on_step(value: float, limits: Any) -> bool:
 
 def unused_parameters(node: NodeParameters) -> list[str]:
     """A sentence for each parameter that was given and never declared."""
-    return [
-        f"parameter '{name}' was given, but the node declares none of that name"
-        + did_you_mean(name, node._parameters)
-        for name in node._unused_parameters
-    ]
+    return [undeclared(name, node._parameters) for name in node._unused_parameters]
 
 
 def set_result(successful: bool, reason: str) -> Any:
