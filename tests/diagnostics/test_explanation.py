@@ -166,7 +166,12 @@ def test_two_clocks_never_meet():
 @pytest.mark.parametrize(
     ("target", "source", "cause", "told"),
     [
-        ("odom", "lasre", Cause.UNKNOWN_FRAME, "set frame_id of the driver to laser"),
+        (
+            "odom",
+            "lasre",
+            Cause.UNKNOWN_FRAME,
+            "ask for laser, or set frame_id of the driver to laser",
+        ),
         ("odom", "/laser", Cause.NAME, 'frame_id "laser"'),
         ("odom", "camera_link", Cause.SPLIT, "publish it:"),
     ],

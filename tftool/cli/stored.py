@@ -13,16 +13,16 @@ from tftool.cli.hosting import NO_SESSION, StoredFrames, join_session, open_sess
 from tftool.cli.naming import named
 from tftool.cli.notices import tell_listening
 from tftool.cli.observing import LISTEN
-from tftool.cli.options import LISTENING
+from tftool.cli.options import LISTENING, At
 from tftool.cli.session import Session
 from tftool.errors import LinkError, UsageError
 from tftool.sources.find import Kind
-from tftool.stamps import Duration, Stamp
+from tftool.stamps import Duration, Stamp, as_seconds
+from tftool.views.escaping import visible
 
 if TYPE_CHECKING:
     from collections.abc import Callable
 
-    from tftool.cli.options import At
     from tftool.frames.buffer import Buffer
     from tftool.runtime.world import TransformMessage, World
 
@@ -126,15 +126,23 @@ def _heard(
 
 
 def span(
-    stored: StoredFrames, first: "At | None", last: "At | None"
+    stored: StoredFrames, first: At | None, last: At | None
 ) -> tuple[Stamp | None, Stamp | None]:
     """The stamps of --from and --to in what was read.
 
     Raises:
-        UsageError: If the one lies behind the other.
+        UsageError: If the one lies behind the other, or nothing lies between the two.
     """
     start = None if first is None else first.stamp(stored.start)
     end = None if last is None else last.stamp(stored.start)
     if start is not None and end is not None and start > end:
         raise UsageError(f"--from {first} lies behind --to {last}.")
+    if start is not None and start > stored.end:
+        lasts = as_seconds(stored.end - stored.start)
+        raise UsageError(
+            f"{visible(stored.name)} lasts {lasts:g} s: --from {first} is after its end."
+        )
+    if end is not None and end < stored.start:
+        begins = At(stored.start, is_stamp=True)
+        raise UsageError(f"{visible(stored.name)} begins at {begins}: --to {last} is before that.")
     return start, end

@@ -128,7 +128,8 @@ def _unknown(trace: LookupTrace, name: str) -> Reason:
     remedies = []
     if alike:
         why.append(f"in tf, {' and '.join(alike)} {'is' if len(alike) == 1 else 'are'} near")
-        remedies.append(Remedy("name", f"set frame_id of the driver to {alike[0]}"))
+        mistyped = "" if says else f"ask for {alike[0]}, or "
+        remedies.append(Remedy("name", f"{mistyped}set frame_id of the driver to {alike[0]}"))
     if model.trees:
         parent = missing_join(model.trees[0], name)[0]
         text = "or, if they are two things, publish where it is:" if alike else "publish it:"
