@@ -214,12 +214,30 @@ class Mcap:
     # From front to back
 
     def _scan(self) -> None:
-        """Find chunks and messages record by record, up to the end or the damage."""
+        """Find out what is in a file without an index, up to its end or its damage."""
         self._forget()
         self._schemas.clear()
+        position, ended = self._find_records()
+        self._count_found()
+        found = sum(self.counts)
+        if not ended:
+            self.damage.append(
+                f"The recording breaks off at byte {position} of {self.size}: "
+                f"{found} messages were read up to there."
+            )
+        if not found and not self.streams and not ended:
+            raise InputError(
+                f"'{self._file.path}' is damaged: no message could be read ({self.damage[-1]})"
+            )
+
+    def _find_records(self) -> tuple[int, bool]:
+        """Take in chunks, messages and what tells of them, record by record.
+
+        Returns:
+            Where the last whole record ends, and whether the file says that it ends there.
+        """
         file, size = self._file, self.size
         position, block, base = len(MCAP_MAGIC), b"", 0
-        ended = False
         while position + 9 <= size:
             if not base <= position <= base + len(block) - 64:
                 base, block = position, file.up_to(position, _BLOCK)
@@ -229,8 +247,7 @@ class Mcap:
             if code == 0 or (not whole and code not in (_CHUNK, MESSAGE)):
                 break
             if code in (_FOOTER, _DATA_END):
-                ended = True
-                break
+                return position, True
             try:
                 if code == _CHUNK:
                     self._take_chunk(body, min(length, size - body), not whole)
@@ -251,6 +268,10 @@ class Mcap:
             if not whole:
                 break
             position = body + length
+        return position, False
+
+    def _count_found(self) -> None:
+        """Count the messages of what was found, and see when they begin and end."""
         for chunk in self._chunks:
             # A chunk's own records tell of channels that have not come up before.
             if not chunk.indexes or not chunk.indexes.keys() <= self._numbers.keys():
@@ -260,16 +281,6 @@ class Mcap:
         for channel in self._loose.channels:
             if channel in self._numbers:
                 self.counts[self._numbers[channel]] += 1
-        found = sum(self.counts)
-        if not ended:
-            self.damage.append(
-                f"The recording breaks off at byte {position} of {size}: "
-                f"{found} messages were read up to there."
-            )
-        if not found and not self.streams and not ended:
-            raise InputError(
-                f"'{file.path}' is damaged: no message could be read ({self.damage[-1]})"
-            )
         moments = [moment for one in self._chunks for moment in (one.start, one.end) if moment]
         moments += [f(self._loose.log_times) for f in (min, max) if self._loose.log_times]
         if moments:
