@@ -8,6 +8,7 @@ from pathlib import Path
 
 import pytest
 
+import tftool as library
 from tests.terminals import Terminal
 from tftool.cli import completion
 from tftool.cli.app import COMMANDS
@@ -114,6 +115,43 @@ def test_it_is_installed_once_and_leaves_the_rest_of_a_start_file_alone(
     script = tmp_path / ".local" / "share" / "tftool" / f"completion.{shell}"
     assert str(script) in lines[1]
     assert script.read_text() == tftool("--show-completion").out
+
+
+@pytest.fixture
+def homeless(monkeypatch):
+    """A user whom the system gives no home, as one that a service or a container makes up."""
+
+    def none():
+        raise RuntimeError("Could not determine home directory.")
+
+    monkeypatch.setattr(Path, "home", none)
+    monkeypatch.delenv("XDG_CACHE_HOME", raising=False)
+
+
+def test_where_there_is_no_home_there_is_a_sentence(tftool, homeless, monkeypatch):
+    monkeypatch.setenv("SHELL", "/bin/bash")
+
+    result = tftool("--install-completion")
+
+    assert result.status == 3
+    assert "HOME is not set" in result.err
+
+
+def test_a_recording_is_read_and_completed_where_there_is_no_home(
+    homeless, tmp_path, tftool, offered
+):
+    run = tmp_path / "run.mcap"
+    with library.write_recording(run) as recording:
+        recording.transforms([library.TransformStamped(1, "map", "car", library.Transform())])
+
+    assert tftool("info", str(run)).status == 0
+    assert offered("echo", str(run), "") == ["car", "map"]
+
+
+def test_a_user_that_is_none_stands_for_no_recording(offered, monkeypatch):
+    monkeypatch.setattr("tftool.link.zenoh.rendezvous.frames_known", lambda domain: ["world"])
+
+    assert offered("echo", "~nobody_of_that_name/run.mcap", "") == ["world"]
 
 
 def test_fish_has_a_folder_for_it(tftool, tmp_path, monkeypatch):

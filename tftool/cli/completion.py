@@ -212,7 +212,8 @@ def _words_behind() -> list[str]:
 def _frames_of_a_file(words: Sequence[str]) -> list[str] | None:
     """Frames of the first of some words that names a file with frames; None where none does."""
     for word in words:
-        path = Path(word).expanduser()
+        # Unlike `Path.expanduser` it leaves a user alone that is none.
+        path = Path(os.path.expanduser(word))
         if not word or word.startswith("-") or not path.exists():
             continue
         with contextlib.suppress(InputError, UsageError, OSError, ValueError):
@@ -239,7 +240,9 @@ def _read_frames(word: str) -> list[str]:
 
         with open_recording(word) as recording:
             kept = sorted({name for edge in recording.edges for name in (edge.parent, edge.child)})
-            ColumnCache(default_folder()).store(key_of(found, any_size=True), recording.transforms)
+            folder = default_folder()
+            if folder is not None:
+                ColumnCache(folder).store(key_of(found, any_size=True), recording.transforms)
     return kept or []
 
 
@@ -309,7 +312,12 @@ def install(shell: str) -> list[Path]:
     Raises:
         InputError: If one cannot be written.
     """
-    home = Path.home()
+    try:
+        home = Path.home()
+    except RuntimeError:
+        raise InputError(
+            "HOME is not set, and this user has no home: set it to a folder that can be written."
+        ) from None
     if shell == "fish":
         settings = Path(os.environ.get("XDG_CONFIG_HOME") or home / ".config")
         script, start = settings / "fish" / "completions" / "tftool.fish", None

@@ -54,6 +54,7 @@ def read(
 
     with_odometry = options is not None and options.with_odometry
     no_cache = options is not None and options.no_cache
+    folder = None if no_cache else default_folder()
     # The end of a path is what tells files apart, and all of it would not fit beside the bar.
     short = found.name.rstrip("/").rpartition("/")[2][-_LONGEST_NAME:]
     bar = Bar(f"Reading {visible(short)}")
@@ -61,7 +62,7 @@ def read(
         found.name,
         progress=bar,
         robot=_robot(urdf),
-        cache=None if no_cache else ColumnCache(default_folder()),
+        cache=None if folder is None else ColumnCache(folder),
         with_odometry=with_odometry,
     )
     try:

@@ -27,17 +27,24 @@ _END: Final = 4096
 _MOST_HEAD: Final = 64 << 20
 
 
-def default_folder() -> Path:
-    """The folder for it: in `XDG_CACHE_HOME`, else where this system has such files."""
+def default_folder() -> Path | None:
+    """The folder for it: in `XDG_CACHE_HOME`, else where this system has such files.
+
+    None where there is no such place: HOME is not set, and the system knows of no user's home.
+    """
     given = os.environ.get("XDG_CACHE_HOME", "")
     if os.path.isabs(given):
         return Path(given) / "tftool"
+    try:
+        home = Path.home()
+    except RuntimeError:
+        return None
     if sys.platform == "win32":
         local = os.environ.get("LOCALAPPDATA")
-        return Path(local or Path.home() / "AppData" / "Local") / "tftool" / "Cache"
+        return Path(local or home / "AppData" / "Local") / "tftool" / "Cache"
     if sys.platform == "darwin":
-        return Path.home() / "Library" / "Caches" / "tftool"
-    return Path.home() / ".cache" / "tftool"
+        return home / "Library" / "Caches" / "tftool"
+    return home / ".cache" / "tftool"
 
 
 def key_of(found: Found, *, any_size: bool = False) -> str:
@@ -116,9 +123,12 @@ def parsed_head(data: bytes, key: str) -> dict[str, Any]:
 
 def frames_kept(found: Found) -> list[str] | None:
     """The frames of a recording whose columns are kept, sorted; None where they are not."""
+    folder = default_folder()
+    if folder is None:
+        return None
     try:
         key = key_of(found, any_size=True)
-        with (default_folder() / f"{key}{SUFFIX}").open("rb") as file:
+        with (folder / f"{key}{SUFFIX}").open("rb") as file:
             first = file.read(len(MAGIC) + 12)
             head = parsed_head(first + file.read(head_size(first) - len(first)), key)
         links = [(str(edge[0]), str(edge[1])) for edge in head["edges"]]
