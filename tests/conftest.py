@@ -41,3 +41,13 @@ def own_sessions():
             del os.environ["TFTOOL_SESSION_DIR"]
         else:
             os.environ["TFTOOL_SESSION_DIR"] = before
+
+
+@pytest.fixture
+def by_memory(monkeypatch):
+    """The middleware "memory", which connects links of this process; no link is in it yet."""
+    from tests.link.memory import MemoryMiddleware
+    from tftool.link.seam import MIDDLEWARES
+
+    monkeypatch.setitem(MIDDLEWARES, "memory", f"{MemoryMiddleware.__module__}:MemoryMiddleware")
+    monkeypatch.setattr(MemoryMiddleware, "members", [])

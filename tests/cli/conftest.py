@@ -1,4 +1,5 @@
 from dataclasses import dataclass
+from pathlib import Path
 
 import pytest
 
@@ -38,6 +39,14 @@ def simulated(outside):
     """Hosted worlds live on simulated time and unshared; a connection that sees to it."""
     outside["providers"] = Simulated()
     return Connection(providers=outside["providers"])
+
+
+@pytest.fixture
+def in_tutorial(monkeypatch):
+    """The working directory is the tutorial's workspace, and no ROS 2 is sourced."""
+    monkeypatch.chdir(Path(__file__).parent.parent / "tutorial")
+    monkeypatch.delenv("ROS_DISTRO", raising=False)
+    monkeypatch.delenv("AMENT_PREFIX_PATH", raising=False)
 
 
 @pytest.fixture

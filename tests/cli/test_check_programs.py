@@ -8,6 +8,7 @@ from xml.etree import ElementTree
 import pytest
 
 TUTORIAL = Path(__file__).parent.parent / "tutorial"
+pytestmark = pytest.mark.usefixtures("in_tutorial")
 LISTENER = TUTORIAL / "pkg_tf" / "pkg_tf" / "turtle_following.py"
 BROADCASTER = TUTORIAL / "pkg_tf" / "pkg_tf" / "turtle_tf_broadcaster.py"
 
@@ -18,13 +19,6 @@ EXERCISE = re.findall(
     (ROOT / "scenarios" / "README.md").read_text(encoding="utf-8"),
     re.MULTILINE | re.DOTALL,
 )[0]
-
-
-@pytest.fixture(autouse=True)
-def workspace(monkeypatch):
-    monkeypatch.chdir(TUTORIAL)
-    monkeypatch.delenv("ROS_DISTRO", raising=False)
-    monkeypatch.delenv("AMENT_PREFIX_PATH", raising=False)
 
 
 @pytest.fixture

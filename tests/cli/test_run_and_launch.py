@@ -14,14 +14,8 @@ import pytest
 from tftool.cli.app import main
 
 TUTORIAL = Path(__file__).parent.parent / "tutorial"
+pytestmark = pytest.mark.usefixtures("in_tutorial")
 SIMULATED = ["--simulated", "--for", "5"]
-
-
-@pytest.fixture(autouse=True)
-def workspace(monkeypatch):
-    monkeypatch.chdir(TUTORIAL)
-    monkeypatch.delenv("ROS_DISTRO", raising=False)
-    monkeypatch.delenv("AMENT_PREFIX_PATH", raising=False)
 
 
 def test_a_file_is_run_beside_a_simulator(capsys):

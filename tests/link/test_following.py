@@ -4,7 +4,6 @@ import contextlib
 
 import pytest
 
-from tests.link import memory
 from tests.link.conftest import until
 from tftool.frames.sample import TransformStamped
 from tftool.geometry.rigid import Transform
@@ -12,20 +11,15 @@ from tftool.interfaces.classes import INTERFACES
 from tftool.link.following import ClockFollower, is_clock_shown
 from tftool.link.graph import Role
 from tftool.link.options import Options
-from tftool.link.seam import MIDDLEWARES
 from tftool.link.session import Link
 from tftool.runtime.clock import FollowedClock, WallClock, run
 from tftool.runtime.endpoints import Quality
 from tftool.runtime.world import World
 from tftool.stamps import seconds
 
+pytestmark = pytest.mark.usefixtures("by_memory")
+
 CLOCK = INTERFACES.message("rosgraph_msgs/Clock")
-
-
-@pytest.fixture(autouse=True)
-def _by_memory(monkeypatch):
-    monkeypatch.setitem(MIDDLEWARES, "memory", f"{memory.__name__}:MemoryMiddleware")
-    monkeypatch.setattr(memory.MemoryMiddleware, "members", [])
 
 
 def reading(moment):

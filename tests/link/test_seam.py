@@ -4,7 +4,6 @@ from pathlib import Path
 
 import pytest
 
-from tests.link import memory
 from tests.link.conftest import new_world, until
 from tests.link.two import play
 from tftool.frames.sample import TransformStamped
@@ -13,11 +12,12 @@ from tftool.interfaces.classes import INTERFACES
 from tftool.link import session
 from tftool.link.graph import Role
 from tftool.link.options import Options
-from tftool.link.seam import MIDDLEWARES
 from tftool.link.session import Link
 from tftool.messages import Pose2D, Spawn, Spawned
 from tftool.runtime.endpoints import PUBLISHER, Quality, conflict
 from tftool.wire.codec import codec
+
+pytestmark = pytest.mark.usefixtures("by_memory")
 
 TYPE = "std_msgs/msg/String"
 STRING = INTERFACES.message("std_msgs/String")
@@ -43,12 +43,6 @@ async def turns_of_the_loop(count=10):
     """Let what is due on the loop be done, and what that leads to."""
     left = iter(range(count))
     await until(lambda: next(left) == count - 1)
-
-
-@pytest.fixture(autouse=True)
-def _by_memory(monkeypatch):
-    monkeypatch.setitem(MIDDLEWARES, "memory", f"{memory.__name__}:MemoryMiddleware")
-    monkeypatch.setattr(memory.MemoryMiddleware, "members", [])
 
 
 def test_transforms_and_topics_cross_whatever_carries_them():

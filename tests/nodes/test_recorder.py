@@ -2,14 +2,12 @@
 
 import pytest
 
-from tests.link import memory
 from tests.link.conftest import until
 from tftool.frames.sample import TransformStamped
 from tftool.geometry.rigid import Transform
 from tftool.interfaces.classes import INTERFACES
 from tftool.link.graph import Role
 from tftool.link.options import Options
-from tftool.link.seam import MIDDLEWARES
 from tftool.link.session import Link
 from tftool.nodes.recorder import Recorder
 from tftool.runtime.clock import WallClock, run
@@ -18,13 +16,9 @@ from tftool.runtime.world import World
 from tftool.stamps import seconds
 from tftool.wire.transforms import decode_transforms
 
+pytestmark = pytest.mark.usefixtures("by_memory")
+
 TEXT = INTERFACES.message("std_msgs/String")
-
-
-@pytest.fixture(autouse=True)
-def _by_memory(monkeypatch):
-    monkeypatch.setitem(MIDDLEWARES, "memory", f"{memory.__name__}:MemoryMiddleware")
-    monkeypatch.setattr(memory.MemoryMiddleware, "members", [])
 
 
 class Taken:
