@@ -1,4 +1,4 @@
-"""What somebody who wrote an unknown name may have meant."""
+"""Known names that resemble an unknown one, for "did you mean"."""
 
 from collections.abc import Iterable
 

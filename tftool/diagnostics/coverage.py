@@ -239,7 +239,7 @@ class Waits:
         return served
 
     def serves(self, percent: float) -> int:
-        """The wait, nanoseconds, that serves so many of those that are ever served."""
+        """The wait, nanoseconds, that serves `percent` of all requests that are ever served."""
         return int(np.percentile(self.served, percent, method="higher"))
 
 

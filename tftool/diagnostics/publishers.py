@@ -315,7 +315,7 @@ def static_on_tf(model: Model, limits: Limits) -> Iterator[Hit]:
 
 
 def _by_child(tracks: Sequence[Track], least: int = 2) -> dict[str, list[Track]]:
-    """Edges by child, where it has at least so many."""
+    """The edges of each child that has at least `least` of them."""
     grouped: dict[str, list[Track]] = defaultdict(list)
     for track in tracks:
         if len(track.by_stamp):

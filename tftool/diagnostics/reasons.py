@@ -238,8 +238,8 @@ def _pruned(known: TraceResult, link: TracedLink, track: Track) -> Reason:
     trace = known.trace
     newest = int(track.stamps[trace.arrived(track)].max())
     needed = newest - trace.moment
-    # What is needed is the sample before the moment, if it is not stamped just then. ROS 2 prunes
-    # before it adds the newest one, ROS 1 after: so much is enough for both.
+    # The sample at or before the moment must be kept. ROS 2 prunes before it adds the newest
+    # sample, ROS 1 after: this cache time is enough for both.
     before = track.sorted_stamps[track.sorted_stamps <= trace.moment]
     least = newest - int(before[-1]) if len(before) else needed
     advised = math.ceil((least + NANOSECONDS) / NANOSECONDS)

@@ -238,7 +238,7 @@ class Track(Stream):
         return angles_between(unit(self.rotations[some]), unit(self.rotations[others]))
 
     def has_turns(self, some: Places, others: Places, radians: float) -> bool:
-        """Whether any two poses are further turned than so much; quicker than to say how much."""
+        """Whether two poses of a row differ by more than `radians`; faster than their angle."""
         dots = np.einsum("ij,ij->i", self.rotations[some], self.rotations[others])
         lengths = np.sqrt(self.squares[some] * self.squares[others])
         return bool((np.abs(dots) < math.cos(radians / 2.0) * lengths).any())

@@ -179,7 +179,7 @@ def as_yaml(frames: Iterable[FrameInfo], current_time: Stamp = 0) -> str:
 
 
 def as_string(frames: Iterable[FrameInfo]) -> str:
-    """One sentence for each frame that anybody ever sent, as tf2 has them."""
+    """One sentence for each frame that was ever sent, as tf2 has them."""
     return "".join(
         f"Frame {info.frame} exists with parent {info.parent or NO_PARENT_NAME}.\n"
         for info in frames

@@ -117,7 +117,7 @@ class Follower(Node):
         """Whether to stand still because of the data's age; says so when that changes.
 
         A question about a given moment is refused where data is missing; only the
-        latest can be old without anybody noticing. Statics, stamped 0, never are.
+        latest can be old unnoticed. Statics, stamped 0, never are.
         """
         if self.stale_after is None or self.delay != 0 or stamp == LATEST:
             return False

@@ -69,7 +69,7 @@ def _time(stamp: Stamp) -> Any:
 class ActionParts:
     """Answers what an action's hidden services are asked, and says what its hidden topics say.
 
-    It knows of every goal that is handed to the action's server in this world, whoever sends it.
+    It tracks every goal sent to the action's server in this world, from any client.
     """
 
     def __init__(

@@ -356,8 +356,8 @@ class FollowedClock(WallClock):
     """Real time, until it is told what time it is: then it stands still between two tellings.
 
     What a world that shares a session lives by: while another process publishes `/clock`, as one
-    that plays a recording does, now is what that says. Who waits for a while goes on waiting for
-    as long when time falls back, or when it comes from somewhere else.
+    that plays a recording does, now is what that says. A wait keeps its remaining duration when
+    time falls back, or when its source changes.
 
     Attributes:
         fell_back: Called with by how many nanoseconds, when what it is told lies before now.

@@ -1,7 +1,7 @@
 """How much memory the transforms of a live world may take, and what is forgotten beyond it.
 
-A buffer forgets by time alone, as tf2's does: who sends very many samples, or stamps them a
-nanosecond apart, fills the memory of each process that listens. What a recording holds is not
+A buffer prunes by time alone, as tf2's does: a publisher at a very high rate, or with stamps a
+nanosecond apart, fills the memory of each process that subscribes. The size of a recording is not
 bounded here: it ends.
 """
 

@@ -54,7 +54,7 @@ class ColumnCache:
                 if file.readinto(data) != size:
                     return None
             found = _unpacked(data, key)
-            # By this the oldest is told.
+            # The least recently used file, by this time, is removed first.
             os.utime(path)
         except (OSError, ValueError, KeyError, TypeError, AttributeError, RecursionError):
             return None

@@ -178,12 +178,12 @@ class Growing:
         self.first = _NEVER
 
     def make_room(self, count: int, share: float = 1.0, freely: int = 0) -> int:
-        """Have room for so many rows more.
+        """Grow the columns by `count` rows.
 
         Args:
-            count: How many.
-            share: How much of all has come with them, from 0 to 1.
-            freely: How many there may be room for, however few have come.
+            count: How many rows are added.
+            share: How much of the whole has been read with them, from 0 to 1.
+            freely: How many rows may be allocated, however few have been read.
 
         Returns:
             For how many there is room now that there was none for.
@@ -267,11 +267,11 @@ class Table:
         return first
 
     def share(self, messages: int) -> float:
-        """How much of all has come with so many messages."""
+        """The share of the recording, from 0 to 1, that `messages` messages are."""
         return min(messages / self._expected, 1.0) if self._expected else 1.0
 
     def edge(self, parent: str, child: str, static: bool, count: int) -> "Growing | None":
-        """The edge to which to append so many transforms; None where there are too many."""
+        """The edge to which `count` transforms are appended; None beyond `MOST_EDGES` edges."""
         plain = parent.removeprefix("/"), child.removeprefix("/")
         key = (*plain, static)
         edge = self._edges.get(key)

@@ -136,7 +136,7 @@ class Container(Protocol):
         Args:
             wanted: Numbers of streams.
             progress: Is told how far it has come.
-            head: If only so many bytes of each message matter; more may come.
+            head: How many bytes of each message are needed, all if None; more may come.
         """
 
     def close(self) -> None:

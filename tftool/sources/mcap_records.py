@@ -96,7 +96,7 @@ class SingleMessages:
         Args:
             file: Where they lie.
             channels: Of a channel the number of its stream.
-            head: If only so many bytes of each matter.
+            head: How many bytes of each message are needed; all if None.
         """
         self._file = file
         self._channels = channels

@@ -322,7 +322,7 @@ class Fiber:
         )
 
     def _rests_within(self, limit: float) -> bool:
-        """Whether the thread comes to rest in so many real seconds, unless told to end."""
+        """Whether the thread comes to rest within `limit` real seconds, unless told to end."""
         while limit > 0.0 and not self._told_to_end():
             part = min(limit, GRACE)
             if self._rest.acquire(timeout=part):

@@ -320,7 +320,7 @@ def look_behind(roots: Iterable[str]) -> None:
 
 
 def import_anew(module: str, root: Path) -> ModuleType:
-    """Import a user's module from a folder, run anew as in a process of its own.
+    """Import a user's module from a folder, and run it again as a process of its own would.
 
     Two programs of one file then share no globals.
 

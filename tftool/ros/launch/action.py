@@ -19,7 +19,7 @@ class Action(LaunchDescriptionEntity):
         where: "file:line" where the launch file says it.
         takes_time: Whether it is done only some time after `execute`; the launch says when.
         is_begun: Whether it was carried out.
-        is_awaited: Whether somebody waited for its end when it was.
+        is_awaited: Whether a handler waited for its end when it began.
     """
 
     takes_time: ClassVar[bool] = False

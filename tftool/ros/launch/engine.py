@@ -52,7 +52,7 @@ class Launch(Node):
     Attributes:
         failed: Labels of programs that ended with another exit status than 0.
         ended: Set once everything it started has ended.
-        handlers: Who waits for events.
+        handlers: The event handlers that are registered.
         labels: What each node of ours is called in log lines, by the node's name.
     """
 
@@ -218,7 +218,7 @@ class Launch(Node):
         self._wrote(label, line, to_stdout=True)
 
     def is_awaited(self, event: Event) -> bool:
-        """Whether somebody waits for an event."""
+        """Whether a handler waits for an event."""
         return any(handler.matches(event) for handler in self.handlers)
 
     def complete(self, action: Any) -> None:

@@ -14,7 +14,7 @@ MOST_EVENTS = 1000
 class EventQueue:
     """Holds events back while something is carried out.
 
-    Who waits for an event may be named further down in the file than what makes it happen.
+    A handler may stand further down in the file than the action whose event it handles.
     """
 
     def __init__(self, tell: Callable[[Event], object]) -> None:

@@ -14,7 +14,7 @@ def parsed(text: Any, where: str) -> list[Any]:
     """A text with its `$(…)` parts as substitutions.
 
     Raises:
-        InputError: If a part is not closed, or not known, or there are more than anybody means.
+        InputError: If a part is not closed or not known, or there are too many.
     """
     if str(text).count("$(") > DEEPEST:
         raise InputError(f"{where}: more than {DEEPEST} '$(…)' in one text are too many")

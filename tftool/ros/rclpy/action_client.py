@@ -87,7 +87,7 @@ class ActionClient(Requester):
         seat.keep(lambda: self)
 
     def server_is_ready(self) -> bool:
-        """Whether somebody serves the action."""
+        """Whether a server of the action is available."""
         world = self.seat.world
         ready = bool(self.seat.program.ask(lambda: self.full in world.actions()))
         if not ready:
@@ -95,7 +95,7 @@ class ActionClient(Requester):
         return ready
 
     def wait_for_server(self, timeout_sec: float | None = None) -> bool:
-        """Block until somebody serves it; whether somebody does."""
+        """Block until a server is available; return whether one is."""
         return self.seat.wait_until(lambda: self.full in self.seat.world.actions(), timeout_sec)
 
     def send_goal_async(

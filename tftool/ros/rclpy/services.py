@@ -52,18 +52,18 @@ class Client(_Introspected, Requester):
         return f"/{self.full}"
 
     def service_is_ready(self) -> bool:
-        """Whether somebody serves it."""
+        """Whether a server is available."""
         ready = bool(self.seat.program.ask(lambda: self.seat.world.has_service(self.full)))
         if not ready:
             self.seat.program.looked_in_vain()
         return ready
 
     def wait_for_service(self, timeout_sec: float | None = None) -> bool:
-        """Block until somebody serves it; whether somebody does."""
+        """Block until a server is available; return whether one is."""
         return self.seat.wait_until(lambda: self.seat.world.has_service(self.full), timeout_sec)
 
     def call_async(self, request: Any) -> Future:
-        """Ask; the answer comes while somebody spins.
+        """Send a request; the response arrives while an executor spins.
 
         Raises:
             TypeError: If the request is of another type.

@@ -289,7 +289,7 @@ class _Sleep:
 
 
 def _require_started(context: Any) -> None:
-    """See that a context somebody is to sleep in has been started, and not ended."""
+    """Refuse to sleep in a context that is not initialized, or shut down already."""
     if context is not None and not context.ok():
         raise NotInitializedException
 

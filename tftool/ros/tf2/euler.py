@@ -41,7 +41,7 @@ def _look_for_degrees(owner: Any, frame: FrameType, angles: tuple[float, float, 
     """Say, once for a line of a program, that its angles look like degrees.
 
     Only what a line gives first is looked at: an angle may well grow from turn to turn. And only
-    halves and wholes up to 360: 90.0 is no angle that anybody computes in radians.
+    halves and wholes up to 360: 90.0 is no plausible angle in radians.
     """
     line = (frame.f_code, frame.f_lineno)
     if line in owner.lines_with_angles:

@@ -199,7 +199,7 @@ def check_room(path: Path, size: int) -> None:
     """Refuse what the disk has no room for.
 
     Raises:
-        InputError: If fewer bytes are free than so many.
+        InputError: If fewer than `size` bytes are free.
     """
     try:
         free = shutil.disk_usage(path.parent).free
