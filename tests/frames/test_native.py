@@ -4,6 +4,7 @@ import gc
 import itertools
 import math
 import tracemalloc
+import weakref
 from array import array
 from random import Random
 
@@ -449,11 +450,30 @@ def test_a_sender_that_is_none_is_left_to_the_plain_path(sender):
     assert Bare({}, {"b": sender}).set_transform(sample) == PLAINLY
 
 
-@pytest.mark.parametrize("path", [None, (), (1, 2, 3), ((1,), (), ()), ((), (), (1,))])
+@pytest.mark.parametrize("path", [None, (), (1, 2, 3), ((1,), (), ()), ((), (1,), ())])
 def test_a_path_that_is_none_is_left_to_the_plain_path(path):
     door = Bare({"a": {"b": path}})
 
     assert door.lookup_transform("a", "b", 0) == PLAINLY
+
+
+class Kept(dict):
+    """What is gone once nobody holds it."""
+
+
+@pytest.mark.parametrize("name", ["_paths", "_senders", "_listening", "_pending"])
+def test_what_a_door_holds_goes_with_it(name):
+    for leads_back in (False, True):
+        door, kept = Bare(), Kept()
+        setattr(door, name, kept)
+        if leads_back:
+            kept[door] = None
+        gone = weakref.ref(kept)
+        del door, kept
+        if leads_back:
+            gc.collect()
+
+        assert gone() is None
 
 
 def test_arguments_by_name_and_wrong_ones_are_as_in_plain_python():

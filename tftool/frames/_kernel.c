@@ -20,7 +20,7 @@
 #include "_kept.h"
 
 /* What `tftool.frames.native` expects; a build of another interface is not used. */
-#define INTERFACE 5
+#define INTERFACE 6
 
 #if defined(__GNUC__)
 #define INLINE static inline __attribute__((always_inline))
@@ -99,10 +99,10 @@ static Py_ssize_t find(const Edge *edge, int64_t time, Py_ssize_t at) {
     return low < edge->last ? low : edge->last - 1;
 }
 
-/* Fetch both neighbours of each moment, and how far it lies between them. Where a link has no
-   data for a moment, `valid` becomes 0 and what is fetched is of no use. */
+/* Fetch both neighbours of each moment, and how far it lies between them: NaN where the link has
+   no data for it, which makes all of the pose NaN, and of what that is chained with. */
 INLINE void fetch(const Edge *edge, const int64_t *times, int n, int width, double *first,
-                  double *second, double *share, unsigned char *valid) {
+                  double *second, double *share) {
     const Record *records = edge->records;
     const Py_ssize_t last = edge->last;
     Py_ssize_t places[BLOCK];
@@ -120,14 +120,12 @@ INLINE void fetch(const Edge *edge, const int64_t *times, int n, int width, doub
             if (!(records[at].stamp <= time && time < records[at + 1].stamp))
                 at = find(edge, time, at);
         }
-        else {
-            /* Of equal stamps at the newest end it is the last, at the oldest end the first. */
+        else /* Of equal stamps at the newest end it is the last, at the oldest end the first. */
             at = time == edge->oldest && time != edge->newest ? 0 : last;
-            valid[i] &= time == edge->oldest || time == edge->newest;
-        }
         const Record *here = records + at, *next = here + (at < last);
         const double length = (double)((uint64_t)next->stamp - (uint64_t)here->stamp);
-        share[i] = length > 0.0 ? (double)((uint64_t)time - (uint64_t)here->stamp) / length : 0.0;
+        const double way = (double)((uint64_t)time - (uint64_t)here->stamp);
+        share[i] = length > 0.0 ? way / length : way > 0.0 ? NAN : 0.0;
         for (int k = 0; k < 7; k++) {
             first[k * width + i] = here->pose[k];
             second[k * width + i] = next->pose[k];
@@ -253,13 +251,13 @@ static int unit(double *turn) {
 
 /* The poses of several links one after the other, lowest first, for each moment: `path.chain`. */
 INLINE void climb(const Edge *edges, Py_ssize_t count, const int64_t *times, int n, int width,
-                  double *pose, unsigned char *valid) {
+                  double *pose) {
     Rows first, second, step;
     double share[BLOCK];
     for (Py_ssize_t e = 0; e < count || e == 0; e++) {
         double *out = e > 0 ? step : pose;
         if (count > 0 && edges[e].records != NULL) {
-            fetch(&edges[e], times, n, width, first, second, share, valid);
+            fetch(&edges[e], times, n, width, first, second, share);
             interpolate(first, second, share, n, width, out);
         }
         else
@@ -282,13 +280,12 @@ typedef struct {
     Py_ssize_t ups, count;
 } Way;
 
-/* Poses of source in target, of tf2's sign: `Path.solve`. */
-INLINE void solve_way(const Way *way, const int64_t *times, int n, int width, double *pose,
-                      unsigned char *valid) {
+/* Poses of source in target, of tf2's sign, or NaN throughout: `Path.solve`. */
+INLINE void solve_way(const Way *way, const int64_t *times, int n, int width, double *pose) {
     Rows other;
-    climb(way->edges, way->ups, times, n, width, pose, valid);
+    climb(way->edges, way->ups, times, n, width, pose);
     if (way->count > way->ups) {
-        climb(way->edges + way->ups, way->count - way->ups, times, n, width, other, valid);
+        climb(way->edges + way->ups, way->count - way->ups, times, n, width, other);
         between(other, pose, n, width);
     }
     canonical(pose + 3 * width, n, width);
@@ -298,26 +295,45 @@ INLINE void solve_way(const Way *way, const int64_t *times, int n, int width, do
    writes them by their names; see `History` for what they mean. */
 typedef struct {
     PyObject_HEAD
-    PyObject *records, *origins, *newest, *newest_pair;
-    long long newest_stamp, oldest_stamp, limit, start, count, origin, parent;
-    char is_static, mixed;
+    PyObject *records, *origins, *_newest, *_newest_pair; /* No records: it never moves. */
+    long long newest_stamp, oldest_stamp, limit, start, count, origin;
+    char mixed;
 } Link;
 
 /* What the methods of a buffer read: `Buffer` inherits it; see there. */
 typedef struct {
     PyObject_HEAD
-    PyObject *paths, *senders, *listening, *pending;
+    PyObject *_paths, *_senders, *_listening, *_pending;
 } Door;
 
 /* What answers are made of and read by; the state of the module, which Python never unloads. */
 typedef struct {
-    PyTypeObject *fields, *tuples[4]; /* `TUPLES`, as they lie in each other. */
-    PyObject *empty;                  /* "". */
+    PyTypeObject *fields, *tuples[4];
+    PyObject *blanks[4], *empty; /* As in `TUPLES`; "". */
 } Types;
+
+/* The tuples an answer is made of: where their types are found, their sizes, and what the arguments
+   are that make one of that size. */
+enum { VECTOR, QUATERNION, TRANSFORM, STAMPED };
+static const struct {
+    const char *module, *name;
+    Py_ssize_t size;
+    const char *blank;
+} TUPLES[4] = {
+    {"tftool.geometry.rigid", "Vector3", 3, "((OOO))"},
+    {"tftool.geometry.rigid", "Quaternion", 4, "((OOOO))"},
+    {"tftool.geometry.rigid", "Transform", 2, "((OO))"},
+    {"tftool.frames.sample", "TransformStamped", 4, "((OOOO))"},
+};
+
+/* Whether something is there, and a tuple of that size. */
+INLINE int is_tuple(PyObject *object, Py_ssize_t size) {
+    return object != NULL && PyTuple_Check(object) && PyTuple_Size(object) == size;
+}
 
 /* That many floats of a tuple. Returns whether that is what it is; never sets an error. */
 static int read_floats(PyObject *tuple, double *numbers, Py_ssize_t size) {
-    if (!PyTuple_Check(tuple) || PyTuple_Size(tuple) != size)
+    if (!is_tuple(tuple, size))
         return 0;
     for (Py_ssize_t i = 0; i < size; i++) {
         PyObject *number = PyTuple_GetItem(tuple, i);
@@ -339,7 +355,7 @@ static int read_stamp(PyObject *stamp, int64_t *value) {
 
 /* Whether a moving link is one the kernel reads: its records in `view`, to be released. */
 static int read_records(const Link *link, int flags, Py_buffer *view) {
-    if (link->records == NULL || link->start < 0 || link->count <= link->start || link->mixed)
+    if (link->start < 0 || link->count <= link->start || link->mixed)
         return 0;
     if (PyObject_GetBuffer(link->records, view, flags) < 0) {
         PyErr_Clear();
@@ -355,8 +371,8 @@ static int read_records(const Link *link, int flags, Py_buffer *view) {
 /* Make a link ready. Returns whether it is plain; never sets an error. */
 static int read_link(const Link *link, Edge *edge) {
     edge->records = NULL;
-    if (link->is_static)
-        return link->newest != NULL && read_floats(link->newest, edge->fixed, 7);
+    if (link->records == NULL)
+        return read_floats(link->_newest, edge->fixed, 7);
     if (!read_records(link, PyBUF_SIMPLE, &edge->view))
         return 0;
     edge->records = (const Record *)edge->view.buf + link->start;
@@ -368,8 +384,10 @@ static int read_link(const Link *link, Edge *edge) {
 }
 
 /* Make the links of two tuples ready, to be closed in any case; `time` is when they are read
-   first. Returns whether all are plain; never sets an error. */
-static int open_way(Way *way, PyTypeObject *fields, PyObject *up, PyObject *down, int64_t time) {
+   first: 0 becomes the newest moment for which every moving link has data, as in `Path.latest`.
+   Returns whether all are plain; never sets an error. */
+static int open_way(Way *way, PyTypeObject *fields, PyObject *up, PyObject *down, int64_t *time) {
+    int64_t latest = 0;
     const Py_ssize_t ups = PyTuple_Size(up), total = ups + PyTuple_Size(down);
     PyTypeObject *known = fields;
     way->count = 0;
@@ -383,10 +401,14 @@ static int open_way(Way *way, PyTypeObject *fields, PyObject *up, PyObject *down
         known = Py_TYPE(link);
         if (!read_link((const Link *)link, &way->edges[i]))
             return 0;
+        const int64_t newest = ((const Link *)link)->newest_stamp; /* 0 if it never moves. */
+        if (newest != 0 && (newest < latest || latest == 0))
+            latest = newest;
         /* Memory brings what is read first while the other links are made ready. */
         if (way->edges[i].records != NULL)
-            way->edges[i].here = aim(&way->edges[i], time);
+            way->edges[i].here = aim(&way->edges[i], *time != 0 ? *time : newest);
     }
+    *time = *time != 0 ? *time : latest;
     return way->edges != NULL;
 }
 
@@ -402,128 +424,83 @@ static void close_way(Way *way) {
 
 /* Whether two plain strings are equal; one that is none is equal to nothing. */
 static int same_text(PyObject *known, PyObject *given) {
-    return known == given
-        || (PyUnicode_CheckExact(known) && PyUnicode_Check(given)
-            && PyUnicode_Compare(known, given) == 0);
+    return PyUnicode_CheckExact(known)
+        && (known == given
+            || (PyUnicode_CheckExact(given) && PyUnicode_Compare(known, given) == 0));
 }
 
-/* The path between two frames that is kept: NULL if there is none, or it is not plain. Never
-   sets an error: plain strings are looked for, which runs no code of others. */
-static PyObject *path_of(const Door *door, PyObject *target, PyObject *source) {
-    PyObject *found = door->paths;
-    if (found == NULL || !PyDict_Check(found) || !PyUnicode_CheckExact(target)
-        || !PyUnicode_CheckExact(source))
-        return NULL;
-    found = PyDict_GetItemWithError(found, target);
-    if (found != NULL && PyDict_Check(found))
-        found = PyDict_GetItemWithError(found, source);
-    if (found == NULL || !PyTuple_Check(found) || PyTuple_Size(found) != 3)
-        return NULL;
-    for (Py_ssize_t i = 0; i < 3; i++)
-        if (!PyTuple_Check(PyTuple_GetItem(found, i)))
-            return NULL;
-    return found;
+/* What a dictionary holds under a plain string, borrowed; NULL if there is nothing, or it is no
+   dictionary, or no such string. Never sets an error, and runs no code of others. */
+static PyObject *value_of(PyObject *dictionary, PyObject *name) {
+    return dictionary != NULL && PyDict_Check(dictionary) && PyUnicode_CheckExact(name)
+        ? PyDict_GetItemWithError(dictionary, name) : NULL;
 }
-
-/* The newest moment for which every moving link has data: `Path.latest`. Returns whether the
-   links are plain; never sets an error. */
-static int latest(PyObject *moving, PyTypeObject *fields, int64_t *moment) {
-    const Py_ssize_t count = PyTuple_Size(moving);
-    for (Py_ssize_t i = 0; i < count; i++) {
-        PyObject *link = PyTuple_GetItem(moving, i);
-        if (!PyObject_TypeCheck(link, fields))
-            return 0;
-        const int64_t stamp = ((Link *)link)->newest_stamp;
-        if (stamp != 0 && (stamp < *moment || *moment == 0))
-            *moment = stamp;
-    }
-    return 1;
-}
-
-/* An answer's tuples, the inner ones first: a vector, a quaternion, a transform, and all of it. */
-#define TUPLES 4
-static const Py_ssize_t SIZES[TUPLES] = {3, 4, 2, 4};
 
 /* From 3.14 on a tuple keeps its hash: in memory that is only cleared it would be 0, and it takes
-   Python's own constructor to say that there is none yet. */
+   Python's own constructor, and a tuple to copy, to say that there is none yet. */
 #ifndef KEEPS_HASH
 #define KEEPS_HASH (Py_Version >= 0x030E0000)
 #endif
 
-static void drop(PyObject **tuples) {
-    for (int i = 0; i < TUPLES; i++)
-        Py_CLEAR(tuples[i]);
-}
-
-/* Put a new reference into a tuple. Returns whether there is one, else an error is set. */
-static int set(PyObject *tuple, Py_ssize_t place, PyObject *item) {
-    return item != NULL && PyTuple_SetItem(tuple, place, item) == 0;
-}
-
-/* Make the tuples of an answer, but for its pose. Returns whether there was memory; never sets an
-   error. */
-static int prepare(const Types *types, PyObject **tuples, int64_t stamp, PyObject *target,
-                   PyObject *source) {
-    int whole = 1;
-    for (int i = 0; i < TUPLES; i++) {
-        tuples[i] = KEEPS_HASH ? PyTuple_New(SIZES[i])
-                               : PyType_GenericAlloc(types->tuples[i], SIZES[i]);
-        whole &= tuples[i] != NULL;
-    }
-    if (whole && set(tuples[3], 0, PyLong_FromLongLong(stamp))
-        && set(tuples[3], 1, Py_NewRef(target)) && set(tuples[3], 2, Py_NewRef(source)))
-        return 1;
-    drop(tuples);
-    PyErr_Clear();
-    return 0;
-}
-
-/* The pose of source in target by a path that is kept, and the moment it holds for in place of 0;
-   `tuples` of an answer are made on the way, or it is NULL. Returns 0 if that is not plain; never
-   sets an error. */
-static int solve_path(const Door *door, const Types *types, PyObject *target, PyObject *source,
-                      int64_t *time, double *pose, PyObject **tuples) {
-    PyObject *path = path_of(door, target, source);
-    unsigned char valid = 1;
-    Way way;
-    if (path == NULL
-        || (*time == 0 && !latest(PyTuple_GetItem(path, 2), types->fields, time)))
-        return 0;
-    /* Memory brings the samples meanwhile. To make tuples may run the collector, and that code
-       which lets go of the path; what the way has opened it holds. */
-    if (open_way(&way, types->fields, PyTuple_GetItem(path, 0), PyTuple_GetItem(path, 1), *time)
-        && (tuples == NULL || prepare(types, tuples, *time, target, source)))
-        solve_way(&way, time, 1, 1, pose, &valid);
-    else
-        valid = 0;
-    close_way(&way);
-    return valid && pose[6] == pose[6];
-}
-
-/* The same tuple, given up for one of its type; NULL with an error set on failure. */
-static PyObject *typed(PyTypeObject *type, PyObject *tuple) {
+/* A new tuple of one of the types, to be filled; NULL with an error set on failure. */
+static PyObject *blank(const Types *types, int i) {
     if (!KEEPS_HASH)
-        return tuple;
-    PyObject *given = PyTuple_Pack(1, tuple), *made = NULL;
-    if (given != NULL)
-        made = ((newfunc)PyType_GetSlot(&PyTuple_Type, Py_tp_new))(type, given, NULL);
-    Py_XDECREF(given);
-    Py_DECREF(tuple);
+        return PyType_GenericAlloc(types->tuples[i], TUPLES[i].size);
+    const newfunc make = (newfunc)PyType_GetSlot(&PyTuple_Type, Py_tp_new);
+    return make(types->tuples[i], types->blanks[i], NULL);
+}
+
+/* Put a new reference into a tuple if there are both. Returns it, or NULL with an error set. */
+static PyObject *set(PyObject *tuple, Py_ssize_t place, PyObject *item) {
+    if (tuple != NULL && item != NULL)
+        return PyTuple_SetItem(tuple, place, item) == 0 ? item : NULL;
+    Py_XDECREF(item);
+    return NULL;
+}
+
+/* A TransformStamped but for the numbers of its pose; NULL if there is no memory. Never sets an
+   error. */
+static PyObject *prepare(const Types *types, int64_t stamp, PyObject *target, PyObject *source) {
+    PyObject *made = blank(types, STAMPED), *transform = set(made, 3, blank(types, TRANSFORM));
+    if (set(transform, 0, blank(types, VECTOR)) && set(transform, 1, blank(types, QUATERNION))
+        && set(made, 0, PyLong_FromLongLong(stamp)) && set(made, 1, Py_NewRef(target))
+        && set(made, 2, Py_NewRef(source)))
+        return made;
+    Py_XDECREF(made);
+    PyErr_Clear();
+    return NULL;
+}
+
+/* What was prepared, with its numbers; NULL with an error set on failure. */
+static PyObject *answer(PyObject *made, const double *pose) {
+    PyObject *transform = PyTuple_GetItem(made, 3);
+    PyObject *halves[2] = {PyTuple_GetItem(transform, 0), PyTuple_GetItem(transform, 1)};
+    for (int k = 0; k < 7; k++)
+        if (!set(halves[k > 2], k > 2 ? k - 3 : k, PyFloat_FromDouble(pose[k]))) {
+            Py_DECREF(made);
+            return NULL;
+        }
     return made;
 }
 
-/* A TransformStamped of tuples that were prepared; NULL with an error set on failure. */
-static PyObject *answer(const Types *types, PyObject **tuples, const double *pose) {
-    int whole = 1;
-    for (int k = 0; k < 7; k++)
-        whole &= set(tuples[k > 2], k > 2 ? k - 3 : k, PyFloat_FromDouble(pose[k]));
-    for (int i = 0; i < 2; i++)
-        whole &= set(tuples[2], i, typed(types->tuples[i], tuples[i]));
-    whole &= set(tuples[3], 3, typed(types->tuples[2], tuples[2]));
-    if (whole)
-        return typed(types->tuples[3], tuples[3]);
-    Py_DECREF(tuples[3]);
-    return NULL;
+/* The pose of source in target by a path that is kept, and the moment it holds for in place of 0;
+   an answer is prepared on the way if one is wanted. Returns 0 if that is not plain; never sets an
+   error. */
+static int solve_path(const Door *door, const Types *types, PyObject *target, PyObject *source,
+                      int64_t *time, double *pose, PyObject **made) {
+    PyObject *path = value_of(value_of(door->_paths, target), source), *up, *down;
+    Way way;
+    if (!is_tuple(path, 3) || !PyTuple_Check(up = PyTuple_GetItem(path, 0))
+        || !PyTuple_Check(down = PyTuple_GetItem(path, 1)))
+        return 0;
+    /* Memory brings the samples meanwhile. To make tuples may run the collector, and that code
+       which lets go of the path; what the way has opened it holds. */
+    const int is_open = open_way(&way, types->fields, up, down, time)
+        && (made == NULL || (*made = prepare(types, *time, target, source)) != NULL);
+    if (is_open)
+        solve_way(&way, time, 1, 1, pose);
+    close_way(&way);
+    return is_open && pose[6] == pose[6];
 }
 
 /* What `Buffer` does in plain Python, as it was asked. */
@@ -552,20 +529,20 @@ static PyObject *plainly(PyObject *self, const char *name, PyObject *const *args
 
 /* `solve_path` for a target, a source and perhaps a moment, all given by their places. */
 static int solve_plain(PyObject *self, const Types *types, PyObject *const *args, Py_ssize_t count,
-                       PyObject *names, int64_t *time, double *pose, PyObject **tuples) {
+                       PyObject *names, int64_t *time, double *pose, PyObject **made) {
     *time = 0;
     return names == NULL && (count == 2 || (count == 3 && read_stamp(args[2], time)))
-        && solve_path((const Door *)self, types, args[0], args[1], time, pose, tuples);
+        && solve_path((const Door *)self, types, args[0], args[1], time, pose, made);
 }
 
 METHOD(lookup_transform) {
     const Types *types = PyType_GetModuleState(door);
-    PyObject *tuples[TUPLES] = {NULL};
+    PyObject *made = NULL;
     int64_t time;
     double pose[7];
-    if (solve_plain(self, types, args, count, names, &time, pose, tuples))
-        return answer(types, tuples, pose);
-    drop(tuples);
+    if (solve_plain(self, types, args, count, names, &time, pose, &made))
+        return answer(made, pose);
+    Py_XDECREF(made);
     return PLAINLY(lookup_transform);
 }
 
@@ -588,16 +565,16 @@ static int solve_leg(const Door *door, const Types *types, PyObject *target, PyO
 METHOD(lookup_transform_full) {
     const Types *types = PyType_GetModuleState(door);
     const Door *buffer = (const Door *)self;
-    PyObject *tuples[TUPLES];
+    PyObject *made;
     int64_t here, there;
     double inner[7], outer[7];
     if (names == NULL && count == 5 && read_stamp(args[1], &here) && read_stamp(args[3], &there)
         && !same_text(args[0], args[2]) && solve_leg(buffer, types, args[4], args[2], &there, inner)
         && solve_leg(buffer, types, args[0], args[4], &here, outer)) {
         compose(outer, inner, 1, 1);
-        if (unit(inner + 3) && prepare(types, tuples, here, args[0], args[2])) {
+        if (unit(inner + 3) && (made = prepare(types, here, args[0], args[2])) != NULL) {
             canonical(inner + 3, 1, 1);
-            return answer(types, tuples, inner);
+            return answer(made, inner);
         }
     }
     return PLAINLY(lookup_transform_full);
@@ -626,12 +603,13 @@ static int is_free(const Link *link) {
 static int put(Link *link, int64_t stamp, int64_t origin, double *pose) {
     Py_buffer view;
     const double square = square_of(pose + 3);
-    if (!(1.0 - ROUNDING < square && square < 1.0 + ROUNDING && pose[0] + pose[1] + pose[2] < HUGE_VAL))
+    if (!(1.0 - ROUNDING < square && square < 1.0 + ROUNDING
+          && pose[0] + pose[1] + pose[2] < HUGE_VAL))
         return 0;
     const int is_full = link->start > SLACK + link->count / SLACK_PART;
     /* That is asked first: nothing that was looked at before need be so any more. */
     if (link->records == NULL || ((is_full || stamp <= link->newest_stamp) && !is_free(link))
-        || link->is_static || link->origins != Py_None || link->origin != origin || link->limit < 0
+        || link->origins != Py_None || link->origin != origin || link->limit < 0
         || !read_records(link, PyBUF_WRITABLE, &view))
         return 0;
     Record *records = view.buf;
@@ -655,6 +633,7 @@ static int put(Link *link, int64_t stamp, int64_t origin, double *pose) {
         ? place >= 0 && (uint64_t)newest - (uint64_t)stamp <= limit
         : place > start && records[place - 1].stamp != stamp
             && count < view.len / (Py_ssize_t)sizeof(Record);
+    PyObject *pair = NULL, *before = NULL;
     if (fits) {
         canonical(pose + 3, 1, 1);
         if (place < start) {
@@ -669,17 +648,16 @@ static int put(Link *link, int64_t stamp, int64_t origin, double *pose) {
         link->count = count;
         link->oldest_stamp = oldest;
         link->newest_stamp = stamp > newest ? stamp : newest;
+        pair = link->_newest_pair;
+        before = link->_newest;
+        link->_newest_pair = Py_NewRef(Py_None);
+        link->_newest = Py_NewRef(Py_None);
     }
     PyBuffer_Release(&view);
-    if (!fits)
-        return 0;
     /* Last of all: what is let go of here may run code of others. */
-    PyObject *pair = link->newest_pair, *before = link->newest;
-    link->newest_pair = Py_NewRef(Py_None);
-    link->newest = Py_NewRef(Py_None);
     Py_XDECREF(before);
     Py_XDECREF(pair);
-    return 1;
+    return fits;
 }
 
 /* Remember a sample of plain parts, of a link that is known by its child. Returns whether it
@@ -687,26 +665,22 @@ static int put(Link *link, int64_t stamp, int64_t origin, double *pose) {
 static int insert(const Door *door, const Types *types, PyObject *sample, PyObject *authority) {
     int64_t stamp, origin;
     double pose[7];
-    if (Py_TYPE(sample) != types->tuples[3] || PyTuple_Size(sample) != 4 || door->senders == NULL
-        || !PyDict_Check(door->senders))
+    if (Py_TYPE(sample) != types->tuples[STAMPED] || PyTuple_Size(sample) != 4)
         return 0;
-    PyObject *parent = PyTuple_GetItem(sample, 1), *child = PyTuple_GetItem(sample, 2);
+    PyObject *sender = value_of(door->_senders, PyTuple_GetItem(sample, 2));
     PyObject *transform = PyTuple_GetItem(sample, 3);
-    if (!PyUnicode_CheckExact(child) || !PyUnicode_CheckExact(parent)
-        || !PyUnicode_CheckExact(authority) || Py_TYPE(transform) != types->tuples[2]
-        || PyTuple_Size(transform) != 2 || !read_stamp(PyTuple_GetItem(sample, 0), &stamp)
+    if (!is_tuple(sender, 4) || !same_text(PyTuple_GetItem(sender, 0), PyTuple_GetItem(sample, 1))
+        || !same_text(PyTuple_GetItem(sender, 1), authority)
+        || !read_stamp(PyTuple_GetItem(sender, 2), &origin)
+        || Py_TYPE(transform) != types->tuples[TRANSFORM] || PyTuple_Size(transform) != 2
+        || !read_stamp(PyTuple_GetItem(sample, 0), &stamp)
         || !read_floats(PyTuple_GetItem(transform, 0), pose, 3)
         || !read_floats(PyTuple_GetItem(transform, 1), pose + 3, 4))
         return 0;
-    PyObject *sender = PyDict_GetItemWithError(door->senders, child);
-    if (sender == NULL || !PyTuple_Check(sender) || PyTuple_Size(sender) != 4)
-        return 0;
     /* What runs meanwhile may let go of it. */
     PyObject *link = Py_NewRef(PyTuple_GetItem(sender, 3));
-    const int done = same_text(PyTuple_GetItem(sender, 0), parent)
-        && same_text(PyTuple_GetItem(sender, 1), authority)
-        && read_stamp(PyTuple_GetItem(sender, 2), &origin)
-        && PyObject_TypeCheck(link, types->fields) && put((Link *)link, stamp, origin, pose);
+    const int done = PyObject_TypeCheck(link, types->fields)
+        && put((Link *)link, stamp, origin, pose);
     Py_DECREF(link);
     return done;
 }
@@ -715,11 +689,11 @@ METHOD(set_transform) {
     const Types *types = PyType_GetModuleState(door);
     const Door *buffer = (const Door *)self;
     PyObject *authority = count == 2 ? args[1] : types->empty;
-    if (names != NULL || count < 1 || count > 2 || buffer->listening == NULL
-        || !PyTuple_Check(buffer->listening) || buffer->pending == NULL
-        || !PyDict_Check(buffer->pending) || !insert(buffer, types, args[0], authority))
+    if (names != NULL || count < 1 || count > 2 || buffer->_listening == NULL
+        || !PyTuple_Check(buffer->_listening) || buffer->_pending == NULL
+        || !PyDict_Check(buffer->_pending) || !insert(buffer, types, args[0], authority))
         return PLAINLY(set_transform);
-    if (PyTuple_Size(buffer->listening) > 0 || PyDict_Size(buffer->pending) > 0) {
+    if (PyTuple_Size(buffer->_listening) > 0 || PyDict_Size(buffer->_pending) > 0) {
         PyObject *done = PyObject_CallMethod(self, "_tell_of", "OO", args[0], authority);
         if (done == NULL)
             return NULL;
@@ -730,20 +704,26 @@ METHOD(set_transform) {
 
 /* A batch ---------------------------------------------------------------- */
 
-/* A block, row by row: poses of source in target, or NaN where `valid` becomes 0. */
-WIDE static void solve_block(const Way *way, const int64_t *times, int n, double *places,
-                             double *turns, unsigned char *valid) {
+/* Poses of source in target for so many moments, block by block, or NaN where `valid` becomes 0.
+   Returns how many these are. */
+WIDE static Py_ssize_t solve_rows(const Way *way, Py_ssize_t rows, const int64_t *times,
+                                  double *places, double *turns, unsigned char *valid) {
+    Py_ssize_t missing = 0;
     Rows pose;
-    for (int i = 0; i < n; i++)
-        valid[i] = times[i] != 0;
-    solve_way(way, times, n, BLOCK, pose, valid);
-    for (int i = 0; i < n; i++) {
-        const double known = valid[i] ? 1.0 : NAN;
-        for (int k = 0; k < 3; k++)
-            places[3 * i + k] = pose[k * BLOCK + i] * known;
-        for (int k = 0; k < 4; k++)
-            turns[4 * i + k] = pose[(3 + k) * BLOCK + i] * known;
+    for (Py_ssize_t start = 0; start < rows; start += BLOCK) {
+        const int n = rows - start < BLOCK ? (int)(rows - start) : BLOCK;
+        solve_way(way, times + start, n, BLOCK, pose);
+        for (Py_ssize_t i = 0, row = start; i < n; i++, row++) {
+            valid[row] = times[row] != 0 && pose[6 * BLOCK + i] == pose[6 * BLOCK + i];
+            missing += !valid[row];
+            const double known = valid[row] ? 1.0 : NAN;
+            for (int k = 0; k < 3; k++)
+                places[3 * row + k] = pose[k * BLOCK + i] * known;
+            for (int k = 0; k < 4; k++)
+                turns[4 * row + k] = pose[(3 + k) * BLOCK + i] * known;
+        }
     }
+    return missing;
 }
 
 PyDoc_STRVAR(solve_doc, "solve(up, down, times, translations, rotations, valid)\n--\n\n"
@@ -756,6 +736,7 @@ static PyObject *solve(PyObject *module, PyObject *args) {
     const Types *types = PyModule_GetState(module);
     Py_buffer views[4];
     PyObject *up, *down, *result = NULL;
+    int64_t first = 0;
     Way way;
     if (!PyArg_ParseTuple(args, "O!O!y*w*w*w*:solve", &PyTuple_Type, &up, &PyTuple_Type, &down,
                           &views[0], &views[1], &views[2], &views[3]))
@@ -768,18 +749,10 @@ static PyObject *solve(PyObject *module, PyObject *args) {
     if (!fits)
         PyErr_SetString(PyExc_ValueError, "moments, translations, rotations and valid are "
             "aligned rows of 8, 24, 32 and 1 bytes, of each equally many");
-    else if (open_way(&way, types->fields, up, down, 0)) {
-        const int64_t *times = views[0].buf;
-        double *places = views[1].buf, *turns = views[2].buf;
-        unsigned char *valid = views[3].buf;
-        Py_ssize_t missing = 0;
+    else if (open_way(&way, types->fields, up, down, &first)) {
+        Py_ssize_t missing;
         Py_BEGIN_ALLOW_THREADS
-        for (Py_ssize_t row = 0; row < rows; row += BLOCK) {
-            const int n = rows - row < BLOCK ? (int)(rows - row) : BLOCK;
-            solve_block(&way, times + row, n, places + 3 * row, turns + 4 * row, valid + row);
-            for (int i = 0; i < n; i++)
-                missing += !valid[row + i];
-        }
+        missing = solve_rows(&way, rows, views[0].buf, views[1].buf, views[2].buf, views[3].buf);
         Py_END_ALLOW_THREADS
         result = PyLong_FromSsize_t(missing);
     }
@@ -795,19 +768,15 @@ static PyObject *solve(PyObject *module, PyObject *args) {
 /* The module ------------------------------------------------------------- */
 
 #define MEMBER(type, name, kind) {#name, kind, offsetof(type, name), 0, NULL}
-#define PRIVATE(type, name, kind) {"_" #name, kind, offsetof(type, name), 0, NULL}
+#define OBJECT(type, name) MEMBER(type, name, T_OBJECT_EX)
+#define NUMBER(name) MEMBER(Link, name, T_LONGLONG)
 static PyMemberDef link_members[] = {
-    MEMBER(Link, records, T_OBJECT_EX), MEMBER(Link, origins, T_OBJECT_EX),
-    MEMBER(Link, newest_stamp, T_LONGLONG), MEMBER(Link, oldest_stamp, T_LONGLONG),
-    MEMBER(Link, limit, T_LONGLONG), MEMBER(Link, start, T_LONGLONG),
-    MEMBER(Link, count, T_LONGLONG), MEMBER(Link, origin, T_LONGLONG),
-    MEMBER(Link, parent, T_LONGLONG), MEMBER(Link, is_static, T_BOOL),
-    MEMBER(Link, mixed, T_BOOL), PRIVATE(Link, newest, T_OBJECT_EX),
-    PRIVATE(Link, newest_pair, T_OBJECT_EX), {NULL, 0, 0, 0, NULL},
+    OBJECT(Link, records), OBJECT(Link, origins), OBJECT(Link, _newest), OBJECT(Link, _newest_pair),
+    NUMBER(newest_stamp), NUMBER(oldest_stamp), NUMBER(limit), NUMBER(start), NUMBER(count),
+    NUMBER(origin), MEMBER(Link, mixed, T_BOOL), {NULL, 0, 0, 0, NULL},
 };
 static PyMemberDef door_members[] = {
-    PRIVATE(Door, paths, T_OBJECT_EX), PRIVATE(Door, senders, T_OBJECT_EX),
-    PRIVATE(Door, listening, T_OBJECT_EX), PRIVATE(Door, pending, T_OBJECT_EX),
+    OBJECT(Door, _paths), OBJECT(Door, _senders), OBJECT(Door, _listening), OBJECT(Door, _pending),
     {NULL, 0, 0, 0, NULL},
 };
 
@@ -826,14 +795,6 @@ static int held_clear(PyObject *self) {
     for (int i = 0; i < HELD; i++)
         Py_CLEAR(HELD_OF(self)[i]);
     return 0;
-}
-
-static void held_dealloc(PyObject *self) {
-    PyTypeObject *type = Py_TYPE(self);
-    PyObject_GC_UnTrack(self);
-    held_clear(self);
-    ((freefunc)PyType_GetSlot(type, Py_tp_free))(self);
-    Py_DECREF(type);
 }
 
 #define CALL METH_METHOD | METH_FASTCALL | METH_KEYWORDS
@@ -867,8 +828,7 @@ static PyTypeObject *holder(PyObject *module, const char *name, size_t size, con
                             PyMemberDef *members, PyMethodDef *methods) {
     PyType_Slot slots[] = {
         {Py_tp_doc, (void *)doc}, {Py_tp_members, members}, {Py_tp_methods, methods},
-        {Py_tp_traverse, held_traverse}, {Py_tp_clear, held_clear},
-        {Py_tp_dealloc, held_dealloc}, {0, NULL},
+        {Py_tp_traverse, held_traverse}, {Py_tp_clear, held_clear}, {0, NULL},
     };
     PyType_Spec spec = {name, (int)size, 0,
                         Py_TPFLAGS_DEFAULT | Py_TPFLAGS_BASETYPE | Py_TPFLAGS_HAVE_GC, slots};
@@ -876,14 +836,6 @@ static PyTypeObject *holder(PyObject *module, const char *name, size_t size, con
     if (made != NULL && PyModule_AddType(module, (PyTypeObject *)made) < 0)
         Py_CLEAR(made);
     return (PyTypeObject *)made;
-}
-
-/* A class of a module of ours; NULL with an error set if there is none. */
-static PyTypeObject *class_of(const char *module, const char *name) {
-    PyObject *home = PyImport_ImportModule(module);
-    PyObject *type = home == NULL ? NULL : PyObject_GetAttrString(home, name);
-    Py_XDECREF(home);
-    return (PyTypeObject *)type;
 }
 
 static int module_exec(PyObject *module) {
@@ -895,12 +847,18 @@ static int module_exec(PyObject *module) {
         || (types->fields = holder(module, "tftool.frames._kernel.Fields", sizeof(Link),
             "The fields of a link, laid out so that the kernel can read them.",
             link_members, no_methods)) == NULL
-        || (types->empty = PyUnicode_InternFromString("")) == NULL
-        || (types->tuples[0] = class_of("tftool.geometry.rigid", "Vector3")) == NULL
-        || (types->tuples[1] = class_of("tftool.geometry.rigid", "Quaternion")) == NULL
-        || (types->tuples[2] = class_of("tftool.geometry.rigid", "Transform")) == NULL
-        || (types->tuples[3] = class_of("tftool.frames.sample", "TransformStamped")) == NULL)
+        || (types->empty = PyUnicode_InternFromString("")) == NULL)
         return -1;
+    for (int i = 0; i < 4; i++) {
+        PyObject *home = PyImport_ImportModule(TUPLES[i].module);
+        PyObject *type = home == NULL ? NULL : PyObject_GetAttrString(home, TUPLES[i].name);
+        Py_XDECREF(home);
+        types->tuples[i] = (PyTypeObject *)type;
+        if (type == NULL
+            || (types->blanks[i] = Py_BuildValue(TUPLES[i].blank, Py_None, Py_None, Py_None,
+                                                 Py_None)) == NULL)
+            return -1;
+    }
     return PyModule_AddIntConstant(module, "INTERFACE", INTERFACE);
 }
 

@@ -101,14 +101,12 @@ if TYPE_CHECKING or not IS_NATIVE:
             "_newest",
             "_newest_pair",
             "count",
-            "is_static",
             "limit",
             "mixed",
             "newest_stamp",
             "oldest_stamp",
             "origin",
             "origins",
-            "parent",
             "records",
             "start",
         )
@@ -121,7 +119,7 @@ class StaticLink(Fields):
     """A link that holds at all times: one sample, overwritten.
 
     Attributes:
-        is_static: True.
+        is_static: True, of any of them.
         newest_stamp: 0, as in tf2.
         oldest_stamp: 0.
         parent: Number of the parent; NO_PARENT before there is one.
@@ -129,10 +127,11 @@ class StaticLink(Fields):
         mixed: False: it has one parent.
     """
 
-    __slots__ = ()
+    __slots__ = ("parent",)
+
+    is_static: Literal[True] = True
 
     def __init__(self, newest: Sample | None = None) -> None:
-        self.is_static: Literal[True] = True
         self._newest: Sample | None = newest
         self.newest_stamp: Stamp = 0
         self.oldest_stamp: Stamp = 0
@@ -178,7 +177,7 @@ class History(Fields):
     one inserted is the newest.
 
     Attributes:
-        is_static: False.
+        is_static: False, of any of them.
         limit: How far it remembers back from its newest sample.
         newest_stamp: Stamp of the newest sample; 0 when there is none.
         oldest_stamp: Stamp of the oldest sample; 0 likewise.
@@ -193,10 +192,11 @@ class History(Fields):
             from it.
     """
 
-    __slots__ = ("_compact_at", "_newest_parent_start", "period")
+    __slots__ = ("_compact_at", "_newest_parent_start", "parent", "period")
+
+    is_static: Literal[False] = False
 
     def __init__(self, limit: Duration) -> None:
-        self.is_static: Literal[False] = False
         # More than any two stamps can be apart.
         self.limit: Duration = min(limit, LAST_STAMP)
         self.period: Duration = 1

@@ -37,7 +37,7 @@ def built(name: str, interface: int) -> "ModuleType | None":
     return found if interface == found.INTERFACE else None
 
 
-IS_NATIVE: Final[bool] = built("tftool.frames._kernel", 5) is not None
+IS_NATIVE: Final[bool] = built("tftool.frames._kernel", 6) is not None
 """Whether the kernel is used."""
 
 BUILD: Final = "native" if IS_NATIVE else "pure Python"
