@@ -713,8 +713,10 @@ WIDE static Py_ssize_t solve_rows(const Way *way, Py_ssize_t rows, const int64_t
     for (Py_ssize_t start = 0; start < rows; start += BLOCK) {
         const int n = rows - start < BLOCK ? (int)(rows - start) : BLOCK;
         solve_way(way, times + start, n, BLOCK, pose);
+        const double *w = pose + 6 * BLOCK;
+        for (int i = 0; i < n; i++)
+            valid[start + i] = (times[start + i] != 0) & (w[i] == w[i]);
         for (Py_ssize_t i = 0, row = start; i < n; i++, row++) {
-            valid[row] = times[row] != 0 && pose[6 * BLOCK + i] == pose[6 * BLOCK + i];
             missing += !valid[row];
             const double known = valid[row] ? 1.0 : NAN;
             for (int k = 0; k < 3; k++)
@@ -736,6 +738,7 @@ static PyObject *solve(PyObject *module, PyObject *args) {
     const Types *types = PyModule_GetState(module);
     Py_buffer views[4];
     PyObject *up, *down, *result = NULL;
+    Py_ssize_t missing = -1;
     int64_t first = 0;
     Way way;
     if (!PyArg_ParseTuple(args, "O!O!y*w*w*w*:solve", &PyTuple_Type, &up, &PyTuple_Type, &down,
@@ -749,17 +752,16 @@ static PyObject *solve(PyObject *module, PyObject *args) {
     if (!fits)
         PyErr_SetString(PyExc_ValueError, "moments, translations, rotations and valid are "
             "aligned rows of 8, 24, 32 and 1 bytes, of each equally many");
-    else if (open_way(&way, types->fields, up, down, &first)) {
-        Py_ssize_t missing;
-        Py_BEGIN_ALLOW_THREADS
-        missing = solve_rows(&way, rows, views[0].buf, views[1].buf, views[2].buf, views[3].buf);
-        Py_END_ALLOW_THREADS
-        result = PyLong_FromSsize_t(missing);
-    }
-    else
-        result = Py_NewRef(Py_None);
-    if (fits)
+    else {
+        if (open_way(&way, types->fields, up, down, &first)) {
+            Py_BEGIN_ALLOW_THREADS
+            missing = solve_rows(&way, rows, views[0].buf, views[1].buf, views[2].buf,
+                                 views[3].buf);
+            Py_END_ALLOW_THREADS
+        }
         close_way(&way);
+        result = missing < 0 ? Py_NewRef(Py_None) : PyLong_FromSsize_t(missing);
+    }
     for (int i = 0; i < 4; i++)
         PyBuffer_Release(&views[i]);
     return result;
