@@ -19,7 +19,7 @@ expect:
 @pytest.fixture
 def on_terminal(monkeypatch):
     """A terminal that everything is drawn for, but not on."""
-    monkeypatch.setattr(onscreen, "has_terminal", lambda: True)
+    monkeypatch.setattr(onscreen, "screen_lacks", lambda: "")
     monkeypatch.setattr(showing, "show", partial(showing.show, headless=True))
     apps = []
     started = terminal.TurtleApp.on_mount
@@ -221,8 +221,10 @@ def test_on_a_terminal_a_failing_node_is_named_on_stderr(tftool, on_terminal, mo
     assert result.err.count("\n") == 1
 
 
-@pytest.mark.parametrize(("term", "there"), [("xterm", True), ("dumb", False)])
-def test_a_terminal_is_where_all_three_streams_are(monkeypatch, term, there):
+@pytest.mark.parametrize(
+    ("term", "lacks"), [("xterm", ""), ("dumb", "TERM=dumb is one without a screen")]
+)
+def test_a_terminal_is_where_all_three_streams_are(monkeypatch, term, lacks):
     class Screen:
         def isatty(self):
             return True
@@ -230,7 +232,18 @@ def test_a_terminal_is_where_all_three_streams_are(monkeypatch, term, there):
     monkeypatch.setenv("TERM", term)
     for stream in ("stdin", "stdout", "stderr"):
         monkeypatch.setattr(f"sys.{stream}", Screen())
-    assert onscreen.has_terminal() is there
+    assert onscreen.screen_lacks() == lacks
 
     monkeypatch.setattr("sys.stdin", None)
-    assert not onscreen.has_terminal()
+    assert onscreen.screen_lacks() == (lacks or "stdin is none")
+
+
+def test_who_looks_on_is_told_why_there_is_no_screen(tftool, simulated, monkeypatch):
+    monkeypatch.setenv("TERM", "dumb")
+    quiet = tftool("demo", "static")
+    monkeypatch.setattr("sys.stdout.isatty", lambda: True)
+    watched = tftool("demo", "static")
+
+    assert (quiet.status, quiet.err) == (0, "")
+    assert watched.out == quiet.out
+    assert "TERM=dumb is one without a screen" in watched.err

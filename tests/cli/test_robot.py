@@ -14,15 +14,13 @@ def test_a_robot_is_published_without_a_screen(tftool, simulated, robot):
     result = tftool("robot", robot, "--no-screen", "--joint", "turn=0.5", "--for", "2")
 
     assert result.status == 0
-    assert (
-        result.out == "Publishing robot 'post': 3 links, 1 joints that move where they are put.\n"
-    )
+    assert result.out == "Publishing robot 'post': 3 links, 1 moving joint; --joint says where.\n"
 
 
 @pytest.mark.parametrize(
     ("words", "status", "told"),
     [
-        ([], 2, "The sliders need a terminal, and there is none here: add --no-screen."),
+        ([], 2, "The sliders need a terminal, and stdin is none: add --no-screen."),
         (["--no-screen", "--follow", "--joint", "turn=1"], 2, "leave out --joint"),
         (["--no-screen", "--joint", "turm=1"], 2, "did you mean 'turn'?"),
         (["--no-screen", "--link", "lmap"], 2, "has no link 'lmap'; did you mean 'lamp'?"),

@@ -17,7 +17,7 @@ def test_without_a_terminal_teleop_asks_for_keys(tftool):
 
     assert result.status == 2
     assert result.err == (
-        "tftool: teleop reads keys from a terminal, and there is none here. "
+        "tftool: teleop reads keys from a terminal, and stdin is none. "
         'Give the keys on the command line instead: --keys "up up left".\n'
     )
 
@@ -90,7 +90,7 @@ def pressing(monkeypatch):
             await shown(app, life, headless=True)
 
         shown = showing.show
-        monkeypatch.setattr(onscreen, "has_terminal", lambda: True)
+        monkeypatch.setattr(onscreen, "screen_lacks", lambda: "")
         monkeypatch.setattr(showing, "show", see)
         return apps
 

@@ -20,14 +20,14 @@ SETTLED = seconds(1)
 """When a screen knows which turtles there are."""
 
 
-def has_terminal() -> bool:
-    """Whether a full-screen app can be seen, and take keys."""
+def screen_lacks() -> str:
+    """Half a sentence that says why no full-screen app can be seen here; empty where one can."""
     if os.environ.get("TERM") == "dumb":
-        return False
+        return "TERM=dumb is one without a screen"
     # textual draws on stderr, so that one counts too.
-    return all(
-        stream is not None and stream.isatty() for stream in (sys.stdin, sys.stdout, sys.stderr)
-    )
+    streams = {"stdin": sys.stdin, "stdout": sys.stdout, "stderr": sys.stderr}
+    lacking = [name for name, one in streams.items() if one is None or not one.isatty()]
+    return f"{lacking[0]} is none" if lacking else ""
 
 
 def simulator_of(world: "World") -> "Turtlesim | None":

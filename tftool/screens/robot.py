@@ -17,6 +17,7 @@ from tftool.screens.panels import Hint, footer
 from tftool.screens.setting import Setting
 from tftool.screens.sliders import Slider, Sliders, tip_of
 from tftool.screens.world_app import PanelApp
+from tftool.views.counts import count
 from tftool.views.fixed_width import fitted, padded
 
 LOOKS_PER_SECOND = 15
@@ -134,7 +135,7 @@ class RobotApp(PanelApp):
             return
         robot = self.sliders.robot
         shown = self.sliders.sliders
-        title = f" {self.title}: {robot.name}, {len(shown)} joints that move"
+        title = f" {self.title}: {robot.name}, {count(len(shown), 'moving joint')}"
         strong = look.ink(look.palette.text, bold=True)
         self.panel("header").show([Text(padded(title, width, more=look.more), strong)])
         panel = self.panel("joints")

@@ -1,5 +1,6 @@
 """`tftool demo`: a scenario on the screen, or, without a terminal, played and summed up."""
 
+import sys
 from contextlib import nullcontext
 from dataclasses import dataclass
 from pathlib import Path
@@ -85,7 +86,7 @@ def demo(
     """
     from tftool.cli.hosting import HOME
     from tftool.cli.naming import named, scenario_named
-    from tftool.cli.onscreen import has_terminal
+    from tftool.cli.onscreen import screen_lacks
 
     if listing:
         _list(for_programs=for_programs)
@@ -103,7 +104,9 @@ def demo(
         _show_recording(connection, scenario, ascii_only=ascii_only, light=light)
         return ExitStatus.DONE
     chosen = scenario_named(scenario or HOME, arguments)
-    if for_programs or not has_terminal():
+    lacking = screen_lacks()
+    if for_programs or lacking:
+        from tftool.cli.notices import notice
         from tftool.scenario.summary import as_json, play_through, written
 
         if connection.needs_link:
@@ -112,6 +115,9 @@ def demo(
                 "'tftool monitor' and 'tftool view' share a session without one."
             )
         refuse_long_simulation(lasting)
+        if not for_programs and sys.stdout.isatty():
+            # Who looks on expects a screen.
+            notice(f"The demo's screen needs a terminal, and {lacking}: played without it.")
         defaults = scenario_named(scenario or HOME).arguments if arguments else chosen.arguments
         if recording is None:
             played = play_through(chosen, defaults, lasting)
@@ -249,14 +255,14 @@ def _show_recording(connection: "Connection", word: str, *, ascii_only: bool, li
     from pathlib import Path
 
     from tftool.cli.hosting import open_session
-    from tftool.cli.onscreen import has_terminal, run_app
+    from tftool.cli.onscreen import run_app, screen_lacks
     from tftool.screens.setting import Setting
     from tftool.views.escaping import visible
 
-    if not has_terminal():
+    if lacking := screen_lacks():
         raise UsageError(
-            f"There is no terminal to show it on: 'tftool tree {visible(word)}' prints its "
-            f"frames, 'tftool view {visible(word)}' shows them in a browser."
+            f"The demo's screen needs a terminal, and {lacking}: 'tftool tree {visible(word)}' "
+            f"prints its frames, 'tftool view {visible(word)}' shows them in a browser."
         )
     session = open_session(connection, word)
 

@@ -64,7 +64,7 @@ def robot(
     from tftool.cli.described import load_described, tell_beyond
     from tftool.cli.hosting import open_empty_session
     from tftool.cli.naming import kind_in_words, named
-    from tftool.cli.onscreen import has_terminal
+    from tftool.cli.onscreen import screen_lacks
     from tftool.nodes.joints import JointStatePublisher, RobotStatePublisher
     from tftool.sources.find import Kind
     from tftool.views.escaping import visible
@@ -77,8 +77,8 @@ def robot(
         )
     if follow and connection.robot.joints:
         raise UsageError("--follow leaves the joints to others: leave out --joint.")
-    if not no_screen and not has_terminal():
-        raise UsageError("The sliders need a terminal, and there is none here: add --no-screen.")
+    if not no_screen and (lacking := screen_lacks()):
+        raise UsageError(f"The sliders need a terminal, and {lacking}: add --no-screen.")
     described = load_described(found, connection.robot)
     if link is not None and link not in described.links:
         raise UsageError(_no_link(described, link))
@@ -118,13 +118,14 @@ def _no_link(described: "Robot", link: str) -> str:
 
 
 def _tell(described: "Robot", follow: bool) -> None:
+    from tftool.views.counts import count
     from tftool.views.escaping import visible
 
     moving = sum(joint.moves for joint in described.joints.values())
-    how = "as the /joint_states of others say" if follow else "where they are put"
+    whose = "the /joint_states of others say" if follow else "--joint says"
     sys.stdout.write(
-        f"Publishing robot '{visible(described.name)}': {len(described.links)} links, "
-        f"{moving} joints that move {how}.\n"
+        f"Publishing robot '{visible(described.name)}': {count(len(described.links), 'link')}, "
+        f"{count(moving, 'moving joint')}; {whose} where.\n"
     )
     sys.stdout.flush()
 

@@ -49,16 +49,16 @@ def teleop(
     tftool teleop --keys "up up left up"
     """
     from tftool.cli.hosting import open_session
-    from tftool.cli.onscreen import driver_of, has_terminal, run_app
+    from tftool.cli.onscreen import driver_of, run_app, screen_lacks
     from tftool.nodes.teleop import BANNER
 
     connection.refuse_read_only("drive")
     if keys is not None:
         typer.echo(press_all(connection, turtle, keys))
         return ExitStatus.DONE
-    if not has_terminal():
+    if lacking := screen_lacks():
         raise UsageError(
-            "teleop reads keys from a terminal, and there is none here. "
+            f"teleop reads keys from a terminal, and {lacking}. "
             'Give the keys on the command line instead: --keys "up up left".'
         )
 

@@ -225,16 +225,16 @@ def _watch(open_session: "Callable[[], Session]", duration: Duration | None) -> 
     """Show the tree as it changes: with keys where there are some, else redrawn in place."""
     from rich.console import Console
 
-    from tftool.cli.onscreen import has_terminal
+    from tftool.cli.onscreen import screen_lacks
 
     console = Console()
     if not console.is_terminal:
         raise UsageError("--watch needs a terminal; without it the tree is written once.")
     session = open_session()
-    if has_terminal():
-        _watch_with_keys(session, duration)
-    else:
+    if screen_lacks():
         session.run(_redrawn(session.world, duration, console))
+    else:
+        _watch_with_keys(session, duration)
 
 
 def _watch_with_keys(session: "Session", duration: Duration | None) -> None:
