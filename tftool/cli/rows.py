@@ -74,7 +74,7 @@ class RowFile:
                 self._done = frozenset(self._sources())
             mode = "ab" if self._done else "wb"
             # Without a buffer: rows of one recording are in the file together or not at all.
-            self._file: BinaryIO = self._growing.open(mode, buffering=0)  # type: ignore[assignment]
+            self._file = io.FileIO(self._growing, mode)
         except (OSError, ValueError, KeyError, TypeError) as error:
             reason = getattr(error, "strerror", None) or "it holds something else than rows"
             raise InputError(f"'{path}' cannot be gone on with: {reason}.") from error

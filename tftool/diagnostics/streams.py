@@ -3,6 +3,7 @@
 import math
 from collections.abc import Sequence
 from functools import cached_property
+from typing import TypeVar
 
 import numpy as np
 import numpy.typing as npt
@@ -15,6 +16,8 @@ from tftool.sources.contract import (
     Transforms,
 )
 from tftool.stamps import NANOSECONDS, SIMULATED_BELOW, seconds
+
+Number = TypeVar("Number", bound=np.generic)
 
 Mask = npt.NDArray[np.bool_]
 
@@ -52,7 +55,7 @@ class Stream:
         self.lap = len(stamps)
         self.arrivals: Stamps = self.all_logs
 
-    def in_order(self, column: npt.NDArray[np.generic]) -> npt.NDArray:  # type: ignore[type-arg]
+    def in_order(self, column: npt.NDArray[Number]) -> npt.NDArray[Number]:
         """Rows in the order of log times."""
         return column if self.order is None else column[self.order]
 

@@ -1,6 +1,6 @@
 """A recording as a node: what was recorded is broadcast again, at its own pace or another."""
 
-from typing import TYPE_CHECKING, ClassVar, Final, Protocol
+from typing import TYPE_CHECKING, Any, ClassVar, Final, Protocol
 
 from tftool.frames.jumps import FELL_BACK, LEAST_FALL
 from tftool.frames.sample import TransformStamped
@@ -267,8 +267,8 @@ class Player(Node):
         clock = self.world.clock
         if isinstance(clock, FollowedClock) and clock.now() != now:
             clock.tell(now)
-        message = INTERFACES.message("rosgraph_msgs/Clock")()
-        message.clock.sec, message.clock.nanosec = divmod(now, NANOSECONDS)  # type: ignore[attr-defined]
+        message: Any = INTERFACES.message("rosgraph_msgs/Clock")()
+        message.clock.sec, message.clock.nanosec = divmod(now, NANOSECONDS)
         self.publish("clock", message)
 
 

@@ -429,7 +429,10 @@ class FollowedClock(WallClock):
 
     def _shift(self, change: Duration) -> None:
         """Let every waiter wait for as long as it would have."""
-        self._waiters = [(stamp + change, *rest) for stamp, *rest in self._waiters]  # type: ignore[misc]
+        self._waiters = [
+            (stamp + change, phase, rank, asked, future)
+            for stamp, phase, rank, asked, future in self._waiters
+        ]
         heapq.heapify(self._waiters)
 
     def _set_alarm(self) -> None:

@@ -101,8 +101,8 @@ class ValueTopic(Generic[T]):
             return held
         if message is not self._message or self._value is None:
             self._message, self._value = message, values.as_value(message, self.kind)
-        value: Any = self._value
-        return value  # type: ignore[no-any-return]
+        value: T = self._value
+        return value
 
     def taker(self, callback: Callable[[T], object]) -> Callable[[Any], object]:
         """What takes messages, and calls `callback` with their values."""

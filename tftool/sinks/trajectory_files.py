@@ -64,9 +64,8 @@ def whole_files(*paths: Path, force: bool = False) -> Iterator[list[BinaryIO]]:
     """
     targets: list[Target] = []
     try:
-        for path in paths:
-            # Those made before one fails are discarded.
-            targets.append(Target(path, force=force))  # noqa: PERF401
+        # One by one: those made before one fails are discarded.
+        targets.extend(Target(path, force=force) for path in paths)
         try:
             with ExitStack() as stack:
                 yield [stack.enter_context(target.part.open("wb")) for target in targets]

@@ -364,8 +364,9 @@ class _Shape:
         self._slots: list[tuple[str, _Shape | None]] = []
         for field in kind.fields__:
             # A single message's fields lie in line with the others.
-            is_part = field.size is None and not isinstance(field.kind, str)
-            part = _Shape(field.kind) if is_part else None  # type: ignore[arg-type]
+            part = None
+            if field.size is None and not isinstance(field.kind, str):
+                part = _Shape(field.kind)
             self._slots.append((f"_{field.name}", part))
 
     def build(self, values: Iterator[Any]) -> Any:

@@ -237,8 +237,9 @@ class Reader:
         if start + 4 > self._size:
             raise self._cut_off(4, start)
         self.position = start + 4
+        length: int
         (length,) = _LENGTHS[self.order].unpack_from(self.payload, start)
-        return length  # type: ignore[no-any-return]
+        return length
 
     def count(self, smallest: int, bound: int | None) -> int:
         """How many items follow, each of so many bytes at least."""

@@ -82,9 +82,9 @@ class Information:
             participant: Its GUID.
             nodes: GUIDs of the readers and the writers of each of its nodes.
         """
-        said = self.kind()
-        said.gid = self._gid(participant)  # type: ignore[attr-defined]
-        said.node_entities_info_seq = [  # type: ignore[attr-defined]
+        said: Any = self.kind()
+        said.gid = self._gid(participant)
+        said.node_entities_info_seq = [
             self._node(name, *gids) for name, gids in sorted(nodes.items())
         ]
         return self._codec.encode(said)

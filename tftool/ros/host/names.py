@@ -140,8 +140,8 @@ def topic_name_fault(name: str) -> Fault | None:
         if found[1] not in ("node", "ns", "namespace"):
             return Fault("unknown substitution: not {node}, {ns} or {namespace}", found.start())
     plain = _SUBSTITUTION.sub(lambda found: "_" * len(found[0]), name)
-    if "{" in plain or "}" in plain:
-        return Fault("a brace has no partner", re.search("[{}]", plain).start())  # type: ignore[union-attr]
+    if brace := re.search(r"[{}]", plain):
+        return Fault("a brace has no partner", brace.start())
     return _fault_of_parts(plain)
 
 

@@ -108,4 +108,5 @@ def context_of(owner: Any) -> Context:
     """The context a program uses unless it says otherwise."""
     if owner.context is None:
         owner.context = Context()
-    return owner.context  # type: ignore[no-any-return]
+    context: Context = owner.context
+    return context

@@ -409,7 +409,8 @@ def executor_of(owner: "program.Program") -> Executor:
     """The executor that `rclpy.spin` uses."""
     if owner.executor is None:
         owner.executor = SingleThreadedExecutor()
-    return owner.executor  # type: ignore[no-any-return]
+    executor: Executor = owner.executor
+    return executor
 
 
 def wait_for(seat: NodeSeat, future: Future, timeout_sec: float | None) -> None:

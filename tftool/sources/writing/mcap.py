@@ -151,7 +151,7 @@ class McapWriter:
         self.position = 0
         self._crc = 0
         self._path = path
-        self._file: io.FileIO = open(path, "wb+", buffering=0)  # noqa: SIM115 -- `finish` closes it
+        self._file = io.FileIO(path, "wb+")
         self._put(MCAP_MAGIC + record(HEADER, text(profile) + text(library)))
 
     def _new_chunk(self) -> None:
@@ -461,7 +461,7 @@ class McapWriter:
         whole = self.position
         self._file.close()
         try:
-            self._file = open(self._path, "rb+", buffering=0)  # noqa: SIM115 -- closed below
+            self._file = io.FileIO(self._path, "rb+")
             self._file.truncate(whole)
             self._file.seek(whole)
             self.finish()

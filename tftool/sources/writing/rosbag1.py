@@ -73,7 +73,7 @@ class Rosbag1Writer:
         self.counts: dict[int, int] = {}
         self._new_chunk()
         self.position = 0
-        self._file: io.FileIO = open(path, "wb+", buffering=0)  # noqa: SIM115 -- `finish` closes it
+        self._file = io.FileIO(path, "wb+")
         self._put(ROS1_MAGIC + self._head(0))
 
     def _new_chunk(self) -> None:
