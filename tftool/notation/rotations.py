@@ -242,24 +242,28 @@ def _bare(text: str, form: str | None, degrees: bool) -> Written:
     if count in (9, 12, 16) and form in (None, "matrix"):
         return _matrix(numbers)
     if form is None:
-        if count == 4:
-            raise UsageError(
-                "Four bare numbers can be x y z w or w x y z: say which with --as xyzw or "
-                "--as wxyz."
-            )
-        if count == 3:
-            raise UsageError(
-                "Three bare numbers can be angles or a rotation vector: say which with --as rpy, "
-                "--as ypr, --as rotvec, or an order of axes such as --as szyx."
-            )
-        raise UsageError(
-            f"{count} number{'' if count == 1 else 's'} are no rotation: a quaternion has 4, "
-            "angles are 3, a matrix has 9 or 16."
-        )
+        raise _ambiguous(count)
     wanted = {"xyzw": 4, "wxyz": 4, "axis-angle": 4, "matrix": 9}.get(form, 3)
     if count != wanted:
         raise UsageError(f"{form} takes {wanted} numbers, and there are {count}.")
     return _of_form(form, numbers, degrees)
+
+
+def _ambiguous(count: int) -> UsageError:
+    """Why `count` bare numbers need a form, or are no rotation in any."""
+    if count == 4:
+        return UsageError(
+            "Four bare numbers can be x y z w or w x y z: say which with --as xyzw or --as wxyz."
+        )
+    if count == 3:
+        return UsageError(
+            "Three bare numbers can be angles or a rotation vector: say which with --as rpy, "
+            "--as ypr, --as rotvec, or an order of axes such as --as szyx."
+        )
+    return UsageError(
+        f"{count} number{'' if count == 1 else 's'} are no rotation: a quaternion has 4, "
+        "angles are 3, a matrix has 9 or 16."
+    )
 
 
 def _value(text: str) -> float:

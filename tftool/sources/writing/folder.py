@@ -55,26 +55,6 @@ def metadata_text(
     filled = [one for one in files if one.count]
     start = min((one.start for one in filled), default=0)
     end = max((one.end for one in filled), default=0)
-    listed: dict[tuple[str, str], dict[str, Any]] = {}
-    for channel, count in topics.items():
-        key = channel.topic, channel.type
-        if key in listed:
-            listed[key]["message_count"] += count
-            continue
-        listed[key] = {
-            "topic_metadata": {
-                "name": channel.topic,
-                "type": channel.type,
-                "serialization_format": channel.encoding,
-                "offered_qos_profiles": _offers(channel.extra("offered_qos_profiles"), version),
-                **(
-                    {"type_description_hash": channel.extra("topic_type_hash")}
-                    if version > 6
-                    else {}
-                ),
-            },
-            "message_count": count,
-        }
     document: dict[str, Any] = {
         **(old or {}),
         "version": version,
@@ -82,7 +62,7 @@ def metadata_text(
         "duration": {"nanoseconds": end - start},
         "starting_time": {"nanoseconds_since_epoch": start},
         "message_count": sum(one.count for one in files),
-        "topics_with_message_count": list(listed.values()),
+        "topics_with_message_count": _listed(topics, version),
         "compression_format": compression[0],
         "compression_mode": compression[1],
         "relative_file_paths": [one.name for one in files],
@@ -104,6 +84,26 @@ def metadata_text(
     return yaml.safe_dump(
         {"rosbag2_bagfile_information": document}, sort_keys=False, allow_unicode=True
     )
+
+
+def _listed(topics: Mapping[Channel, int], version: int) -> list[dict[str, Any]]:
+    """Each topic once, with the messages of all its channels."""
+    listed: dict[tuple[str, str], dict[str, Any]] = {}
+    for channel, count in topics.items():
+        key = channel.topic, channel.type
+        if key in listed:
+            listed[key]["message_count"] += count
+            continue
+        metadata = {
+            "name": channel.topic,
+            "type": channel.type,
+            "serialization_format": channel.encoding,
+            "offered_qos_profiles": _offers(channel.extra("offered_qos_profiles"), version),
+        }
+        if version > 6:
+            metadata["type_description_hash"] = channel.extra("topic_type_hash")
+        listed[key] = {"topic_metadata": metadata, "message_count": count}
+    return list(listed.values())
 
 
 def write_metadata(folder: Path, text: str) -> None:
