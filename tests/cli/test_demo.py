@@ -42,7 +42,7 @@ def test_without_a_terminal_the_scenario_is_played_and_summed_up(tftool):
     assert lines[3].startswith("  turtle1  x ")
     assert lines[3].endswith("°  in world")
     assert "  turtle2 is 0.000 m from turtle1." in lines
-    assert lines[-1].endswith(" expectations hold.")
+    assert lines[-1].endswith(" expectations held.")
     assert result.err == ""
 
 
@@ -74,7 +74,7 @@ def test_an_expectation_that_fails_is_told_and_is_the_exit_status(tftool, tmp_pa
     result = tftool("demo", tmp_path / "bad.yaml")
 
     assert result.status == 1
-    assert "1 of 2 expectations hold." in result.out
+    assert "1 of 2 expectations held." in result.out
     assert "line 5: at 1 s" in result.out
 
 
@@ -83,7 +83,7 @@ def test_what_was_set_is_said_beside_what_the_expectations_are_written_for(tftoo
 
     assert result.status == 1
     assert "Played 60 s of simulated time with source_frame=nosuch." in result.out
-    assert "expectations hold; they are written for source_frame=turtle1." in result.out
+    assert "expectations held; they are written for source_frame=turtle1." in result.out
 
 
 @pytest.mark.parametrize("seconds", [90_000, 9e9])

@@ -171,7 +171,7 @@ def test_a_recording_takes_the_description_it_lacks(tftool, recording, robot):
 
     assert result.status == 0
     assert "- Rotation: in RPY (radian) [0.000, -0.000, 0.500]" in result.out
-    assert "2 frames that tf lacks come from the robot's description" in result.err
+    assert "2 frames that tf lacks: from the robot's description" in result.err
     assert "1 of them moved by joint states" in result.err
     assert "Robot: 'post' is described" in tftool("info", recording, "--urdf", robot).out
 

@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any
 from tftool.cli.notices import notice
 from tftool.runtime.clock import WallClock
 from tftool.stamps import seconds
+from tftool.views.counts import count
 from tftool.views.escaping import visible
 
 if TYPE_CHECKING:
@@ -114,7 +115,8 @@ def told_of_odometry(recording: "Recording") -> "Iterator[str]":
     from tftool.sources.odometry import implying
 
     for topic in recording.odometry:
-        yield f"'{topic.name}' ({topic.type}, {topic.count} messages) is taken for transforms."
+        messages = count(topic.count, "message")
+        yield f"'{topic.name}' ({topic.type}, {messages}) is taken for transforms."
     if not recording.edges:
         found = [f"'{topic.name}' ({topic.type})" for topic in implying(recording.topics)]
         if found:
@@ -131,14 +133,14 @@ def _told(described: "DescribedFrames | None") -> "Iterator[str]":
     added = len(described.still) + len(described.moving)
     if added:
         yield (
-            f"{added} frames that tf lacks come from the robot's description, "
+            f"{count(added, 'frame')} that tf lacks: from the robot's description, "
             f"{len(described.moving)} of them moved by joint states."
         )
     if described.gaps:
         shown = ", ".join(described.gaps[:5]) + (" …" if len(described.gaps) > 5 else "")
         yield (
-            f"{len(described.gaps)} links have no frame, as neither tf nor joint states say "
-            f"where they are: {shown}."
+            f"{count(len(described.gaps), 'link')} without a frame, as neither tf nor joint states "
+            f"say where: {shown}."
         )
 
 

@@ -4,6 +4,7 @@ from collections import Counter
 from collections.abc import Iterable
 from typing import TYPE_CHECKING
 
+from tftool.views.counts import count
 from tftool.views.escaping import visible
 
 if TYPE_CHECKING:
@@ -31,7 +32,7 @@ def rivalries(buffer: "Buffer", frames: Iterable[str]) -> list[str]:
             "between what they say. One child frame should have one broadcaster."
         )
     if more:
-        told.append(f"So are {more} frames more.")
+        told.append(f"So {'is' if more == 1 else 'are'} {count(more, 'frame')} more.")
     return told
 
 

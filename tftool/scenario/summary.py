@@ -15,6 +15,7 @@ from tftool.scenario.play import Watch, build
 from tftool.scenario.schema import Scenario
 from tftool.scenario.verdict import Verdict
 from tftool.stamps import Duration, as_seconds
+from tftool.views.counts import count
 from tftool.views.escaping import visible
 
 MOST_FRAMES = 20
@@ -106,7 +107,7 @@ def written(played: Played) -> str:
     held = sum(outcome.ok for outcome in reached)
     written_for = _settings(played.defaults, changed)
     lines.append(
-        f"{held} of {len(reached)} expectations hold"
+        f"{held} of {count(len(reached), 'expectation')} held"
         + (f"; they are written for {written_for}." if written_for else ".")
     )
     lines += [

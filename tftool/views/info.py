@@ -123,11 +123,11 @@ def _robot(recording: Recording, robot: Robot) -> str:
     )
     if found.still or found.moving:
         text += (
-            f"; {len(found.still) + len(found.moving)} frames come from it that tf lacks, "
+            f"; {count(len(found.still) + len(found.moving), 'frame')} from it that tf lacks, "
             f"{len(found.moving)} of them moved by joint states"
         )
     if found.gaps:
-        text += f"; {len(found.gaps)} links have no frame: {_few(list(found.gaps))}"
+        text += f"; {count(len(found.gaps), 'link')} without a frame: {_few(list(found.gaps))}"
     return text
 
 

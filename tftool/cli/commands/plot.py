@@ -186,13 +186,15 @@ def _write(
     from tftool.cli.interrupting import interruptible
     from tftool.cli.notices import notice
     from tftool.sinks.trajectory_files import whole_file
+    from tftool.views.counts import count
     from tftool.views.escaping import visible
     from tftool.views.figure import write
 
     quantities, xy = plotted.quantities, plotted.from_above
     with interruptible(), whole_file(output, force=force) as file:
         write(found, file, form, start=start, quantities=quantities, xy=xy, dark=dark)
-    notice(visible(f"Drew {sum(len(one.path) for one in found):,} moments to {output}."))
+    moments = count(sum(len(one.path) for one in found), "moment")
+    notice(visible(f"Drew {moments} to {output}."))
 
 
 def _print(found: "list[Trajectory]", start: Stamp, plotted: _Plotted) -> None:

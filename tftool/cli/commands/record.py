@@ -174,13 +174,14 @@ def _as_json(output: Path, running: "RecordingRun") -> str:
 
 
 def _summed_up(rolling: "RollingRecording") -> str:
+    from tftool.views.counts import count
     from tftool.views.escaping import visible
     from tftool.views.short_numbers import short_size
 
     many = f" in {len(rolling.files)} files" if len(rolling.files) > 1 else ""
     return (
-        f"{visible(str(rolling.path))}: {rolling.messages} messages, {rolling.transforms} "
-        f"transforms, {short_size(rolling.size)}{many}"
+        f"{visible(str(rolling.path))}: {count(rolling.messages, 'message')}, "
+        f"{count(rolling.transforms, 'transform')}, {short_size(rolling.size)}{many}"
     )
 
 
