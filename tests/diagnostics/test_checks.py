@@ -2,6 +2,7 @@
 
 import math
 from pathlib import Path
+from types import SimpleNamespace
 
 import pytest
 
@@ -10,6 +11,7 @@ from tests.diagnostics.robots import LASTS, NO_TURN, START, Robot, robot, stands
 from tftool.diagnostics.catalogue import CHECKS
 from tftool.diagnostics.findings import Severity
 from tftool.diagnostics.model import Settings
+from tftool.diagnostics.shape import loop
 from tftool.stamps import seconds
 
 
@@ -119,6 +121,38 @@ def test_a_circle_is_named_and_is_no_split_tree():
     made.moving("body", "odom")
     assert ids(made) == ["loop"]
     assert set(found(made, "loop").frames) == {"odom", "body"}
+
+
+def test_a_large_circle_is_named_once_and_what_hangs_from_it_is_not():
+    names = [f"joint{n}" for n in range(70)]
+    made = Robot()
+    for parent, child in zip(names, names[1:] + names[:1], strict=True):
+        made.moving(parent, child)
+    made.moving("joint3", "tool")
+    finding = found(made, "loop")
+    assert set(finding.frames) == set(names)
+    assert len(finding.edges) == len(names)
+
+
+def test_looking_for_circles_takes_as_long_as_there_are_links():
+    looked = []
+
+    class Link:
+        by_stamp = (1,)
+
+        def __init__(self, number):
+            self.child = f"link{number + 1}"
+            self.number = number
+
+        @property
+        def parent(self):
+            looked.append(self)
+            return f"link{self.number}"
+
+    chain = SimpleNamespace(tracks=[Link(number) for number in range(300)])
+
+    assert list(loop(chain, {})) == []
+    assert len(looked) < 3000
 
 
 def test_edges_that_never_exist_together_form_no_circle():

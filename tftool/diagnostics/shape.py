@@ -1,13 +1,14 @@
 """Checks of how the frames hang together: circles, several trees, names in the wrong order."""
 
-from collections import defaultdict
+from collections import defaultdict, deque
 from collections.abc import Iterator
 
 from tftool.diagnostics.findings import Confidence, Fix, Hit, Severity
 from tftool.diagnostics.model import Limits, Model, Tree
-from tftool.diagnostics.streams import last_part, overlap
+from tftool.diagnostics.streams import Track, last_part, overlap
 from tftool.geometry.rigid import Transform
 
+_LARGE = 64  # frames of a circle, from which on no other is looked for from each of them
 _BASES = ("base_link", "base_footprint", "base")
 
 JUDGED_EMPTY = frozenset(
@@ -25,20 +26,31 @@ JUDGED_EMPTY = frozenset(
 
 def loop(model: Model, limits: Limits) -> Iterator[Hit]:
     """Frames hang from each other in a circle."""
+    sent = [track for track in model.tracks if len(track.by_stamp)]
+    circling = _circling({(track.child, track.parent) for track in sent})
     above = defaultdict(list)
-    for track in model.tracks:
-        if len(track.by_stamp):
+    for track in sent:
+        if (track.child, track.parent) in circling:
             above[track.child].append(track)
     told: set[frozenset[str]] = set()
+    done: set[str] = set()
     for start in sorted(above):
+        if start in done:
+            continue
         # The shortest way up that comes back to where it began.
-        waiting = [[track] for track in above[start]]
-        seen = {start}
+        waiting = deque(above[start])
+        came: dict[str, Track] = {}
         while waiting:
-            way = waiting.pop(0)
-            here = way[-1].parent
+            last = waiting.popleft()
+            here = last.parent
             if here == start:
+                way = [last]
+                while way[-1].child != start:
+                    way.append(came[way[-1].child])
+                way.reverse()
                 circle = frozenset(track.child for track in way)
+                if len(circle) > _LARGE:
+                    done |= circle
                 if circle not in told and overlap(way):
                     told.add(circle)
                     yield Hit(
@@ -49,9 +61,28 @@ def loop(model: Model, limits: Limits) -> Iterator[Hit]:
                         alone=True,
                     )
                 break
-            if here not in seen:
-                seen.add(here)
-                waiting += [[*way, track] for track in above.get(here, ())]
+            if here not in came:
+                came[here] = last
+                waiting += above.get(here, ())
+
+
+def _circling(links: set[tuple[str, str]]) -> set[tuple[str, str]]:
+    """Of links from child to parent those that lie in a circle, or lead from one to another."""
+    for _ in range(2):
+        parents, children = defaultdict(set), defaultdict(set)
+        for child, parent in links:
+            parents[child].add(parent)
+            children[parent].add(child)
+        # What hangs from a root alone, and from that alone, is in none; and the other way round.
+        roots = [name for name in children if name not in parents]
+        while roots:
+            root = roots.pop()
+            for child in children.pop(root, ()):
+                parents[child].discard(root)
+                if not parents[child]:
+                    roots.append(child)
+        links = {(parent, child) for parent, below in children.items() for child in below}
+    return links
 
 
 def split_tree(model: Model, limits: Limits) -> Iterator[Hit]:
