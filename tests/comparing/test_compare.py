@@ -177,3 +177,14 @@ def test_every_moment_of_a_long_recording_need_not_be_asked(monkeypatch):
 
     assert found.links[0].displacement.moments <= 7
     assert np.isfinite(found.links[0].displacement.millimetres)
+
+
+@pytest.mark.filterwarnings("error")
+def test_what_lies_beyond_all_numbers_is_infinitely_far_without_a_warning():
+    far = Transform((1e300, 0.2, 0.3), quaternion_from_rpy(0.1, 0.2, 0.3))
+
+    (still,) = tftool.diff(frames(), frames(laser=far)).changed
+    (moving,) = tftool.diff(frames(), frames(off=1e300)).changed
+
+    assert still.displacement.millimetres == math.inf
+    assert moving.displacement.worst_millimetres == math.inf

@@ -224,7 +224,9 @@ def compare(
         shift = second.start - first.start
         notes.append("The two count on different clocks: each from its own start.")
     children = list(dict.fromkeys([*held[0], *held[1]]))
-    links = [_compared(child, first, second, held, shift, tolerance) for child in children]
+    # What lies beyond what a number holds is infinitely far, and no news.
+    with np.errstate(over="ignore", invalid="ignore"):
+        links = [_compared(child, first, second, held, shift, tolerance) for child in children]
     if any(one.note == APART for one in links):
         notes.append("Moving links that share no time were not compared: try --align start.")
     return Differences(
