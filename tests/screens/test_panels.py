@@ -271,6 +271,11 @@ def log(journal, until=60, width=40, height=5, look=PLAIN, back=0):
     )
 
 
+def test_what_was_said_before_the_beginning_has_no_time():
+    # As where the screen then follows a recording's clock, years away.
+    assert log(Journal([record(-399_099_416, "line")])) == ["     - sim: line"]
+
+
 def test_the_log_shows_the_newest_lines_with_their_time():
     journal = Journal([record(n, f"line {n}") for n in range(10)])
 

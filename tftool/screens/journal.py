@@ -122,7 +122,9 @@ class Journal:
         palette, record = look.palette, entry.record
         colors = {"WARN": palette.warning, "ERROR": palette.error, "FATAL": palette.error}
         color = colors.get(record.level, palette.text)
-        when = f"{as_seconds(entry.last(until) - start):.1f} "
+        last = entry.last(until)
+        # The session's clock may be another one than that on which the screen began.
+        when = f"{as_seconds(last - start):.1f} " if last >= start else "- "
         indent = 2 if width < 40 else 7
         when = when.rjust(indent)
         count = entry.times(until)
