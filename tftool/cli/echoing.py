@@ -113,8 +113,8 @@ class Echo:
             count: How many answers to print; None for no end.
             patience: How long to wait for the first, in nanoseconds; None for ever.
             tells: Whether to say why it waits; on simulated time there is no need to.
-            departures: Says how many have left that transforms came from; when another one
-                has, it waits again, for something new.
+            departures: Gives how many processes that sent transforms have left; after each
+                further departure the wait starts again, for something new.
         """
         self.world = world
         self.pair = pair

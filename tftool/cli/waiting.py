@@ -39,7 +39,7 @@ class FramePair:
         source: Frame looked for.
         at: The moment; 0 for the latest.
         offset: How far from now the moment is instead, where it is not 0.
-        fixed_frame: Frame by whose way only `source` is taken from that moment.
+        fixed_frame: Frame through which `source` at that moment is seen in `target` now.
     """
 
     target: str
@@ -47,6 +47,10 @@ class FramePair:
     at: Stamp = LATEST
     offset: Duration = 0
     fixed_frame: str | None = None
+
+    def moment(self, now: Stamp) -> Stamp:
+        """The moment that is meant when the clock reads `now`; 0 for the latest."""
+        return now + self.offset if self.offset else self.at
 
     def ask(self, buffer: Buffer, now: Stamp) -> TransformStamped:
         """Look it up.
@@ -57,7 +61,7 @@ class FramePair:
         if self.target == self.source and not buffer.frame_exists(self.target):
             # tf2 calls any frame in itself the identity, even one that is not known.
             raise LookupException(_unknown(self.target), frame=self.target)
-        then = now + self.offset if self.offset else self.at
+        then = self.moment(now)
         if self.fixed_frame is None:
             return buffer.lookup_transform(self.target, self.source, then)
         return buffer.lookup_transform_full(
@@ -68,7 +72,7 @@ class FramePair:
         """Why it cannot be given, in tf2_echo's words."""
         if self.target == self.source and not buffer.frame_exists(self.target):
             return _unknown(self.target)
-        then = now + self.offset if self.offset else self.at
+        then = self.moment(now)
         if self.fixed_frame is None:
             return buffer.why_not(self.target, self.source, then)
         return buffer.why_not_full(self.target, LATEST, self.source, then, self.fixed_frame)
@@ -187,8 +191,7 @@ class Waiter:
         buffer, now = self.world.buffer, self.world.clock.now()
         if self.pair.fixed_frame is not None or not buffer.frames():
             return ""
-        then = now + self.pair.offset if self.pair.offset else self.pair.at
-        found = explain(buffer, self.pair.target, self.pair.source, then)
+        found = explain(buffer, self.pair.target, self.pair.source, self.pair.moment(now))
         if found.available or found.cause.name not in EXPLAINED:
             return ""
         cures = [remedy for remedy in found.remedies if remedy.possible]
