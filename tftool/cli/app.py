@@ -93,7 +93,7 @@ RECORDED = ("demo", "echo", "tree", "monitor", "view", "explain", "info", "play"
 
 
 class ExitStatus(IntEnum):
-    """How a command ends, for who called it."""
+    """The exit status of a command."""
 
     DONE = 0
     FAILED = 1

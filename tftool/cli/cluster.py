@@ -32,7 +32,7 @@ def connected(address: str) -> Iterator[Executor]:
         raise UsageError(
             "--scheduler needs an extra: pip install 'tftool-tf2[fleet]'; --jobs does not."
         ) from None
-    # What it logs of workers that come and go is not for who waits for findings.
+    # Its log of workers that come and go is of no use to a user who waits for findings.
     logging.getLogger("distributed").setLevel(logging.CRITICAL)
     try:
         client: Any = distributed.Client(  # type: ignore[no-untyped-call]

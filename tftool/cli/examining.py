@@ -88,7 +88,7 @@ def _described(material: Material, scope: Scope) -> Material:
 
 
 def _heard(session: Session, lasting: Duration, kind: str) -> Material:
-    """Listen to a world for so long."""
+    """Listen to a world for `lasting` nanoseconds."""
     world = session.world
     hearing, stops = heard_in(world)
     began: Stamp = world.clock.now()

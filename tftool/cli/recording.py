@@ -65,7 +65,7 @@ class RecordingRun:
         self._is_terminal = sys.stderr.isatty() and os.environ.get("TERM") != "dumb"
 
     async def run(self, duration: Duration | None) -> None:
-        """Record for so long, or until a finding; for ever where neither is said.
+        """Record for `duration` nanoseconds or until a finding; until stopped without either.
 
         Raises:
             InputError: If it cannot be written any more; what was is readable.

@@ -129,7 +129,7 @@ class Session:
         await self.live(None)
 
     async def lasting(self, duration: Duration | None) -> None:
-        """Do nothing for so long, in nanoseconds; for ever if None."""
+        """Do nothing for `duration` nanoseconds; for ever if None."""
         if duration is None:
             await asyncio.get_running_loop().create_future()
         else:
@@ -142,7 +142,7 @@ class Session:
                 clock.limit(None)
 
     async def listened(self, duration: Duration) -> None:
-        """Listen for so long, and to robots over DDS until their static transforms have come."""
+        """Listen for `duration` nanoseconds, over DDS until the static transforms have come."""
         await self.lasting(duration)
         if self.link is None or self.link.options.middleware != "dds":
             return

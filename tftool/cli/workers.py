@@ -34,7 +34,7 @@ class Workers(Protocol):
         """An executor; a second one, after the first one broke."""
 
     def place(self, source: str) -> str:
-        """Where a recording is, for those who open it."""
+        """The path or URL under which the workers open a recording."""
 
 
 class OneProcess:

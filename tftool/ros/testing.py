@@ -80,7 +80,7 @@ class RosRuntime:
         return self.program.ask(request)
 
     def sleep(self, duration: float) -> None:
-        """Let so many seconds pass; everything due in them happens.
+        """Let `duration` seconds pass; everything due in them happens.
 
         Raises:
             NodeFailed: If a program beside the test, or a node, has failed.

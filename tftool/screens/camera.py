@@ -27,7 +27,7 @@ class Camera:
         self._shown = Viewport(0.0, 0.0, 1.0)
 
     def view(self, picture: PlanePicture, columns: int, rows: int) -> Viewport:
-        """The view of a picture in so many cells."""
+        """The view of a picture in columns × rows of cells."""
         if picture.fixed != self._fixed:
             # What a person zoomed into is elsewhere in another frame.
             self._fixed, self._box, self._own = picture.fixed, None, None
@@ -58,7 +58,7 @@ class Camera:
         self._look_at(x + (middle_x - x) * share, y + (middle_y - y) * share, nearer)
 
     def pan(self, columns: float, rows: float) -> None:
-        """Move what is shown by so many cells, right and down."""
+        """Move the view by a number of cells, right and down."""
         left, bottom, per_row = self._shown
         x = left + 0.25 * self._size[0] * per_row - 0.5 * columns * per_row
         y = bottom + 0.5 * self._size[1] * per_row + rows * per_row

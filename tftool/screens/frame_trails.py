@@ -16,7 +16,7 @@ PERIOD = seconds(0.1)
 """How far apart the moments are at which frames are looked up."""
 
 REACH = seconds(30.0)
-"""How far back a trail reaches that is drawn anew, where the buffer does."""
+"""How far back a trail that is drawn from scratch reaches, where the buffer does."""
 
 KEPT = seconds(60.0)
 """How long a trail is kept that was seen as it came."""
@@ -56,7 +56,7 @@ class FrameTrails:
         """Look the frames up since the last time, and give all of their trails up to now.
 
         Args:
-            fixed: What they are looked up in; with another one everything begins anew.
+            fixed: What they are looked up in; another one starts all trails again.
             frames: Which; only the first `MOST_FRAMES` are followed.
             now: The last moment.
         """
@@ -71,7 +71,7 @@ class FrameTrails:
         return Drawn(self._strokes, 0, self._edition, self._box)
 
     def until(self, fixed: str, frames: Iterable[str], at: Stamp) -> Drawn:
-        """All trails up to an earlier moment, what the buffer reaches looked up anew."""
+        """All trails up to an earlier moment, looked up as far back as the buffer reaches."""
         start = at - REACH
         found: list[tuple[Stamp, Stroke]] = []
         for frame in islice(frames, MOST_FRAMES):

@@ -1,4 +1,4 @@
-"""The plots beside the picture: how the pair went over the last seconds, looked up anew."""
+"""The plots beside the picture: the pair over the last seconds, looked up at every look."""
 
 import numpy as np
 from rich.text import Text

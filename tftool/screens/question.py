@@ -35,7 +35,7 @@ class SceneQuestion:
         self._first_link_at: Duration | None = None
 
     def ask(self) -> SceneMoment:
-        """Look anew."""
+        """Look at the world again."""
         self.moment = self._answer()
         return self.moment
 

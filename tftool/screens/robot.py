@@ -280,7 +280,7 @@ class RobotApp(PanelApp):
 
 
 def _bar(one: Slider, width: int, look: Look) -> str:
-    """A slider in so many cells."""
+    """A slider, `width` cells wide."""
     left, right, track, knob = "[]-o" if look.ascii_only else "├┤─●"
     room = max(3, width - 2)
     share = one.share

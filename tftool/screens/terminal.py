@@ -33,7 +33,7 @@ from tftool.stamps import Duration, Stamp, seconds
 
 LOOKS_PER_SECOND = 20
 PANELS_EVERY = 3
-"""Of that many looks, the text beside the field is written anew in one."""
+"""At every how many looks the text beside the field is rewritten."""
 
 REST = 6.0
 """For how many times as long as a look took there is no other one: with the terminal's own

@@ -27,7 +27,7 @@ class WorldApp(App[None]):
         world: The world.
         setting: How to show it.
         ready: Set once it shows.
-        failure: What it failed by, for who runs it: said on a restored terminal, it can be read.
+        failure: What it failed by, for the caller to report once the terminal is restored.
         interrupted: Whether Ctrl-C ended it.
     """
 

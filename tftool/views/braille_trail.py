@@ -13,7 +13,7 @@ Stroke: TypeAlias = tuple[float, float, float, float, Color, int]
 
 
 class Ink:
-    """Dots that stay, on a rectangle of the world shown by so many cells.
+    """Dots that stay, on a rectangle of the world, shown by columns × rows of cells.
 
     Args:
         columns: Cells across.

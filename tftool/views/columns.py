@@ -41,7 +41,7 @@ class TableColumn:
         return min([longest, *self.caps[:1]])
 
     def written(self, text: str, width: int, more: str) -> str:
-        """`text` in exactly so many cells."""
+        """`text`, cut or padded to exactly `width` cells."""
         shown = middle_cut(text, width, more=more)
         room = " " * (width - cell_len(shown))
         return room + shown if self.stands_right else shown + room

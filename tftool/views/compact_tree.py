@@ -258,7 +258,7 @@ class _Drawing:
         self.is_cut = False
 
     def first(self, branch: Branch, room: int, *, marked: bool, more: str) -> Text:
-        """Guides and name of one frame in so many cells."""
+        """Guides and name of one frame in `room` cells."""
         lead = self._lead(branch, more)
         name = self.names[branch.info.frame]
         shown = middle_cut(name, max(1, room - cell_len(lead)), more=more)

@@ -151,7 +151,7 @@ class Viewport(NamedTuple):
 
 
 def fitted_view(box: Box, columns: int, rows: int) -> Viewport:
-    """The view that shows all of a box in the middle of so many cells, twice as high as wide."""
+    """The view that shows a whole box, centred in cells that are twice as high as wide."""
     left, bottom, right, top = box
     per_row = max((right - left) / max(1, columns) * 2.0, (top - bottom) / max(1, rows), 1e-9)
     middle_x, middle_y = 0.5 * (left + right), 0.5 * (bottom + top)

@@ -242,7 +242,7 @@ class Reader:
         return length
 
     def count(self, smallest: int, bound: int | None) -> int:
-        """How many items follow, each of so many bytes at least."""
+        """How many items follow, each of at least `smallest` bytes."""
         count = self.length()
         rest = self._size - self.position
         if count * smallest > rest:

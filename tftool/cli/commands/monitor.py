@@ -141,7 +141,7 @@ class Monitor:
         self.chain: view.Chain | None = None
 
     async def run(self, duration: Duration | None) -> None:
-        """Listen and report, for so many nanoseconds or for ever.
+        """Listen and report, for `duration` nanoseconds or for ever.
 
         The last report is at the end of that time, which begins once the frames are connected.
 

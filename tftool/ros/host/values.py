@@ -42,7 +42,7 @@ def stamp_of(message: Any) -> Stamp:
 
 
 def time_message(stamp: Stamp, kind: str = "Time") -> Any:
-    """A builtin_interfaces Time (or Duration) of so many nanoseconds."""
+    """A builtin_interfaces Time (or Duration) of `stamp` nanoseconds."""
     seconds, rest = divmod(stamp, NANOSECONDS)
     return INTERFACES.message(f"builtin_interfaces/{kind}")(sec=seconds, nanosec=rest)
 

@@ -371,7 +371,7 @@ class Launch(Node):
             self.emit(ProcessStarted(action=action, name=label))
             if isinstance(self.clock, SimClock):
                 status, reason = run_at_once(command, lambda line: self._line(label, line))
-                # Not at once: who waits for its end may be named further down in the file.
+                # Not at once: the handler of its end may stand further down in the file.
                 self._start_task(self._end_soon(action, label, status, reason), self._watches)
             else:
                 self._start_task(self._watch(action, label, command), self._watches)

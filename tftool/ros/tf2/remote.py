@@ -188,7 +188,7 @@ class BufferServer:
         return result
 
     async def _first(self, found: Future, limit: Duration) -> None:
-        """Wait until it is found, at most for so long."""
+        """Wait until it is found, for `limit` nanoseconds at most."""
         if found.done() or limit.nanoseconds <= 0:
             return
         over = Future()

@@ -132,7 +132,7 @@ class PageClient:
             word, self._word = self._word, None
             if word is not None:
                 await self.socket.send(word)
-            # Not before the names: a page that was of another session begins anew with them.
+            # Not before the names: a page of another session starts again with them.
             while self._displays and self.sent:
                 await self.socket.send(self._displays.pop(next(iter(self._displays))))
             if not self._next or not self._ready():

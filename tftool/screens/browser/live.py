@@ -81,7 +81,7 @@ class LiveDisplays:
         return {topic: one.block for topic, one in self._heard.items() if one.block}
 
     def latest(self, most: int) -> list[DrawnTopic]:
-        """The last message of every topic, to be kept, thinned out to so many points."""
+        """The last message of every topic, to be kept, thinned out to at most `most` points."""
         found: list[DrawnTopic] = []
         for one in self._heard.values():
             self._draw(one)

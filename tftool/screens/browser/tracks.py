@@ -82,7 +82,7 @@ def recorded_tracks(recording: Recording, limits: Limits) -> list[DrawnTopic]:
 
 
 def tracks_named(name: str, limits: Limits) -> list[DrawnTopic]:
-    """What of a recording is drawn, opened anew: it may be asked for in any thread."""
+    """What is drawn of a recording, which is opened for it: callable from any thread."""
     with open_recording(name) as recording:
         return recorded_tracks(recording, limits)
 

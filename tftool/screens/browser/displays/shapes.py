@@ -31,12 +31,12 @@ class DrawnMessage:
 
 
 def thinned(places: Places, most: int) -> Places:
-    """At most so many of some places: all, every second one, or every third."""
+    """At most `most` of the places: all, every second one, every third, and so on."""
     return places[:: max(1, -(-len(places) // most))]
 
 
 def drawn(header: Any, places: npt.NDArray[Any], most: int = MOST_POINTS) -> DrawnMessage:
-    """Take the finite ones of some places, thinned out to at most so many."""
+    """Take the finite ones of some places, thinned out to at most `most`."""
     places = np.asarray(places, dtype=np.float32).reshape(-1, 3)
     places = places[np.isfinite(places).all(axis=1)]
     places = thinned(places, most)
