@@ -267,7 +267,10 @@ def test_the_chosen_frame_is_told_absolute_and_relative(chromium, stage):
     assert page.texts("#link-facts dd") == ["Transform OK", "turtle", "mount", "static"]
 
 
-@pytest.mark.parametrize(("width", "height"), [(1920, 1080), (1280, 800), (900, 600), (640, 480)])
+SIZES = [(1920, 1080), (1280, 800), (1200, 800), (900, 600), (640, 480)]
+
+
+@pytest.mark.parametrize(("width", "height"), SIZES)
 def test_numbers_stand_in_one_line_each_and_panels_keep_clear_of_the_bars(
     chromium, stage, width, height
 ):
@@ -299,6 +302,8 @@ def test_numbers_stand_in_one_line_each_and_panels_keep_clear_of_the_bars(
         for panel in (left, right):
             if panel["width"]:
                 assert bar["bottom"] <= panel["top"] < panel["bottom"] <= time["top"]
+        # The bar is one line where there is room for a screen's usual columns.
+        assert width < 1200 or bar["height"] < 60
         # What the plot says of its lines and of its height stands in one line, side by side.
         assert chromium.execute_script(box, "line")["width"] > 500
     finally:
