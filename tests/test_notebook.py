@@ -100,6 +100,26 @@ def test_each_value_has_its_form_and_no_name_acts_in_it(tmp_path):
     assert set(lines[3:]) == {"Finding text/html"}
 
 
+def test_what_holds_columns_and_facts_says_in_a_line_what_it_is(tmp_path):
+    path = tmp_path / "run.mcap"
+    with tftool.write_recording(path) as recording:
+        for tick in range(1, 400):
+            pose = TransformStamped(seconds(tick), "world", "a\x1b[2J", Transform((tick, 0, 0)))
+            recording.transforms([pose], log_time=seconds(tick + 2))
+
+    with tftool.open_recording(path) as recording:
+        assert repr(recording.edges) == (
+            r"(<Edge: 399 dynamic transforms of 'a\x1b[2J' in 'world'>,)"
+        )
+        samples = recording.buffer.samples("a\x1b[2J")
+        assert repr(samples) == r"<SampleColumns: 399 samples of 'a\x1b[2J'>"
+        found = {one.id: repr(one) for one in tftool.diagnose(recording)}
+    assert found["stale-stamp"].startswith(
+        r"<Finding: warning stale-stamp, 'a\x1b[2J in world is dated 2"
+    )
+    assert all(len(text) < 300 and text.isprintable() for text in found.values())
+
+
 def test_without_a_notebook_nothing_is_registered_and_nothing_is_imported(tmp_path):
     code = "import sys, tftool; print('tftool.notebook' in sys.modules)"
 

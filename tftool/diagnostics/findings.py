@@ -102,6 +102,10 @@ class Finding:
     fixes: tuple[Fix, ...] = ()
     because_of: str | None = None
 
+    def __repr__(self) -> str:
+        # Its facts may be those of a hundred edges.
+        return f"<Finding: {self.severity.value} {self.id}, {self.message!r}>"
+
 
 @dataclass(frozen=True, slots=True)
 class Skipped:

@@ -102,6 +102,10 @@ class Edge:
     def __len__(self) -> int:
         return len(self.messages)
 
+    def __repr__(self) -> str:
+        kind = "static" if self.static else "dynamic"
+        return f"<Edge: {len(self)} {kind} transforms of {self.child!r} in {self.parent!r}>"
+
     @property
     def stamps(self) -> Stamps:
         """Nanoseconds, shape (n,); a view."""

@@ -54,6 +54,9 @@ class SampleColumns:
     def __len__(self) -> int:
         return len(self.stamps)
 
+    def __repr__(self) -> str:
+        return f"<SampleColumns: {len(self)} samples of {self.frame!r}>"
+
     @property
     def translations(self) -> Floats:
         """Metres, shape (n, 3)."""
