@@ -1,5 +1,7 @@
 """The page, its address and its session, in a real browser."""
 
+import threading
+
 import pytest
 
 pytest.importorskip("websockets", reason="the extra `view` is not installed")
@@ -50,6 +52,24 @@ def test_a_second_window_joins_with_a_view_of_its_own(chromium, stage):
 
     first.until(lambda: first.x_of("turtle") == 2.0)
     assert first.find("#orbit").get_attribute("aria-pressed") == "false"
+
+
+def test_a_server_that_says_nothing_any_more_is_not_called_live(chromium, stage):
+    stage.put(1.0)
+    page = Page(chromium, stage)
+    page.until(lambda: page.text("#status") == "live")
+    goes_on = threading.Event()
+    stopped = threading.Thread(target=stage.do, args=[lambda world: goes_on.wait()])
+    stopped.start()
+    try:
+        page.until(lambda: page.text("#status") == "no answer")
+        assert "does not answer. Last seen: its " in page.text("#banner")
+    finally:
+        goes_on.set()
+        stopped.join()
+
+    page.until(lambda: page.text("#status") == "live")
+    page.until(lambda: not page.find("#banner").is_displayed())
 
 
 def test_the_end_of_the_session_is_shown_and_the_page_finds_the_next_one(chromium):

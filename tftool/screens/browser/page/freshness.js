@@ -3,13 +3,46 @@
 
 const STALE = { periods: 30, seconds: 5 };
 
+/** Whether a server still speaks: one that is stopped, or hangs, keeps its connection. */
+export class Hearing {
+  constructor() {
+    this.at = 0; // when it was heard last, milliseconds
+    this.last = 0; // the pause before that, and the longest of late that did not come alone
+    this.pause = 0;
+  }
+
+  /** @param {number} now */
+  heard(now) {
+    const pause = now - this.at;
+    this.pause = Math.max(Math.min(pause, this.last), 0.99 * this.pause);
+    this.last = pause;
+    this.at = now;
+  }
+
+  /**
+   * Begin anew, where what was not heard says nothing.
+   * @param {number} now
+   */
+  begin(now) {
+    this.at = now;
+  }
+
+  /**
+   * Whether it has said nothing for longer than one that runs would.
+   * @param {number} now
+   */
+  isOver(now) {
+    return now - this.at > Math.max(1000 * STALE.seconds, STALE.periods * this.pause);
+  }
+}
+
 /**
- * "wait" before anything came, "gone" without a server, "stale" where a server sends the same again
+ * "wait" before anything came, "gone" without a server, "silent" where one says nothing, "stale" where a server sends the same again
  * and again although its time goes on, "stored" where all there is is in the page, "past" and "live".
- * @param {"wait" | "open" | "ended" | "stored"} connection
+ * @param {"wait" | "open" | "silent" | "ended" | "stored"} connection
  * @param {import("./model.js").Model} model
  * @param {boolean} past whether a moment of the past is looked at
- * @returns {"wait" | "stored" | "gone" | "stale" | "past" | "live"}
+ * @returns {"wait" | "stored" | "gone" | "silent" | "stale" | "past" | "live"}
  */
 export function freshness(connection, model, past) {
   if (connection !== "open") return connection === "ended" ? "gone" : connection;

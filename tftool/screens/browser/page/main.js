@@ -8,7 +8,7 @@ import { Displays } from "./displays.js";
 import { keepFiles } from "./files.js";
 import { number } from "./format.js";
 import { chain, describe, retell, trails } from "./frames.js";
-import { freshness } from "./freshness.js";
+import { freshness, Hearing } from "./freshness.js";
 import { KEYS, meant, OTHERS } from "./keys.js";
 import { Measure, onPlane } from "./measure.js";
 import { fade, Model } from "./model.js";
@@ -55,8 +55,8 @@ const displays = new Displays(stage.scene, tracks, (topic) => {
   changed();
 });
 
-/** @type {{ connection: "wait" | "open" | "ended" | "stored", pair: any, unacknowledged: number }} */
-const server = { connection: "wait", pair: null, unacknowledged: 0 };
+/** @type {{ connection: "wait" | "open" | "silent" | "ended" | "stored", hearing: Hearing, pair: any, unacknowledged: number }} */
+const server = { connection: "wait", hearing: new Hearing(), pair: null, unacknowledged: 0 };
 /**
  * What is on screen: of every frame, of those drawn, the trails.
  * @type {{ frames: import("./frames.js").Frame[], drawn: any[], lines: { name: string, color: string, points: number[][] }[] }}
@@ -108,11 +108,16 @@ const tree = new Tree($("tree"), {
 const handlers = {
   open() {
     server.connection = inside ? "stored" : "open";
+    server.hearing.begin(performance.now());
     toast("");
     changed();
   },
+  heard() {
+    server.hearing.heard(performance.now());
+    if (server.connection === "silent") server.connection = "open";
+  },
   ended() {
-    if (server.connection === "open") server.connection = "ended";
+    if (server.connection === "open" || server.connection === "silent") server.connection = "ended";
     timeline.lost();
     past.lost();
     changed();
@@ -752,7 +757,12 @@ new ResizeObserver(() => {
 
 // What does not come makes no picture: ages go on, and so does what is said of the server.
 setInterval(() => {
-  model.silence = server.connection === "ended" ? (performance.now() - model.heardAt) / 1000 : 0;
+  const now = performance.now();
+  // A page that is not seen draws nothing, and so asks for nothing.
+  if (document.hidden) server.hearing.begin(now);
+  if (server.connection === "open" && server.hearing.isOver(now)) server.connection = "silent";
+  const isCut = server.connection === "ended" || server.connection === "silent";
+  model.silence = isCut ? (now - model.heardAt) / 1000 : 0;
   redraw.words();
 }, 500);
 

@@ -103,10 +103,11 @@ function setText(element, text) {
  */
 export function showStatus({ past, playing }, state) {
   const { classList } = document.body;
-  for (const name of ["gone", "stale"]) classList.toggle(name, state === name);
+  classList.toggle("gone", state === "gone" || state === "silent");
+  classList.toggle("stale", state === "stale");
   classList.toggle("past", past);
   const text = {
-    wait: "connecting", gone: "session ended", stale: "no new data",
+    wait: "connecting", gone: "session ended", silent: "no answer", stale: "no new data",
     past: playing ? "replay" : "past", stored: playing && past ? "replay" : "recorded", live: "live",
   }[state];
   $("status").dataset.state = state;
@@ -120,18 +121,19 @@ export function showStatus({ past, playing }, state) {
  */
 export function showBanner(state, model) {
   const { poses } = model;
-  const late = state === "gone" || state === "stale";
+  const isCut = state === "gone" || state === "silent";
+  const late = isCut || state === "stale";
   $("banner").hidden = !late || !poses;
   if (!late || !poses) return;
   $("banner").dataset.state = state;
-  const seen = `${number(state === "gone" ? (poses.at ?? poses.now) : poses.newest, 2)} s`;
-  const ago = state === "gone" ? model.silence : model.unheard();
-  setText(
-    $("banner"),
-    state === "gone"
-      ? `The session is gone. Last seen: its ${seen}, ${spell(ago)} ago. Waiting for it to come back.`
-      : `No new data for ${spell(ago)}. The newest transform is of ${seen}.`,
-  );
+  const seen = `${number(isCut ? (poses.at ?? poses.now) : poses.newest, 2)} s`;
+  const last = `Last seen: its ${seen}, ${spell(model.silence)} ago.`;
+  const said = {
+    gone: `The session is gone. ${last} Waiting for it to come back.`,
+    silent: `tftool view does not answer. ${last}`,
+    stale: `No new data for ${spell(model.unheard())}. The newest transform is of ${seen}.`,
+  };
+  setText($("banner"), said[state]);
 }
 
 /** A span of time that grows, in words. */

@@ -77,7 +77,7 @@ export function same(one, other) {
 
 export class Wire {
   /**
-   * Handlers: open(), ended(reason), names(message),
+   * Handlers: open(), ended(reason), heard(), whenever something comes; names(message),
    *  pair(message), range(message), poses(Poses),
    *  tracks(tracks, packed, whole), messages that are drawn; series(message), marks(message),
    *  robot(message), its shapes, joints and sliders; trails(message), where frames were;
@@ -97,6 +97,7 @@ export class Wire {
       this.handlers.open();
     };
     socket.onmessage = ({ data }) => {
+      this.handlers.heard();
       if (typeof data === "string") {
         const message = JSON.parse(data);
         const name = message.type === "frames" ? "names" : message.type;
