@@ -243,7 +243,6 @@ class _Reader:
 
     def _parsed(self) -> _Element:
         parser = expat.ParserCreate("utf-8")
-        parser.buffer_text = True
         roots: list[_Element] = []
         stack: list[_Element] = []
 

@@ -319,7 +319,7 @@ def look_behind(roots: Iterable[str]) -> None:
         _finder.roots += [root for root in map(Path, roots) if root not in _finder.roots]
 
 
-def import_anew(module: str, root: Path) -> ModuleType:
+def import_fresh(module: str, root: Path) -> ModuleType:
     """Import a user's module from a folder, and run it again as a process of its own would.
 
     Two programs of one file then share no globals.

@@ -55,9 +55,9 @@ def _parser() -> tuple[_Parser, dict[str, list[str]]]:
         of.add_argument(*names, action="store_true")
 
     topic = noun("topic")
-    for listed in (verb(topic, "list"),):
-        flag(listed, "-t", "--show-types")
-        flag(listed, "--include-hidden-topics")
+    listed = verb(topic, "list")
+    flag(listed, "-t", "--show-types")
+    flag(listed, "--include-hidden-topics")
     echo = verb(topic, "echo", "topic")
     echo.add_argument("type", nargs="?")
     flag(echo, "--once")

@@ -81,7 +81,7 @@ def entry_point_body(module: str, function: str, *, root: Path) -> Callable[[], 
     """What runs a console script as its installed wrapper would, from its sources in `root`."""
 
     def body() -> None:
-        target: Any = importing.import_anew(module, root)
+        target: Any = importing.import_fresh(module, root)
         for part in function.split("."):
             if not hasattr(target, part):
                 raise UsageError(
