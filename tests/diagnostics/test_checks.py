@@ -39,7 +39,12 @@ def test_two_statics_with_different_parents_are_a_fight_too():
     made = robot()
     made.static("base_link", "camera")
     made.static("laser", "camera", at=0.5)
-    assert set(found(made, "two-parents").edges) == {("base_link", "camera"), ("laser", "camera")}
+    alone = found(made, "two-parents")
+    assert set(alone.edges) == {("base_link", "camera"), ("laser", "camera")}
+    assert alone.consequence.startswith("camera loses its way to one root")
+    made.static("camera", "lens")
+    both = found(made, "two-parents").consequence
+    assert both.startswith("camera, lens lose their way to one root")
 
 
 def away(t: float) -> tuple[float, ...]:

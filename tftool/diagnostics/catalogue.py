@@ -36,7 +36,7 @@ class Check:
         summary: What is wrong, in one line and in general.
         rule: When it speaks, with its thresholds as {names}.
         headline: What is wrong, with a finding's facts; `{where}` names all of them,
-            `{concerned:one|many}` chooses by how many they are.
+            `{concerned:one|many}` chooses by how many they are, as of any number or list.
         detail: A line of evidence for each hit.
         consequence: What it breaks.
         fixes: What to do, beside what the hit itself says.
@@ -88,7 +88,7 @@ _LIST = (
         "times and keeps each for less than {stay:g} s on average",
         "{child} gets its parent by turns from {parents}",
         "{sources}; changes {switches:times}, first at {first:moment}",
-        "{lost} lose their way to one root while the other parent rules: the robot jumps, and "
+        "{lost} {lost:loses its|lose their} way to one root while the other parent rules: the robot jumps, and "
         "lookups fail now and then",
         (
             Fix(

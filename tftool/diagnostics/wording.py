@@ -74,7 +74,8 @@ class _Words(string.Formatter):
     def format_field(self, value: Any, format_spec: str) -> Any:
         one, is_choice, many = format_spec.partition("|")
         if is_choice:
-            return one if value == 1 else many
+            number = len(value) if isinstance(value, list | tuple) else value
+            return one if number == 1 else many
         match format_spec:
             case "span":
                 return span(value)
