@@ -172,3 +172,17 @@ def test_a_scenario_of_signs_that_are_cut_where_the_first_bytes_end_is_one(tmp_p
         (tmp_path / "s.yaml").write_text("x" * start + "€" * 3000, encoding="utf-8")
 
         assert find(str(tmp_path / "s.yaml")).kind is Kind.SCENARIO
+
+
+def test_what_cannot_be_looked_at_in_a_folder_keeps_nothing_from_being_found(tmp_path):
+    folder = tmp_path / "all"
+    folder.mkdir()
+    (folder / "nothing").symlink_to("nowhere")
+    (folder / "circle").symlink_to("circle")
+
+    with pytest.raises(InputError, match="2 entries"):
+        find(str(folder))
+    (folder / "run.bag").write_bytes(b"#ROSBAG V2.0\n")
+
+    assert find(str(folder)).paths == (folder / "run.bag",)
+    assert find(str(folder / "*")).paths == (folder / "run.bag",)

@@ -269,8 +269,10 @@ def _recordings(entries: list[Path]) -> list[tuple[Path, Kind]]:
             continue
         try:
             kind = kind_of_file(entry)
-        except InputError:
-            continue
+        except PermissionError:
+            raise  # it may be one, and that is told
+        except (InputError, OSError):
+            continue  # as a link to nothing, or to itself
         if kind in _RECORDINGS:
             found.append((entry, kind))
     return found
