@@ -1,6 +1,7 @@
 """Recordings that are still written, were never closed, or are made to do harm."""
 
 import os
+import pickle
 import shutil
 import sqlite3
 import struct
@@ -17,7 +18,7 @@ from mcap.writer import CompressionType, Writer
 
 from tests.sources.writers import TF, content, payload, write_mcap
 from tests.sources.writers import write_rosbag1 as write_bag
-from tftool import InputError, open_recording
+from tftool import InputError, UsageError, open_recording
 from tftool.cli.app import main
 from tftool.sources import container, reading
 from tftool.sources.editing import mcap_tape
@@ -373,3 +374,21 @@ def test_memory_that_does_not_suffice_is_told_in_a_sentence(tmp_path, monkeypatc
 
     assert main(["info", str(path)]) == 3
     assert "memory that is left does not suffice" in capsys.readouterr().err
+
+
+def test_topics_of_a_closed_database_are_refused_and_not_counted_as_empty(tmp_path):
+    path = odd_database(tmp_path / "run.db3", [TOPICS, MESSAGES], [(1, 1, 5, b"")])
+    with open_recording(path) as recording:
+        pass
+
+    with pytest.raises(UsageError, match="is closed: read what you need"):
+        _ = recording.topics
+    assert recording.damage == ()
+
+
+def test_a_recording_cannot_be_sent_to_another_process_and_says_what_to_do(tmp_path):
+    with (
+        open_recording(write_mcap(tmp_path / "run.mcap", SENT)) as recording,
+        pytest.raises(UsageError, match="open it there, with open_recording"),
+    ):
+        pickle.dumps(recording)

@@ -121,6 +121,12 @@ class Recording:
     def __repr__(self) -> str:
         return f"<Recording {self.source.name!r}, {self.source.kind}>"
 
+    def __reduce__(self) -> str:
+        raise UsageError(
+            f"Recording '{self.name}' holds open files, and cannot be copied or sent to another "
+            "process: open it there, with open_recording."
+        )
+
     def close(self) -> None:
         """Close its files; what was read stays."""
         self._closed = True

@@ -11,7 +11,7 @@ from urllib.parse import quote
 
 import numpy as np
 
-from tftool.errors import InputError
+from tftool.errors import InputError, UsageError
 from tftool.sources.columns import Batch
 from tftool.sources.container import MOST_STREAMS, MessageStream, offers_of
 from tftool.sources.contract import Progress
@@ -165,6 +165,11 @@ class Sqlite:
             found.update(
                 self._base.execute("select topic_id, count(*) from messages group by topic_id")
             )
+        except sqlite3.ProgrammingError as error:
+            raise UsageError(
+                "The recording is closed: read what you need of it while it is open, inside its "
+                "with block."
+            ) from error
         except _FAULTS as error:
             self._note(error)
         return [found.get(number, 0) for number in self._ids]
