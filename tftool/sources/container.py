@@ -230,7 +230,7 @@ class File:
 
     def up_to(self, place: int, count: int) -> bytes:
         """Read at most `count` bytes from a place on; fewer at the end of the file."""
-        return self.at(place, max(0, min(count, self.size - place)))
+        return self.at(place, max(0, min(count, self.size - place, LARGEST)))
 
     def close(self) -> None:
         """Close it."""

@@ -58,7 +58,6 @@ _MESSAGE_HEAD = struct.Struct("<HIQQ")
 _U16, _U64 = struct.Struct("<H"), struct.Struct("<Q")
 
 _FOOTER_SIZE = 37
-_LARGEST_SUMMARY = 1 << 30
 _SPARSE = 4096  # bytes that one message more is worth when reading them singly
 _BLOCK = 1 << 18
 _INDEX_AT_ONCE = 128
@@ -130,7 +129,7 @@ class Mcap:
         if begin == 0:
             return False
         end = size - _FOOTER_SIZE
-        if not len(MCAP_MAGIC) <= begin <= end or end - begin > _LARGEST_SUMMARY:
+        if not len(MCAP_MAGIC) <= begin <= end:
             raise InputError(f"it should begin at byte {begin}")
         summary = self._file.at(begin, end - begin)
         chunks: list[IndexedChunk] = []

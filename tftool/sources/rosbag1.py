@@ -31,7 +31,6 @@ from tftool.sources.rosbag1_records import (
     CHUNK_INFO,
     CONNECTION,
     INDEX,
-    LARGEST_INDEX,
     MESSAGE,
     U32,
     Entries,
@@ -312,7 +311,7 @@ class Rosbag1:
         """The index records behind a chunk: chosen connections with messages, and what is told."""
         position = chunk.place + chunk.packed
         expected = len(chunk.counts) * 64 + 12 * sum(chunk.counts.values()) + 64
-        data = self._file.up_to(position, min(expected, LARGEST_INDEX))
+        data = self._file.up_to(position, expected)
         found = []
         missing = set(chunk.counts)
         for header, first, last in records_in(data, partial=True):

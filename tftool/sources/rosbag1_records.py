@@ -29,9 +29,6 @@ CHUNK: Final = b"\x05"
 CHUNK_INFO: Final = b"\x06"
 CONNECTION: Final = b"\x07"
 
-LARGEST_INDEX: Final = 1 << 30
-"""Bytes of an index that are read at most."""
-
 U32: Final = struct.Struct("<I")
 U64: Final = struct.Struct("<Q")
 
@@ -80,7 +77,7 @@ def index_of(file: File) -> tuple[dict[bytes, bytes], int, bytes]:
     (place,) = U64.unpack(header[b"index_pos"])
     if place == 0:
         return header, 0, b""
-    if place > file.size or file.size - place > LARGEST_INDEX:
+    if place > file.size:
         raise InputError(f"it should begin at byte {place} of {file.size}")
     return header, place, file.at(place, file.size - place)
 

@@ -22,7 +22,6 @@ _U16, _U32, _U64 = struct.Struct("<H"), struct.Struct("<I"), struct.Struct("<Q")
 _MESSAGE_HEAD = struct.Struct("<HIQQ")
 _FOOTER_SIZE: Final = 37
 _DATA_END_SIZE: Final = 13
-_LARGEST_SUMMARY: Final = 1 << 30
 _MOST_HELD: Final = 4096  # messages outside of chunks that are given at once
 
 MOST_BYTES_HELD: Final = 1 << 26
@@ -109,8 +108,6 @@ class McapTape:
             return False
         if not len(MCAP_MAGIC) <= begin <= size - _FOOTER_SIZE:
             raise InputError(f"it should begin at byte {begin}")
-        if size - begin > _LARGEST_SUMMARY:
-            raise InputError(f"it would be {size - begin} bytes long")
         summary = self.file.at(begin, size - _FOOTER_SIZE - begin)
         if crc and zlib.crc32(summary + tail[:25]) != crc:
             raise InputError("its CRC is wrong")
