@@ -498,7 +498,8 @@ _LIST = (
         "stamped behind is dropped itself",
         (
             Fix(
-                "look at what the publisher stamps from: `tftool edit` cuts what lies --from and --to"
+                "look at what the publisher stamps from; `tftool edit --from A --to B` leaves out "
+                "of a recording what is stamped outside"
             ),
         ),
         (
