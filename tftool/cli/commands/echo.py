@@ -28,6 +28,10 @@ from tftool.stamps import Duration, seconds
 
 if TYPE_CHECKING:
     from tftool.cli.connection import Connection
+    from tftool.cli.echoing import Printer
+    from tftool.cli.session import Session
+    from tftool.cli.waiting import FramePair
+    from tftool.sources.find import Found
 
 
 def echo(
@@ -99,12 +103,12 @@ def echo(
     tftool echo map laser_link robot --at 12.5
     tftool echo turtle2 turtle1 --offset -5 --fixed-frame world
     """
-    from tftool.cli.echoing import Echo, LivePrinter, Printer
+    from tftool.cli.echoing import Printer
     from tftool.cli.hosting import A_MOMENT, NO_SESSION, open_session, refuse_to_share
     from tftool.cli.naming import named
     from tftool.cli.notices import notice
     from tftool.cli.pairs import refuse_file_as_frame
-    from tftool.cli.redrawing import Redrawing, can_redraw
+    from tftool.cli.redrawing import can_redraw
     from tftool.cli.waiting import FramePair
     from tftool.sources.find import Kind
     from tftool.views.echo import in_words
@@ -121,16 +125,12 @@ def echo(
     if stamps_of is not None and (not recorded or at is not None or offset is not None):
         raise UsageError("--at-stamps-of goes with a recording, and without --at and --offset.")
     heading = in_words(target, source)
-    printer: Printer | LivePrinter = Printer(precision, distance, for_programs)
+    printer = Printer(precision, distance, for_programs)
     of_one_moment = stamps_of is None and (once or at is not None or offset is not None)
     if found is not None and found.kind.is_recording and not of_one_moment:
-        from tftool.cli.recorded import moments
-
         refuse_to_share(connection, place)
         notice(f"{heading}:")
-        stored = connection.open_stored(found)
-        for answer in moments(stored, target, source, rate=rate, topic=stamps_of, most=count):
-            printer.found(answer.stamp, answer)
+        _print_recorded(connection, found, (target, source), printer, rate, stamps_of, count)
         return ExitStatus.DONE
     # Where nothing changes, once is enough.
     still = found is not None and found.kind in (Kind.DESCRIPTION, Kind.STATICS)
@@ -157,22 +157,67 @@ def echo(
         notice(f"{heading}:")
     if target == source:
         notice("A frame seen from itself is always the identity.")
+    _print_live(
+        session,
+        pair,
+        printer,
+        redraws=redraws,
+        period=seconds(1.0 / (rate or 1.0)),
+        count=count,
+        patience=timeout,
+        tells=not (stamp or recorded),
+    )
+    return ExitStatus.DONE
+
+
+def _print_recorded(
+    connection: "Connection",
+    found: "Found",
+    frames: tuple[str, str],
+    printer: "Printer",
+    rate: float | None,
+    stamps_of: str | None,
+    most: int | None,
+) -> None:
+    """Print the whole span of a recording, moment by moment."""
+    from tftool.cli.recorded import moments
+
+    stored = connection.open_stored(found)
+    for answer in moments(stored, *frames, rate=rate, topic=stamps_of, most=most):
+        printer.found(answer.stamp, answer)
+
+
+def _print_live(
+    session: "Session",
+    pair: "FramePair",
+    printer: "Printer",
+    *,
+    redraws: bool,
+    period: Duration,
+    count: int | None,
+    patience: Duration | None,
+    tells: bool,
+) -> None:
+    """Ask a session again and again, and print each answer, or draw it in place of the last."""
+    from tftool.cli.echoing import Echo, LivePrinter
+    from tftool.cli.redrawing import Redrawing
+
     with contextlib.ExitStack() as stack:
+        shown: Printer | LivePrinter = printer
         if redraws:
             redrawing = stack.enter_context(Redrawing(session.world.clock))
-            printer = LivePrinter(redrawing, pair, precision, distance)
+            shown = LivePrinter(redrawing, pair, printer.precision, printer.with_distance)
         echoing = Echo(
             session.world,
             pair,
-            printer,
-            period=seconds(1.0 / (rate or 1.0)),
+            shown,
+            period=period,
             count=count,
-            patience=timeout,
-            tells=not (stamp or recorded),
+            patience=patience,
+            tells=tells,
             departures=session.departures,
         )
         session.run(echoing.run())
-    return ExitStatus.DONE
 
 
 def _refuse_contradictions(

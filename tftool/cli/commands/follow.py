@@ -18,6 +18,7 @@ from tftool.stamps import Duration, as_seconds, seconds
 
 if TYPE_CHECKING:
     from tftool.cli.connection import Connection
+    from tftool.cli.session import Session
     from tftool.runtime.log import LogRecord
 
 NAME = "turtle_following"
@@ -107,13 +108,12 @@ def follow(
     tftool follow turtle1 turtle2 --delay 5        where turtle1 was 5 s ago
     """
     from tftool.cli.hosting import open_session
-    from tftool.cli.notices import notice, tell_record
+    from tftool.cli.notices import notice
     from tftool.cli.onscreen import simulator_of
     from tftool.errors import UsageError
     from tftool.motion.pid import Gains
     from tftool.nodes.broadcasters import Broadcaster
     from tftool.nodes.follower import Follower
-    from tftool.runtime.log import PROBLEMS
     from tftool.views.escaping import visible
 
     connection.refuse_read_only("drive")
@@ -135,13 +135,7 @@ def follow(
             f"{visible(leader)} was {as_seconds(delay):g} s ago is forgotten: --cache-time "
             f"{as_seconds(delay + period):g} remembers it."
         )
-
-    def tell(record: "LogRecord") -> None:
-        # What the link has to say the session tells.
-        if record.node == NAME or (record.level in PROBLEMS and record.node != "link"):
-            tell_record(record)
-
-    world.log.listen(tell, "console")
+    world.log.listen(_tell, "console")
     Follower(
         world,
         NAME,
@@ -162,14 +156,26 @@ def follow(
     notice(
         f"{visible(follower)} follows {visible(leader)}, looking every {as_seconds(period):g} s."
     )
-
-    async def last() -> None:
-        if not session.is_hosted:
-            # Another process may broadcast the follower already: two would be one too many.
-            await session.lasting(SETTLE)
-            if not world.buffer.frame_exists(follower):
-                Broadcaster(world, f"broadcaster_{follower}", turtle=follower)
-        await session.lasting(run_for)
-
-    session.run(last())
+    session.run(_last(session, follower, run_for))
     return ExitStatus.DONE
+
+
+def _tell(record: "LogRecord") -> None:
+    """Tell what the follower has to say, and what goes wrong; the link's the session tells."""
+    from tftool.cli.notices import tell_record
+    from tftool.runtime.log import PROBLEMS
+
+    if record.node == NAME or (record.level in PROBLEMS and record.node != "link"):
+        tell_record(record)
+
+
+async def _last(session: "Session", follower: str, run_for: Duration | None) -> None:
+    """Let the world live for so long; a guest's follower is broadcast where it is not yet."""
+    from tftool.nodes.broadcasters import Broadcaster
+
+    if not session.is_hosted:
+        # Another process may broadcast the follower already: two would be one too many.
+        await session.lasting(SETTLE)
+        if not session.world.buffer.frame_exists(follower):
+            Broadcaster(session.world, f"broadcaster_{follower}", turtle=follower)
+    await session.lasting(run_for)
