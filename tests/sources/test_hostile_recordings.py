@@ -5,6 +5,7 @@ import pickle
 import shutil
 import sqlite3
 import struct
+import tempfile
 import tracemalloc
 
 import pytest
@@ -259,6 +260,22 @@ def test_a_database_whose_rows_are_made_up_is_no_recording(tmp_path, statements)
 
     with pytest.raises(InputError, match="holds no recording"):
         open_recording(path)
+
+
+def test_of_a_database_that_is_no_recording_nothing_is_left_open(tmp_path, monkeypatch):
+    # To read what stands in the log beside it alone, a copy of both is made.
+    copies = tmp_path / "copies"
+    copies.mkdir()
+    monkeypatch.setattr(tempfile, "tempdir", str(copies))
+    base = database(tmp_path / "run.db3", SENT)
+    base.execute("alter table messages rename to other")
+    base.commit()
+
+    with pytest.raises(InputError, match="holds no recording"):
+        open_recording(tmp_path / "run.db3")
+
+    assert list(copies.iterdir()) == []
+    base.close()
 
 
 def test_definitions_that_are_made_up_are_not_read(tmp_path, capsys):

@@ -64,8 +64,10 @@ class Sqlite:
         try:
             self._read_topics()
             self.start, self.end = self._span()
-        except _FAULTS as error:
+        except BaseException as error:
             self.close()
+            if not isinstance(error, _FAULTS):
+                raise
             raise InputError(f"'{path}' cannot be read as a rosbag2 recording: {error}.") from error
 
     def _open(self, path: Path) -> sqlite3.Connection:
