@@ -21,7 +21,7 @@ from tests.sources.writers import TF, content, payload, write_mcap
 from tests.sources.writers import write_rosbag1 as write_bag
 from tftool import InputError, UsageError, open_recording
 from tftool.cli.app import main
-from tftool.sources import container, reading
+from tftool.sources import container, cutting, reading
 from tftool.sources.editing import mcap_tape
 
 SENT = content(40)
@@ -352,11 +352,18 @@ def largest_held(path):
 
 def test_messages_that_become_large_are_not_held_all_at_once(tmp_path, monkeypatch):
     monkeypatch.setattr(reading, "MOST_UNPACKED", 4 << 20)
+    monkeypatch.setattr(cutting, "MOST_WAITING", 4 << 20)
     packed = zstandard.ZstdCompressor().compress(bytes(1 << 20))
     rows = [(number, 1, number, packed) for number in range(1, 61)]
     path = odd_database(tmp_path / "run.db3", [TOPICS, MESSAGES], rows)
 
     assert largest_held(path) < 30e6
+    with open_recording(path) as recording:
+        tracemalloc.start()
+        assert len(recording.transforms) == 0
+        _, most = tracemalloc.get_traced_memory()
+        tracemalloc.stop()
+    assert most < 30e6
 
 
 def test_a_compressed_file_that_becomes_far_too_large_is_refused_early(tmp_path):

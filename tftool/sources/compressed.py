@@ -13,7 +13,7 @@ from tftool.errors import InputError, UsageError
 if TYPE_CHECKING:
     from types import ModuleType
 
-LARGEST: Final = 1 << 29
+LARGEST: Final = 3 << 27
 """Bytes of the largest piece that is read or unpacked: lz4 holds twice as many, and who looks at
 its one message once more, which is below 2 GB."""
 

@@ -19,6 +19,9 @@ _FEW: Final = 256  # messages that wait for others: an array operation costs a m
 _LITTLE_HEADER: Final = 0x00000100
 _MOST_SCANNED: Final = 1 << 32  # bytes of a buffer whose places fit 32 bits
 
+MOST_WAITING: Final = 1 << 26
+"""Bytes of messages that wait for others, but for the last one."""
+
 
 class Cutter:
     """Cuts messages with transforms of one layout and kind into a table.
@@ -32,7 +35,7 @@ class Cutter:
         self._layout = layout
         self._static = static
         self._waiting: list[tuple[Batch, Indexes]] = []
-        self._count = 0
+        self._count = self._held = 0
 
     def add(self, batch: Batch, numbers: Indexes) -> None:
         """Cut messages, or keep them until there are some more.
@@ -48,14 +51,16 @@ class Cutter:
             # Only their bytes are kept, not the whole chunk they lie in.
             self._waiting.append((_compacted(batch), numbers))
             self._count += len(batch)
-            if self._count >= _FEW:
+            self._held += int(batch.lengths.sum())
+            if self._count >= _FEW or self._held >= MOST_WAITING:
                 self.flush()
 
     def flush(self) -> None:
         """Cut what waits."""
         if not self._waiting:
             return
-        waiting, self._waiting, self._count = self._waiting, [], 0
+        waiting, self._waiting = self._waiting, []
+        self._count = self._held = 0
         offset = 0
         starts = []
         for batch, _ in waiting:
