@@ -130,14 +130,16 @@ def test_a_link_put_into_an_open_page_shows_its_view_and_makes_no_loop(chromium,
     assert page.find("#timeout").get_attribute("value") == "700"
 
 
-def test_a_fixed_frame_that_does_not_exist_is_said_and_shown_once_it_comes(chromium, stage):
+def test_a_root_stands_in_for_a_fixed_frame_until_that_one_comes(chromium, stage):
     stage.put(1.0)
     page = Page(chromium, stage, "fixed=map&chosen=turtle")
 
-    page.until(lambda: page.text("#empty").startswith("Frame [map] does not exist"))
-    page.until(lambda: page.text("#trouble").startswith("No transform from [turtle] to [map]"))
-    page.until(lambda: page.texts("#link-facts dd")[0] == "Warning")
-    assert page.drawn() == {}
+    page.until(lambda: page.text("#banner").startswith("Frame [map] does not exist."))
+    assert page.text("#banner").endswith("the fixed frame is [world].")
+    assert page.find("#banner").is_displayed()
+    page.until(lambda: page.x_of("turtle") == 1.0)
+    assert page.find("#fixed").get_attribute("value") == "world"
     stage.mount(("map", "world"), x=5.0)
     page.until(lambda: page.x_of("turtle") == 6.0)
-    page.until(lambda: page.texts("#link-facts dd")[0] == "Transform OK")
+    page.until(lambda: not page.find("#banner").is_displayed())
+    assert page.find("#fixed").get_attribute("value") == "map"

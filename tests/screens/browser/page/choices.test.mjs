@@ -1,6 +1,7 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
 import { Choices } from "../../../../tftool/screens/browser/page/choices.js";
+import { Model } from "../../../../tftool/screens/browser/page/model.js";
 import { read, write } from "../../../../tftool/screens/browser/page/share.js";
 
 test("what makes no sense in the address is left at its default, or brought inside its limits", () => {
@@ -63,4 +64,38 @@ test("a number outside its limits is brought inside, and one that is none change
 
   assert.equal(choices.length, 60);
   assert.equal(choices.timeout, 15);
+});
+
+/** A model with these roots, of which the first has a child. */
+function rooted(...roots) {
+  const model = new Model();
+  const names = [...roots, "child"];
+  const none = names.map(() => false);
+  const parents = [...roots.map(() => -1), 0];
+  model.setNames({ epoch: 1, revision: 1, rate: 1, total: names.length, names, parents, statics: none, authorities: names });
+  return model;
+}
+
+test("a root stands in for a fixed frame that does not exist, until that one comes back", () => {
+  const choices = new Choices();
+  choices.setFixed("world");
+  const told = [rooted("world"), rooted("map"), rooted("map", "world"), rooted("odom")].map((model) => [
+    choices.settleFixed(model), choices.fixed, choices.missed, read(write(choices.shared(null, undefined))).fixed,
+  ]);
+
+  assert.deepEqual(told, [
+    [false, "world", undefined, "world"],
+    [true, "map", "world", "world"],
+    [true, "world", undefined, "world"],
+    [true, "odom", "world", "world"],
+  ]);
+});
+
+test("where no fixed frame was chosen, the one in force stays while it exists, and is not missed after", () => {
+  const choices = new Choices();
+  const told = [rooted("world"), rooted("map", "world"), rooted("map")].map((model) => [
+    choices.settleFixed(model), choices.fixed, choices.missed,
+  ]);
+
+  assert.deepEqual(told, [[true, "world", undefined], [false, "world", undefined], [true, "map", undefined]]);
 });

@@ -58,8 +58,9 @@ export class Choices {
     /** @type {number | undefined} */
     this.scale = given.scale; // of the markers; undefined: by the size of the scene
     /** @type {string | undefined} */
-    this.fixed = given.fixed;
-    this.fixedByHand = given.fixed !== undefined;
+    this.fixed = given.fixed; // the one in force
+    /** @type {string | undefined} */
+    this.wanted = given.fixed; // the one a person chose
     /** @type {string | undefined} */
     this.target = given.target;
     /** @type {string | undefined} */
@@ -114,8 +115,25 @@ export class Choices {
 
   /** @param {string} name */
   setFixed(name) {
-    this.fixed = name;
-    this.fixedByHand = true;
+    this.fixed = this.wanted = name;
+  }
+
+  /**
+   * See that the fixed frame exists: the one a person chose; without that, the one in force, or else
+   * the root of the biggest tree.
+   * @param {import("./model.js").Model} model
+   * @returns {boolean} whether it is another one now
+   */
+  settleFixed(model) {
+    const before = this.fixed;
+    if (model.index.has(this.wanted)) this.fixed = this.wanted;
+    else if (!model.index.has(before) && model.roots.length) this.fixed = model.biggestRoot();
+    return this.fixed !== before;
+  }
+
+  /** The fixed frame a person chose, while another stands in for it. */
+  get missed() {
+    return this.wanted === this.fixed ? undefined : this.wanted;
   }
 
   /**
@@ -148,6 +166,7 @@ export class Choices {
   shared(at, camera) {
     return {
       ...this,
+      fixed: this.wanted ?? this.fixed,
       ...(this.byHand.trails ? {} : { trails: undefined }),
       ...(this.byHand.view ? {} : { view: undefined }),
       ...(this.byHand.pair ? {} : { target: undefined, source: undefined }),

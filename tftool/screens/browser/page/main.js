@@ -250,9 +250,9 @@ function render(now) {
 }
 
 function solve() {
-  if (!model.index.has(choices.fixed) && model.roots.length && !choices.fixedByHand) {
-    choices.fixed = model.biggestRoot();
+  if (choices.settleFixed(model)) {
     pickers.fixed.value = choices.fixed ?? "";
+    bounds.reset();
   }
   model.solve(choices.fixed);
   if (!choices.byHand.view && choices.view === "top" && !planar(model.absolute)) {
@@ -302,7 +302,7 @@ function words() {
   stage.inset = insets();
   const state = freshness(server.connection, model, timeline.past);
   showStatus(timeline, state);
-  showBanner(state, model);
+  showBanner(state, model, choices);
   showCounts(model, choices.hidden);
   showEmpty(server.connection, model, choices.fixed);
   const index = model.index.get(choices.chosen);
@@ -405,7 +405,7 @@ function refit() {
 
 function fillPickers() {
   // What is asked for stays choosable while it does not exist.
-  const asked = [choices.fixed, choices.target, choices.source].map((name) => name ?? "");
+  const asked = [choices.fixed, choices.wanted, choices.target, choices.source].map((name) => name ?? "");
   const absent = asked.filter((name) => name && !model.index.has(name));
   Picker.names = [...new Set([...absent, ...model.names])];
   for (const [id, picker] of Object.entries(pickers)) picker.value = choices[id] ?? "";

@@ -115,17 +115,22 @@ export function showStatus({ past, playing }, state) {
 }
 
 /**
- * Say what moment is still looked at where nothing new comes.
+ * Say what moment is still looked at where nothing new comes, or which fixed frame stands in for another.
  * @param {ReturnType<typeof import("./freshness.js").freshness>} state
  * @param {import("./model.js").Model} model
+ * @param {import("./choices.js").Choices} choices
  */
-export function showBanner(state, model) {
+export function showBanner(state, model, { missed, fixed }) {
   const { poses } = model;
   const isCut = state === "gone" || state === "silent";
   const late = isCut || state === "stale";
-  $("banner").hidden = !late || !poses;
-  if (!late || !poses) return;
-  $("banner").dataset.state = state;
+  $("banner").hidden = !poses || !(late || missed);
+  if (!poses) return;
+  $("banner").dataset.state = late ? state : "missed";
+  if (!late) {
+    setText($("banner"), missed ? `Frame [${missed}] does not exist. Until it does, the fixed frame is [${fixed}].` : "");
+    return;
+  }
   const seen = `${number(isCut ? (poses.at ?? poses.now) : poses.newest, 2)} s`;
   const last = `Last seen: its ${seen}, ${spell(model.silence)} ago.`;
   const said = {
