@@ -476,6 +476,21 @@ def test_what_a_door_holds_goes_with_it(name):
         assert gone() is None
 
 
+def test_the_collector_never_sees_an_answer():
+    """Not while items of it are missing, which code it runs could look at; nor when it is kept."""
+    buffer = Buffer(seconds(10))
+    buffer.set_transform(TransformStamped(5, "a", "b", Transform((1.0, 0.0, 0.0))))
+
+    for answer in (
+        buffer.lookup_transform("a", "b"),
+        buffer.lookup_transform("a", "b", 5),
+        buffer.lookup_transform_full("a", 5, "b", 5, "a"),
+    ):
+        pose = answer.transform
+        parts = (answer, pose, pose.translation, pose.rotation)
+        assert not any(map(gc.is_tracked, parts))
+
+
 def test_arguments_by_name_and_wrong_ones_are_as_in_plain_python():
     twins = Twins(seconds(10))
     for stamp in (1, 2):

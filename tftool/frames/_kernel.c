@@ -442,12 +442,16 @@ static PyObject *value_of(PyObject *dictionary, PyObject *name) {
 #define KEEPS_HASH (Py_Version >= 0x030E0000)
 #endif
 
-/* A new tuple of one of the types, to be filled; NULL with an error set on failure. */
+/* A new tuple of one of the types, to be filled; NULL with an error set on failure. The collector
+   is not to see it without its items, nor ever: of numbers and plain strings is no circle. */
 static PyObject *blank(const Types *types, int i) {
-    if (!KEEPS_HASH)
-        return PyType_GenericAlloc(types->tuples[i], TUPLES[i].size);
-    const newfunc make = (newfunc)PyType_GetSlot(&PyTuple_Type, Py_tp_new);
-    return make(types->tuples[i], types->blanks[i], NULL);
+    PyTypeObject *type = types->tuples[i];
+    PyObject *made = KEEPS_HASH
+        ? ((newfunc)PyType_GetSlot(&PyTuple_Type, Py_tp_new))(type, types->blanks[i], NULL)
+        : PyType_GenericAlloc(type, TUPLES[i].size);
+    if (made != NULL)
+        PyObject_GC_UnTrack(made);
+    return made;
 }
 
 /* Put a new reference into a tuple if there are both. Returns it, or NULL with an error set. */
