@@ -14,6 +14,7 @@ pytest.importorskip("lz4", reason="the extra 'recordings' is not installed")
 
 from mcap.reader import SeekingReader
 from mcap.writer import CompressionType
+from rosbags.rosbag1 import Writer
 
 from tests.patience import PATIENCE
 from tests.sources.editing.outcomes import NEW_POSE, SENT, START, edges, messages, strictly_read
@@ -28,6 +29,7 @@ from tests.sources.writers import (
 from tftool.errors import UsageError
 from tftool.frames.sample import TransformStamped
 from tftool.geometry.rigid import Transform
+from tftool.sources.editing import mcap_tape, rosbag1_tape
 from tftool.sources.editing.changes import Edits
 from tftool.sources.editing.rewriting import edit
 from tftool.sources.recording import open_recording
@@ -431,6 +433,34 @@ def test_a_broken_chunk_costs_only_what_lies_behind_the_break_in_it(tmp_path):
     assert len(SENT) - 20 < sum(map(len, after.values())) < len(SENT)
     assert all(set(some) <= set(before[topic]) for topic, some in after.items())
     strictly_read(out)
+
+
+@pytest.mark.parametrize("suffix", [".bag", ".mcap"])
+def test_a_chunk_that_announces_too_much_is_unpacked_once(tmp_path, monkeypatch, suffix):
+    path, out, unpacked = tmp_path / f"run{suffix}", tmp_path / f"out{suffix}", []
+    if suffix == ".bag":
+        write_rosbag1(path, SENT, Writer.CompressionFormat.LZ4)
+        place = path.read_bytes().index(b"size=", 4100) + 5
+    else:
+        write_mcap(path, SENT, compression=CompressionType.LZ4)
+        # Two stamps stand before it in the chunk's record.
+        place = path.read_bytes().index(b"\x03\x00\x00\x00lz4") - 12
+    raw = bytearray(path.read_bytes())
+    raw[place : place + 4] = (0xF0000000).to_bytes(4, "little")
+    path.write_bytes(raw)
+    for tape in (rosbag1_tape, mcap_tape):
+
+        def counted(method, packed, size, unpack=tape.unpack_beginning):
+            unpacked.append(size)
+            return unpack(method, packed, size)
+
+        monkeypatch.setattr(tape, "unpack_beginning", counted)
+
+    report = edit([str(path)], out, Edits())
+
+    assert unpacked == [0xF0000000]
+    assert "more than is plausible" in " ".join(report.notes)
+    assert report.messages == len(SENT)
 
 
 @pytest.mark.parametrize("is_chunked", [True, False])

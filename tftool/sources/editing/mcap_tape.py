@@ -341,7 +341,7 @@ class McapChunk:
         """
         if self._found is None and not self._is_examined:
             if self.method:
-                self._unpacked()
+                self._whole(self._tape.file.at(self._data, self._packed))
             elif self._crc and not self._cut:
                 self._check(Piece(self._tape.file.fileno(), self._data, self._packed).crc())
         self._is_examined = True
@@ -349,14 +349,17 @@ class McapChunk:
 
     def _unpacked(self) -> bytes:
         packed = self._tape.file.at(self._data, self._packed)
-        if self._cut:
-            return unpack_beginning(self.method, packed, self._size)
+        whole = None if self._cut else self._whole(packed)
+        return unpack_beginning(self.method, packed, self._size) if whole is None else whole
+
+    def _whole(self, packed: bytes) -> bytes | None:
+        """All that it holds; None where it is damaged, which is noted as a wrong CRC is."""
         try:
             data = unpack(self.method, packed, self._size)
         except InputError as error:
             self._tape.file.note(f"The chunk at byte {self.position} is damaged ({error}).")
             self.whole = False
-            return unpack_beginning(self.method, packed, self._size)
+            return None
         if self._crc:
             self._check(zlib.crc32(data))
         return data

@@ -234,17 +234,20 @@ class Rosbag1Chunk:
     def sound(self) -> bool:
         """Whether it can be unpacked; found out once."""
         if self._found is None and not self._is_examined and self._method != "none":
-            self._unpacked()
+            self._whole(self._tape.file.at(self._data, self._packed))
         self._is_examined = True
         return self.whole
 
     def _unpacked(self) -> bytes:
         packed = self._tape.file.at(self._data, self._packed)
-        if self.cut:
-            return unpack_beginning(self._method, packed, self._size)
+        whole = None if self.cut else self._whole(packed)
+        return unpack_beginning(self._method, packed, self._size) if whole is None else whole
+
+    def _whole(self, packed: bytes) -> bytes | None:
+        """All that it holds; None where it is damaged, which is noted."""
         try:
             return unpack(self._method, packed, self._size)
         except InputError as error:
             self._tape.file.note(f"The chunk at byte {self.position} is damaged ({error}).")
             self.whole = False
-            return unpack_beginning(self._method, packed, self._size)
+        return None
