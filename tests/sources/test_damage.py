@@ -1,9 +1,11 @@
 """Whatever is cut off or changed in a file: an answer or a sentence, never anything else."""
 
 import bz2
+import errno
 import random
 import sys
 import tracemalloc
+from pathlib import Path
 
 import pytest
 
@@ -15,9 +17,18 @@ pytest.importorskip("lz4", reason="the extra 'recordings' is not installed")
 import lz4.frame
 import zstandard
 
-from tests.sources.writers import CONTAINERS, content, write_mcap, write_rosbag1, write_rosbag2
+from tests.sources.writers import (
+    CONTAINERS,
+    content,
+    write_mcap,
+    write_rosbag1,
+    write_rosbag2,
+    write_split,
+)
 from tftool import InputError, UsageError, open_recording
-from tftool.sources import compressed, mcap_records, rosbag1_records
+from tftool.sources import compressed, mcap_records, rosbag1_records, rosbag2
+from tftool.sources.editing.changes import Edits
+from tftool.sources.editing.rewriting import edit
 from tftool.sources.writing.compression import compressor
 
 SENT = content()
@@ -114,6 +125,75 @@ def test_a_bag_that_was_not_closed_is_read_whole(tmp_path):
     with open_recording(path) as recording:
         assert len(recording.transforms) == count
         assert recording.damage == ("The recording was not closed.",)
+
+
+@pytest.fixture
+def locked(monkeypatch):
+    """Names of files that the system refuses to open; root may open every other."""
+    names, opens = set(), Path.open
+
+    def refusing(path, *words, **more):
+        if path.name in names:
+            raise PermissionError(errno.EACCES, "Permission denied", str(path))
+        return opens(path, *words, **more)
+
+    monkeypatch.setattr(Path, "open", refusing)
+    return names
+
+
+@pytest.mark.parametrize("word", ["", "/*.mcap"])
+def test_a_file_that_may_not_be_read_is_left_out_of_many(tmp_path, locked, word):
+    folder = tmp_path / "runs"
+    folder.mkdir()
+    middle = len(SENT) // 2
+    for name, sent in (("a", SENT[:middle]), ("b", SENT[middle:]), ("locked", SENT)):
+        write_mcap(folder / f"{name}.mcap", sent)
+    locked.add("locked.mcap")
+
+    with open_recording(f"{folder}{word}") as recording:
+        count = len(recording.transforms)
+        assert recording.damage == (
+            f"locked.mcap is left out: '{folder / 'locked.mcap'}' may not be read: "
+            "permission denied.",
+        )
+    report = edit([f"{folder}{word}"], tmp_path / "out.mcap", Edits())
+    assert count > 100
+    assert report.messages == len(SENT)
+    assert "locked.mcap is left out" in report.notes[0]
+
+    locked |= {"a.mcap", "b.mcap"}
+    with pytest.raises(InputError, match=r"a\.mcap' may not be read: permission denied\.$"):
+        open_recording(f"{folder}{word}")
+
+
+def test_a_part_that_may_not_be_read_or_is_none_is_left_out_of_a_split_recording(tmp_path, locked):
+    path = write_split(tmp_path / "run", SENT, 4)
+    locked.add("run_1.mcap")
+    (path / "run_2.mcap").write_bytes(b"")
+
+    with open_recording(path) as recording:
+        assert len(recording.transforms) > 50
+        damage = recording.damage
+    assert damage[0].startswith("run_1.mcap is left out: ")
+    assert damage[0].endswith("may not be read: permission denied.")
+    assert damage[1].startswith("run_2.mcap is left out: ")
+    assert damage[1].endswith("is an empty file (0 bytes): nothing was recorded.")
+    assert len(damage) == 2
+    (path / "metadata.yaml").unlink()
+    with open_recording(path) as recording:
+        assert any("permission denied" in text for text in recording.damage)
+
+
+def test_too_many_open_files_are_no_damage_of_one(tmp_path, monkeypatch):
+    path = write_split(tmp_path / "run", SENT, 3)
+
+    def none_left(*_):
+        raise OSError(errno.EMFILE, "Too many open files")
+
+    monkeypatch.setattr(rosbag2, "Mcap", none_left)
+
+    with pytest.raises(InputError, match="Too many open files"):
+        open_recording(path)
 
 
 def test_metadata_that_lies_is_told_and_not_believed(tmp_path):

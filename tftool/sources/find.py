@@ -4,6 +4,7 @@ Only names, sizes and the first bytes are looked at; what reads the source finds
 """
 
 import contextlib
+import errno
 import glob
 import os
 import re
@@ -228,54 +229,73 @@ def _folder(word: str, path: Path) -> Found:
     if (path / METADATA).exists():
         return Found(word, Kind.ROSBAG2, (path,))
     entries = sorted(path.iterdir())
-    found = _recordings(entries)
-    if not found:
+    paths, kinds = _recordings(entries)
+    if not paths:
         raise InputError(
             f"No recording (MCAP, rosbag2, ROS 1 bag) is in the folder '{word}', "
             f"which has {len(entries)} {'entry' if len(entries) == 1 else 'entries'}."
         )
-    kinds = {kind for _, kind in found}
-    paths = tuple(one for one, _ in found)
-    if len(found) == 1:
-        return Found(word, found[0][1], paths)
+    if len(paths) == 1:
+        return Found(word, kinds.pop(), paths)
     # The parts of one recording whose metadata is lost, else recordings of their own.
     is_split = kinds in ({Kind.SQLITE}, {Kind.MCAP}) and len({_stem(one) for one in paths}) == 1
     return Found(word, Kind.ROSBAG2, (path,)) if is_split else Found(word, Kind.SEVERAL, paths)
 
 
 def _several(word: str, matches: list[str]) -> Found:
-    found = _recordings([Path(match) for match in matches])
-    if not found:
+    paths, kinds = _recordings([Path(match) for match in matches])
+    if not paths:
         raise InputError(
             f"None of the {len(matches)} files that '{word}' names is a recording "
             "(MCAP, rosbag2, ROS 1 bag)."
         )
-    if len(found) == 1:
-        return Found(word, found[0][1], (found[0][0],))
-    return Found(word, Kind.SEVERAL, tuple(one for one, _ in found))
+    return Found(word, kinds.pop() if len(paths) == 1 else Kind.SEVERAL, paths)
 
 
-def _recordings(entries: list[Path]) -> list[tuple[Path, Kind]]:
-    """Those of many files and folders that are recordings."""
+def _recordings(entries: list[Path]) -> tuple[tuple[Path, ...], set[Kind]]:
+    """Those of many files and folders that are recordings, or may be, and of which kinds.
+
+    Raises:
+        PermissionError: If none is known to be one, and some may not be read.
+    """
     if len(entries) > MOST_FILES:
         raise InputError(
             f"{len(entries)} files are more than are opened at once ({MOST_FILES}): name fewer."
         )
-    found = []
+    found, kinds = [], set()
+    refused: PermissionError | None = None
     for entry in entries:
-        if entry.is_dir():
-            if (entry / METADATA).exists():
-                found.append((entry, Kind.ROSBAG2))
-            continue
         try:
-            kind = kind_of_file(entry)
-        except PermissionError:
-            raise  # it may be one, and that is told
+            if entry.is_dir():
+                kind = Kind.ROSBAG2 if (entry / METADATA).exists() else None
+            else:
+                kind = kind_of_file(entry)
+        except PermissionError as error:
+            # It may be one: who opens it tells that it is left out.
+            found.append(entry)
+            refused = refused or error
+            continue
         except (InputError, OSError):
             continue  # as a link to nothing, or to itself
-        if kind in _RECORDINGS:
-            found.append((entry, kind))
-    return found
+        if kind is Kind.ROSBAG2 or kind in _RECORDINGS:
+            found.append(entry)
+            kinds.add(kind)
+    if refused is not None and not kinds:
+        raise refused
+    return tuple(found), kinds
+
+
+def refusal(path: Path, error: OSError) -> InputError:
+    """What to say of one file of several that the system does not open.
+
+    Raises:
+        OSError: The error itself, if it is none of this file: too many are open.
+    """
+    if error.errno in (errno.EMFILE, errno.ENFILE):
+        raise error
+    if isinstance(error, PermissionError):
+        return InputError(f"'{path}' may not be read: permission denied.")
+    return InputError(f"'{path}' cannot be read: {error.strerror or error}.")
 
 
 def _stem(path: Path) -> str:

@@ -13,7 +13,7 @@ from typing import Any, Final
 from tftool.errors import InputError
 from tftool.sources.compressed import most_of, zstandard
 from tftool.sources.container import Container
-from tftool.sources.find import METADATA, Found, Kind, kind_of_file
+from tftool.sources.find import METADATA, Found, Kind, kind_of_file, refusal
 from tftool.sources.joined import Joined
 from tftool.sources.mcap import Mcap
 from tftool.sources.rosbag1 import Rosbag1
@@ -72,8 +72,9 @@ def files_of_folder(folder: Path, damage: list[str]) -> list[Path]:
         key=_natural,
     )
     listed = _listed(folder, damage)
-    parts = [folder / name for name in listed if (folder / name) in there]
-    missing = [name for name in listed if (folder / name) not in there]
+    # What is no recording, as an empty file, is told when it is opened.
+    parts = [folder / name for name in listed if (folder / name).is_file()]
+    missing = [name for name in listed if not (folder / name).is_file()]
     others = [path for path in there if path not in parts]
     if missing:
         damage.append(
@@ -82,10 +83,9 @@ def files_of_folder(folder: Path, damage: list[str]) -> list[Path]:
         )
         if not parts and others:
             damage.append(f"Read instead: {_few([path.name for path in others])}.")
+    if not listed or missing or not set(parts) <= set(there):
         # Renamed parts are read too, behind those that are named.
         parts += others
-    elif not listed:
-        parts = others
     if not parts:
         raise InputError(
             f"'{folder}' has the {METADATA} of a rosbag2 recording, but none of its files"
@@ -101,9 +101,12 @@ def _joined(paths: Sequence[Path], damage: list[str]) -> Container:
     for path in paths:
         try:
             parts.append((path.name, _open_file(path)))
+            continue
         except InputError as error:
             refused.append(error)
-            damage.append(f"{path.name} is left out: {error}")
+        except OSError as error:
+            refused.append(refusal(path, error))
+        damage.append(f"{path.name} is left out: {refused[-1]}")
     if not parts:
         raise refused[0]
     if len(parts) == 1 and len(paths) == 1:
@@ -141,6 +144,8 @@ def _is_part(path: Path) -> bool:
         return False
     try:
         return kind_of_file(path) in (Kind.MCAP, Kind.SQLITE, Kind.ZSTD)
+    except PermissionError:
+        return True  # it may be one: that it is left out is told
     except InputError:
         return False
 

@@ -11,7 +11,7 @@ from tftool.sources.editing.mcap_tape import McapTape
 from tftool.sources.editing.rosbag1_tape import Rosbag1Tape
 from tftool.sources.editing.sqlite_tape import SqliteTape
 from tftool.sources.editing.tape import Tape
-from tftool.sources.find import METADATA, Kind, find, kind_of_file
+from tftool.sources.find import METADATA, Kind, find, kind_of_file, refusal
 from tftool.sources.rosbag2 import files_of_folder, unpack_file
 
 
@@ -104,9 +104,12 @@ def open_input(name: str) -> EditedInput:
                 raise InputError(f"'{path}' is a folder among files: name recordings one by one.")
             try:
                 opened.add(path)
+                continue
             except InputError as error:
                 refused.append(error)
-                opened.damage.append(f"{path.name} is left out: {error}")
+            except OSError as error:
+                refused.append(refusal(path, error))
+            opened.damage.append(f"{path.name} is left out: {refused[-1]}")
         if not opened.tapes:
             raise refused[0]
     except OSError as error:
