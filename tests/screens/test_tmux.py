@@ -99,6 +99,26 @@ def test_a_demo_that_was_stopped_is_drawn_as_a_whole_when_it_goes_on(terminal):
     )
 
 
+@pytest.mark.parametrize(
+    ("words", "shown"),
+    [
+        (("plot", "turtle2", "turtle1", "--host"), "distance, m"),
+        (("echo", "turtle2", "turtle1", "--host"), "Translation"),
+    ],
+)
+def test_what_is_drawn_live_leaves_the_terminal_while_it_is_stopped(terminal, words, shown):
+    live = terminal(90, 30, "-m", "tftool", *words)
+    live.shows(shown)
+    drawn_on = live.facts()
+
+    live.press("C-z")
+    live.stops()
+    assert live.facts() == ["0", "1", "0"], "the terminal as it was, with its cursor"
+    live.signal(signal.SIGCONT)
+
+    live.until(lambda text: shown in text and live.facts() == drawn_on, "the picture again")
+
+
 def test_two_trees_that_are_joined_are_drawn_where_the_echo_says(terminal, tmp_path):
     # As scenario `two_trees`, but joined only when the two have been seen.
     file = tmp_path / "two.yaml"

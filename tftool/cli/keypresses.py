@@ -6,6 +6,8 @@ import sys
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 
+from tftool.cli.suspending import left_while_stopped
+
 _NAMES = {
     b"\x1b[A": "up",
     b"\x1b[B": "down",
@@ -74,14 +76,21 @@ def keyboard(pressed: Callable[[str], object]) -> Iterator[bool]:
         for key in keys_in(text):
             pressed(key)
 
+    def take() -> None:
+        tty.setcbreak(number, termios.TCSANOW)
+
+    def give_back() -> None:
+        termios.tcsetattr(number, termios.TCSANOW, before)
+
     loop = asyncio.get_running_loop()
-    tty.setcbreak(number, termios.TCSANOW)
+    take()
     try:
         loop.add_reader(number, typed)
-        yield True
+        with left_while_stopped(give_back, take):
+            yield True
     finally:
         loop.remove_reader(number)
-        termios.tcsetattr(number, termios.TCSANOW, before)
+        give_back()
 
 
 def termios_error() -> type[BaseException]:

@@ -30,11 +30,13 @@ class Redrawing:
         """
         from rich.console import Console
 
+        from tftool.cli.suspending import left_while_stopped
         from tftool.runtime.stopping import leave_screen
 
         self.console: Console = Console()
         self._live: Live | None = None
         self._undo = clock.when_killed.add(leave_screen, "screen")
+        self._stopping = left_while_stopped(self._leave, lambda: None)
 
     def show(self, picture: "RenderableType") -> None:
         """Draw it in place of the last."""
@@ -49,9 +51,16 @@ class Redrawing:
         self._live.update(picture, refresh=True)
 
     def __enter__(self) -> Self:
+        self._stopping.__enter__()
         return self
 
     def __exit__(self, *error: object) -> None:
+        self._stopping.__exit__(None, None, None)
+        self._leave()
+        self._undo()
+
+    def _leave(self) -> None:
+        """Keep the last picture where it is; the next one goes below."""
         if self._live is not None:
             self._live.stop()
-        self._undo()
+            self._live = None

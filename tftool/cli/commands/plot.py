@@ -223,6 +223,7 @@ def _live(
 
     from tftool.cli.hosting import open_session
     from tftool.cli.keypresses import keyboard
+    from tftool.cli.suspending import left_while_stopped
     from tftool.runtime.clock import Phase
     from tftool.runtime.stopping import leave_screen
 
@@ -238,6 +239,7 @@ def _live(
         with (
             keyboard(typed.add) as takes_keys,
             Live(console=console, auto_refresh=False, screen=True) as live,
+            left_while_stopped(live.stop, live.start),
         ):
             hint = "q quits" if takes_keys else ""
             due = world.clock.now()
