@@ -39,6 +39,15 @@ def test_a_hole_is_told_with_its_ends():
     assert finding.facts["begin"] == seconds(START) + seconds(2.98)
     assert finding.facts["end"] == seconds(START) + seconds(4)
     assert finding.severity is Severity.WARNING
+    assert not any("at the same time" in line for line in finding.evidence)
+
+
+def test_a_hole_that_others_have_too_names_them():
+    made = robot(odometry=False, scans=False)
+    made.moving("odom", "base_link", without=(3.0, 4.0))
+    made.moving("base_link", "arm", without=(3.0, 4.0))
+    lines = [line for one in made.judged().findings for line in one.evidence]
+    assert any("; at the same time: " in line for line in lines)
 
 
 def test_a_hole_of_what_is_published_on_change_is_a_note():

@@ -685,7 +685,7 @@ _LIST = (
         "more; a note for what is published on change (variation above {variation:g})",
         "{where} {concerned:has a hole|have holes}",
         "{edge}: nothing from {begin:moment} to {end:moment} ({length:span}; usually every "
-        "{period:span}){why}; at the same time: {also}",
+        "{period:span}){why}{beside}",
         "lookups inside it interpolate over the hole, or refuse while it lasts",
         (Fix("look at what stopped then: all edges together mean the recorder or the network"),),
         ("load", "a network that drops", "a publisher that hung"),

@@ -10,6 +10,7 @@ import numpy as np
 from tftool.diagnostics.findings import Fix, Hit, Severity
 from tftool.diagnostics.model import WARM_UP, Limits, Model
 from tftool.diagnostics.streams import NEVER, Heard, Track, rate
+from tftool.diagnostics.wording import several
 from tftool.sources.contract import Stamps
 from tftool.stamps import NANOSECONDS
 
@@ -54,6 +55,7 @@ def gap(model: Model, limits: Limits) -> Iterator[Hit]:
                 "length": end - begin,
                 "period": track.period,
                 "also": also,
+                "beside": f"; at the same time: {several(also)}" if also else "",
                 "unusable": missing,
                 "why": f"; {missing} samples in it are unusable (NaN)" if missing else "",
             },
