@@ -101,3 +101,17 @@ def test_a_scenario_has_none(tftool):
 
     assert result.status == 2
     assert "leave out --with-odometry" in result.err
+
+
+@pytest.mark.parametrize("command", ["plot", "export"])
+def test_what_samples_a_pair_takes_the_options_of_recordings(tftool, bag, tmp_path, command):
+    to = ("-o", tmp_path / "path.csv") if command == "export" else ()
+    asked = (command, "odom", "base_link", bag, *to, "--no-cache")
+    assert tftool(*asked).status != 0
+    assert tftool(*asked, "--with-odometry").status == 0
+
+
+def test_a_scenario_that_is_plotted_has_no_odometry_to_take(tftool):
+    result = tftool("plot", "turtle2", "turtle1", "turtles", "--with-odometry")
+    assert result.status == 2
+    assert "leave out --with-odometry" in result.err

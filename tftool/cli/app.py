@@ -88,7 +88,7 @@ RECORDED_ROBOTS = ("echo", "tree", "view", "info", "doctor", "export", "diff")
 """Commands whose FROM may be a recording without the description of its robot."""
 
 
-RECORDED = ("demo", "echo", "tree", "monitor", "view", "explain", "info", "play")
+RECORDED = ("demo", "echo", "explain", "export", "info", "monitor", "play", "plot", "tree", "view")
 """Commands whose FROM may be a recording."""
 
 
