@@ -52,7 +52,7 @@ class Piece:
             read = memoryview(_one)[:count]
             count = os.preadv(self.file, [read], self.place + done)
             if not count:
-                raise InputError(f"a file ends at byte {self.place + done}: it was shortened")
+                raise self._shortened(done)
             count = os.pwrite(file, read[:count], place + done)
             again = os.preadv(file, [memoryview(_other)[:count]], place + done)
             if again != count or not _begin_alike(count):
@@ -74,10 +74,16 @@ class Piece:
         while done < self.length:
             count = os.preadv(self.file, [room[: self.length - done]], self.place + done)
             if not count:
-                raise InputError(f"a file ends at byte {self.place + done}: it was shortened")
+                raise self._shortened(done)
             found = zlib.crc32(room[:count], found)
             done += count
         return found
+
+    def _shortened(self, done: int) -> InputError:
+        return InputError(
+            f"a recording was shortened to {self.place + done} bytes while it was read: "
+            "edit it when nothing writes to it"
+        )
 
 
 def _begin_alike(count: int) -> bool:
