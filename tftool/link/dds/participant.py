@@ -28,8 +28,8 @@ PATIENCE: Final = 1_000_000_000
 
 NO_WHEEL: Final = (
     "DDS needs the package 'cyclonedds', which is missing here ({error}): pip install "
-    "'tftool-tf2[dds]'. Where there is no wheel of it (Linux on arm64), build it from source with "
-    "Cyclone DDS, or run zenoh-bridge-ros2dds on the robot and use --connect."
+    "'tftool-tf2[dds]'. Where there is no wheel of it (Linux on arm64, Python 3.14), build it "
+    "from source with Cyclone DDS, or run zenoh-bridge-ros2dds on the robot and use --connect."
 )
 
 
