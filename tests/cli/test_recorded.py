@@ -151,7 +151,18 @@ def test_info_tells_what_is_odd(tftool, tmp_path):
             # No name is broken, in which there may be hyphens.
             assert odd.split() == " ".join(told).split()
     (row,) = (line for line in tftool("info", run).out.splitlines() if "base in map  " in line)
-    assert "stamped by a simulation's clock" in row
+    assert "other clock" in row
+
+
+def test_info_breaks_sentences_between_words_at_the_width_of_the_terminal(run):
+    with open_recording(run) as recording:
+        whole = as_text(recording).partition("messages on")[2].split()
+        for width in (40, 60, 79):
+            lines = as_text(recording, width).splitlines()
+            facts = lines[: lines.index("Topics")]
+            assert max(map(len, facts)) <= width
+            told = " ".join(facts).partition("messages on")[2].split()
+            assert told == whole[: whole.index("Topics")]
 
 
 def test_info_of_a_scenario_says_what_plays_it(tftool):

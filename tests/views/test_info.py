@@ -3,7 +3,7 @@
 import pytest
 from rich.cells import cell_len
 
-from tftool.views.info import table
+from tftool.views.info import as_lines, table
 
 HEADS = ("edge", "kind", "rate", "from")
 ROWS = [
@@ -53,3 +53,43 @@ def test_of_what_is_cut_the_beginning_and_the_end_stay():
     assert shown.startswith("/static")
     assert shown.endswith("3024259")
     assert "…" in shown
+
+
+@pytest.mark.parametrize("width", [30, 36, 44, 60])
+def test_a_number_stands_whole_or_not_at_all(width):
+    span = "-1234.567 ms … 1234.567 ms"
+
+    lines = table(
+        ("edge", "delay", "least … most"),
+        [("base_link in odom", "0.001 ms", span)],
+        width,
+        goes=("least … most", "delay"),
+        right=("delay", "least … most"),
+    )
+
+    for cell in ("0.001 ms", span):
+        assert cell in lines[1] or len(lines[1].split("  ")) < 4
+    assert "…" not in "".join(lines).replace(span, "").replace("least … most", "")
+
+
+def held(source, **facts):
+    row = {"kind": "MCAP", "seconds": 1.5, "messages": 1200, "transforms": 7, "frames": 3}
+    return {"source": source, "unreadable": None, "damage": [], "trees": 1, **row, **facts}
+
+
+def test_what_is_wrong_with_some_of_several_recordings_stands_whole_below_the_table():
+    rows = [
+        held("run.mcap"),
+        held("cut.mcap", damage=["The file ends in the middle of a chunk.", "It has no index."]),
+        held("note.bag", unreadable="'note.bag' is an empty file (0 bytes)."),
+    ]
+
+    wide, narrow = as_lines(rows).splitlines(), as_lines(rows, 40).splitlines()
+
+    assert wide[0].split()[-2:] == ["frames", "trees"]
+    assert wide[1].split()[-4:] == ["1,200", "7", "3", "1"]
+    for lines in (wide, narrow):
+        told = " ".join(" ".join(lines).split())
+        assert "Unreadable 'note.bag' is an empty file (0 bytes)." in told
+        assert "cut.mcap: The file ends in the middle of a chunk.; It has no index." in told
+    assert max(map(cell_len, narrow)) <= 40

@@ -29,27 +29,29 @@ def as_text(recording: Recording, width: int | None = None) -> str:
 
     Args:
         recording: Which.
-        width: Cells a line may take; columns that have no room are left out. None for all.
+        width: Cells a line may take: sentences go on in the next one, columns that have no room
+            are left out. None for all.
     """
     source = recording.source
     edges = edge_facts(recording.transforms)
     topics = recording.topics
     messages = sum(topic.count for topic in topics)
     span = source.end - source.start
-    lines = [
+    facts = [
         f"{visible(recording.name)}: {recording.source.kind}, {short_size(source.size)}",
         f"{count(messages, 'message')} on {count(len(topics), 'topic')}, "
         f"{count(len(recording.transforms), 'transform')} of {count(len(edges), 'edge')}",
     ]
     if messages:
-        lines.append(
+        facts.append(
             f"Received from {_moment(source.start)} to {_moment(source.end)}: {_seconds(span)}"
         )
     if edges:
-        lines.append(
+        facts.append(
             f"Stamps   from {_moment(recording.start)} to {_moment(recording.end)}: "
             f"{_seconds(recording.end - recording.start)}"
         )
+    lines = [line for fact in facts for line in wrapped(fact, width)]
     if topics:
         lines += ["", "Topics"]
         lines += table(
@@ -60,33 +62,33 @@ def as_text(recording: Recording, width: int | None = None) -> str:
             right=("messages", "rate"),
         )
     if edges:
-        lines += ["", f"Frames: {_forest(trees(recording.transforms))}"]
+        lines += ["", *wrapped(f"Frames: {_forest(trees(recording.transforms))}", width)]
         lines += table(
-            ("edge", "kind", "transforms", "rate", "received after its stamp", "from"),
+            ("edge", "kind", "transforms", "rate", "delay", "least … most", "from"),
             list(map(_row, edges)),
             width,
-            goes=("kind", "transforms", "from", "received after its stamp"),
-            right=("transforms", "rate"),
+            goes=("kind", "transforms", "from", "least … most", "delay"),
+            right=("transforms", "rate", "delay", "least … most"),
         )
     if recording.robot is not None:
-        lines += ["", f"Robot: {_robot(recording, recording.robot)}"]
+        lines += ["", *wrapped(f"Robot: {_robot(recording, recording.robot)}", width)]
     for heading, sentences in (("Damage", recording.damage), ("Odd", oddities(recording))):
         if sentences:
             lines += ["", heading]
             for sentence in sentences:
-                lines += _indented(visible(sentence), width)
+                lines += wrapped(visible(sentence), width, "  ")
     return "\n".join(lines) + "\n"
 
 
-def _indented(sentence: str, width: int | None) -> list[str]:
-    """A sentence below a heading; broken between words where a line has an end."""
-    if width is None:
-        return [f"  {sentence}"]
+def wrapped(sentence: str, width: int | None, indent: str = "") -> list[str]:
+    """A sentence behind `indent`; broken between words where a line has an end."""
+    if width is None or len(indent) + cell_len(sentence) <= width:
+        return [indent + sentence]
     return wrap(
         sentence,
         max(width, 20),
-        initial_indent="  ",
-        subsequent_indent="    ",
+        initial_indent=indent,
+        subsequent_indent=f"{indent}  ",
         break_on_hyphens=False,
     )
 
@@ -194,21 +196,20 @@ def _edge_object(edge: EdgeFacts) -> dict[str, Any]:
 
 
 def _row(edge: EdgeFacts) -> tuple[str, ...]:
-    offset = "-"
+    delay = span = "-"
     if edge.offset is not None and edge.offset.least >= SIMULATED_BELOW:
         # How many decades later says nothing; that it is another clock does.
-        offset = "stamped by a simulation's clock"
+        delay = "other clock"
     elif edge.offset is not None:
-        offset = (
-            f"{_offset(edge.offset.median)} ({_offset(edge.offset.least)} … "
-            f"{_offset(edge.offset.most)})"
-        )
+        delay = _offset(edge.offset.median)
+        span = f"{_offset(edge.offset.least)} … {_offset(edge.offset.most)}"
     return (
         f"{visible(edge.child)} in {visible(edge.parent)}",
         "static" if edge.static else "dynamic",
         f"{edge.count:,}",
         "-" if edge.rate is None else f"{edge.rate:.1f} Hz",
-        offset,
+        delay,
+        span,
         _few(edge.publishers),
     )
 
@@ -260,7 +261,8 @@ def table(
             head,
             [(row[at], "") for row in rows],
             stands_right=head in right,
-            caps=_NARROW if head in goes else (),
+            # A number without its middle is another number.
+            caps=_NARROW if head in goes and head not in right else (),
             goes=goes.index(head) + 1 if head in goes else 0,
         )
         for at, head in enumerate(heads)
@@ -297,24 +299,40 @@ def _moment(stamp: Stamp) -> str:
         return f"{as_seconds(stamp):.3f} s"
 
 
-def as_lines(rows: Sequence[Mapping[str, Any]]) -> str:
-    """Several recordings, a line each: what each holds, or why it cannot be read."""
+def as_lines(rows: Sequence[Mapping[str, Any]], width: int | None = None) -> str:
+    """Several recordings, a line each; below them what is wrong with which.
+
+    Args:
+        rows: What each holds, or why it cannot be read.
+        width: As `as_text` takes it.
+    """
+    heads = ("recording", "kind", "length", "messages", "transforms", "frames", "trees")
     lines: list[tuple[str, ...]] = []
     for row in rows:
-        name = visible(str(row["source"]))
-        if row["unreadable"] is not None:
-            lines.append((name, "", "", "", "", "", f"unreadable: {visible(row['unreadable'])}"))
-            continue
-        lines.append(
-            (
-                name,
+        facts: tuple[str, ...] = ("-",) * 6
+        if row["unreadable"] is None:
+            facts = (
                 str(row["kind"]),
                 f"{row['seconds']:.1f} s",
-                f"{row['messages']:,}",
-                f"{row['transforms']:,}",
-                f"{row['frames']:,} in {row['trees']:,}",
-                "; ".join(visible(text) for text in row["damage"]),
+                *(f"{row[one]:,}" for one in heads[3:]),
             )
-        )
-    heads = ("recording", "kind", "length", "messages", "transforms", "frames in trees", "")
-    return "\n".join(table(heads, lines, right=heads[2:6])) + "\n"
+        lines.append((visible(str(row["source"])), *facts))
+    told = table(
+        heads,
+        lines,
+        width,
+        goes=("kind", "trees", "messages", "frames", "transforms"),
+        right=heads[2:],
+    )
+    wrong = {
+        "Unreadable": [row for row in rows if row["unreadable"] is not None],
+        "Damage": [row for row in rows if row["unreadable"] is None and row["damage"]],
+    }
+    for heading, found in wrong.items():
+        if found:
+            told += ["", heading]
+        for row in found:
+            name, why = str(row["source"]), row["unreadable"] or "; ".join(row["damage"])
+            # A refusal names its file most of the time.
+            told += wrapped(visible(why if name in why else f"{name}: {why}"), width, "  ")
+    return "\n".join(told) + "\n"

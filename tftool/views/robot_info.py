@@ -6,15 +6,16 @@ from tftool.sources.robot import Robot
 from tftool.sources.robot_description import RobotJoint
 from tftool.views.counts import count
 from tftool.views.escaping import visible
-from tftool.views.info import table
+from tftool.views.info import table, wrapped
 
 
-def as_text(name: str, robot: Robot) -> str:
+def as_text(name: str, robot: Robot, width: int | None = None) -> str:
     """Everything about a description, in lines.
 
     Args:
         name: What was opened, as it was given.
         robot: What was read from it.
+        width: Cells a line may take; columns that have no room are left out. None for all.
     """
     links, joints = robot.links, robot.joints
     moving = sum(joint.moves for joint in joints.values())
@@ -40,9 +41,13 @@ def as_text(name: str, robot: Robot) -> str:
                 )
                 for joint in joints.values()
             ],
+            width,
+            goes=("mimics", "frames", "type"),
         )
     if robot.notes:
-        lines += ["", "Odd", *(f"  {visible(note)}" for note in robot.notes)]
+        lines += ["", "Odd"]
+        for note in robot.notes:
+            lines += wrapped(visible(note), width, "  ")
     return "\n".join(lines) + "\n"
 
 

@@ -35,8 +35,9 @@ def info(
     """Show what a recording or robot description holds (ros2 bag info).
 
     Topics with their types, counts and publishers; frames and trees; every edge with its
-    rate, who publishes it (by node in ROS 1 bags, by topic else), and how much later than
-    its stamp it was received; what is damaged, what is odd, and what the doctor finds.
+    rate, who publishes it (by node in ROS 1 bags, by topic else), and its delay: how much
+    later than its stamp it was received; what is damaged, what is odd, and what the doctor
+    finds. On a terminal columns that have no room are left out.
     Of a robot description: joints with limits and mimics, the root, masses where given.
     Of several recordings, a line each; with -o, a row each in a file. Where the terminal is
     narrow, columns are left out: 'tftool info run.mcap | cat' has them all.
@@ -73,7 +74,7 @@ def _compared(places: list[str], processes: int, *, for_programs: bool) -> ExitS
     if for_programs:
         sys.stdout.write(json.dumps(rows, indent=2) + "\n")
     else:
-        sys.stdout.write(view.as_lines(rows))
+        sys.stdout.write(view.as_lines(rows, _width()))
     return ExitStatus.UNREADABLE if fleet_tasks.UNREADABLE in counts else ExitStatus.DONE
 
 
@@ -116,10 +117,16 @@ def _one(connection: Connection, place: str, *, for_programs: bool) -> ExitStatu
 
             given = None if connection.robot.urdf is None else Described(recording.robot)
             diagnosis = judge(Scope(given).material(recording))
-            width = shutil.get_terminal_size().columns if sys.stdout.isatty() else None
+            width = _width()
             sys.stdout.write(view.as_text(recording, width))
-            sys.stdout.write(f"\n{brief(diagnosis)}\n")
+            told = "\n".join(view.wrapped(brief(diagnosis), width))
+            sys.stdout.write(f"\n{told}\n")
     return ExitStatus.DONE
+
+
+def _width() -> int | None:
+    """Cells a line may take; None where no terminal shows it."""
+    return shutil.get_terminal_size().columns if sys.stdout.isatty() else None
 
 
 def _describe(connection: Connection, found: "Found", *, for_programs: bool) -> None:
@@ -133,4 +140,4 @@ def _describe(connection: Connection, found: "Found", *, for_programs: bool) -> 
     if for_programs:
         sys.stdout.write(json.dumps(view.as_object(found.name, robot), indent=2) + "\n")
     else:
-        sys.stdout.write(view.as_text(found.name, robot))
+        sys.stdout.write(view.as_text(found.name, robot, _width()))
