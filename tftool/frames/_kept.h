@@ -18,14 +18,15 @@ static inline double leading(double x, double y, double z, double w) {
     return xx < yy ? (yy < zz ? z : y) : (xx < zz ? z : x);
 }
 
-/* The square of a quaternion's length. */
-static inline double square_of(const double *turn) {
-    return turn[0] * turn[0] + turn[1] * turn[1] + turn[2] * turn[2] + turn[3] * turn[3];
+/* The square of the length of a quaternion whose numbers lie so far apart. */
+static inline double square_of(const double *q, int width) {
+    return q[0] * q[0] + q[width] * q[width] + q[2 * width] * q[2 * width]
+        + q[3 * width] * q[3 * width];
 }
 
 /* Whether a pose, x y z and x y z w, is kept as it is: finite, and a unit quaternion of tf2's sign. */
 static inline int is_kept(const double *n) {
-    const double *turn = n + 3, square = square_of(turn);
+    const double *turn = n + 3, square = square_of(turn, 1);
     /* Where one of the four is no number, or infinite, neither is their square's sum near 1. */
     return fabs(n[0]) <= DBL_MAX && fabs(n[1]) <= DBL_MAX && fabs(n[2]) <= DBL_MAX
         && 1.0 - ROUNDING < square && square < 1.0 + ROUNDING

@@ -227,26 +227,20 @@ INLINE void between(const double *first, double *second, int n, int width) {
     }
 }
 
-/* The sign that tf2 gives: `quaternions.canonical`. */
-INLINE void canonical(double *turn, int n, int width) {
+/* Of length one, as samples are, and of tf2's sign: `quaternions.unit`, then `canonical`, of what
+   unit quaternions were chained to. */
+INLINE void settle(double *turn, int n, int width) {
     for (int i = 0; i < n; i++) {
         double *q = turn + i;
+        const double square = square_of(q, width);
+        const double scale = fabs(square - 1.0) < ROUNDING ? 1.0 : 1.0 / sqrt(square);
+        for (int k = 0; k < 4; k++)
+            q[k * width] *= scale;
         const double sign =
             leading(q[0], q[width], q[2 * width], q[3 * width]) < 0.0 ? -1.0 : 1.0;
         for (int k = 0; k < 4; k++)
             q[k * width] *= sign;
     }
-}
-
-/* `quaternions.unit`; returns 0 where there is no direction, or none that is plain to see. */
-static int unit(double *turn) {
-    const double square = square_of(turn);
-    if (-ROUNDING < square - 1.0 && square - 1.0 < ROUNDING)
-        return 1;
-    const double scale = 1.0 / sqrt(square);
-    for (int i = 0; i < 4; i++)
-        turn[i] *= scale;
-    return square > 2.0 / DBL_MAX && square < HUGE_VAL;
 }
 
 /* The poses of several links one after the other, lowest first, for each moment: `path.chain`. */
@@ -280,7 +274,7 @@ typedef struct {
     Py_ssize_t ups, count;
 } Way;
 
-/* Poses of source in target, of tf2's sign, or NaN throughout: `Path.solve`. */
+/* Poses of source in target, or NaN throughout: `Path.solve`. */
 INLINE void solve_way(const Way *way, const int64_t *times, int n, int width, double *pose) {
     Rows other;
     climb(way->edges, way->ups, times, n, width, pose);
@@ -288,7 +282,7 @@ INLINE void solve_way(const Way *way, const int64_t *times, int n, int width, do
         climb(way->edges + way->ups, way->count - way->ups, times, n, width, other);
         between(other, pose, n, width);
     }
-    canonical(pose + 3 * width, n, width);
+    settle(pose + 3 * width, n, width);
 }
 
 /* The fields of both kinds of links. Python's classes inherit them, and Python's code reads and
@@ -576,10 +570,9 @@ METHOD(lookup_transform_full) {
         && !same_text(args[0], args[2]) && solve_leg(buffer, types, args[4], args[2], &there, inner)
         && solve_leg(buffer, types, args[0], args[4], &here, outer)) {
         compose(outer, inner, 1, 1);
-        if (unit(inner + 3) && (made = prepare(types, here, args[0], args[2])) != NULL) {
-            canonical(inner + 3, 1, 1);
+        settle(inner + 3, 1, 1);
+        if ((made = prepare(types, here, args[0], args[2])) != NULL)
             return answer(made, inner);
-        }
     }
     return PLAINLY(lookup_transform_full);
 }
@@ -606,7 +599,7 @@ static int is_free(const Link *link) {
    and all are of the same origin. Returns whether it was done; never sets an error. */
 static int put(Link *link, int64_t stamp, int64_t origin, double *pose) {
     Py_buffer view;
-    const double square = square_of(pose + 3);
+    const double square = square_of(pose + 3, 1);
     if (!(1.0 - ROUNDING < square && square < 1.0 + ROUNDING
           && pose[0] + pose[1] + pose[2] < HUGE_VAL))
         return 0;
@@ -639,7 +632,7 @@ static int put(Link *link, int64_t stamp, int64_t origin, double *pose) {
             && count < view.len / (Py_ssize_t)sizeof(Record);
     PyObject *pair = NULL, *before = NULL;
     if (fits) {
-        canonical(pose + 3, 1, 1);
+        settle(pose + 3, 1, 1);
         if (place < start) {
             oldest = stamp;
             start = place;

@@ -88,8 +88,8 @@ _MOST_ROOM: Final = 256
 _ROOM: Final = 4
 
 # A quaternion whose square lies between these is of length one but for rounding.
-SHORTEST: Final = 1.0 - 8e-16
-LONGEST: Final = 1.0 + 8e-16
+SHORTEST: Final = 1.0 - quaternions.ROUNDING
+LONGEST: Final = 1.0 + quaternions.ROUNDING
 
 
 if TYPE_CHECKING or not IS_NATIVE:

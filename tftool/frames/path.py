@@ -7,7 +7,7 @@ path answers nothing: the tree's walk then says why, or finds a way that a path 
 from collections.abc import Iterable
 from typing import Final, NamedTuple
 
-from tftool.frames.history import IDENTITY, History, Link, Sample, StaticLink
+from tftool.frames.history import IDENTITY, LONGEST, SHORTEST, History, Link, Sample, StaticLink
 from tftool.frames.tree import FrameTree, Walk
 from tftool.geometry import poses, quaternions
 from tftool.geometry.rigid import Quaternion, Transform, Vector3
@@ -55,11 +55,12 @@ class Path(NamedTuple):
         if self.down:
             pose = poses.between(chain(self.down, time), pose)
         x, y, z, qx, qy, qz, qw = pose
-        # The usual case of quaternions.canonical: a call each time costs 5 % of a lookup.
-        if not qw > 0.5:
+        # The usual case of both: to call them each time costs 10 % of a lookup.
+        if not (qw > 0.5 and SHORTEST < qx * qx + qy * qy + qz * qz + qw * qw < LONGEST):
             if qw != qw:
                 return None
-            qx, qy, qz, qw = quaternions.canonical((qx, qy, qz, qw))
+            # Of length one, as samples are: where several links turn, rounding adds up.
+            qx, qy, qz, qw = quaternions.canonical(quaternions.unit((qx, qy, qz, qw)))
         return _new(Transform, (_new(Vector3, (x, y, z)), _new(Quaternion, (qx, qy, qz, qw))))
 
 

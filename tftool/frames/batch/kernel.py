@@ -22,6 +22,7 @@ from tftool.frames.batch.columns import (
 from tftool.frames.history import Sample
 from tftool.geometry import soa
 from tftool.geometry.batch import Floats
+from tftool.geometry.quaternions import ROUNDING
 from tftool.geometry.soa import QuaternionRows, VectorRows, chain, rotate, tan_ratio
 
 BLOCK = 1 << 15
@@ -175,17 +176,16 @@ class _RowAllocator:
 class _Side:
     """The product of the links on one side, from the source or from the target upward."""
 
-    __slots__ = ("empty", "place", "square", "turn", "unused")
+    __slots__ = ("empty", "place", "turn", "unused")
 
     def __init__(self, rows: _RowAllocator) -> None:
         self.empty = True
         self.place = VectorRows(rows(5))
+        # The quaternions are as long as they come out.
         self.turn, self.unused = QuaternionRows(rows(6)), QuaternionRows(rows(6))
-        # The quaternions are as long as they come out; this is their length squared.
-        self.square = rows(1)[0]
 
 
-ROWS = 56 + 4 * GROUP
+ROWS = 54 + 4 * GROUP
 """How many numbers are kept for each moment of a block."""
 
 
@@ -261,11 +261,10 @@ class BlockArrays:
     def _climb(self, side: _Side, edges: Sequence[Edge], times: Stamps, in_order: bool) -> None:
         """Chain the links of one side."""
         side.empty = not edges
-        side.square.fill(1.0)
         for start in range(0, len(edges), GROUP):
             group = edges[start : start + GROUP]
             moving = [edge for edge in group if isinstance(edge, MovingEdge)]
-            prepared = iter(self._prepare(side, moving, times, in_order))
+            prepared = iter(self._prepare(moving, times, in_order))
             for number, edge in enumerate(group, start):
                 place, turn = (self._place, self._turn) if number else (side.place, side.turn)
                 factor: Floats | float = 2.0
@@ -283,9 +282,9 @@ class BlockArrays:
                 side.place.close()
 
     def _prepare(
-        self, side: _Side, edges: Sequence[MovingEdge], times: Stamps, in_order: bool
+        self, edges: Sequence[MovingEdge], times: Stamps, in_order: bool
     ) -> list[tuple[Intervals, Indices, Floats, Floats, Floats]]:
-        """Find each moment's interval in some links, and multiply the side's square.
+        """Find each moment's interval in some links.
 
         Returns:
             For each link its intervals, and rows: the interval of each moment, the share of
@@ -318,8 +317,6 @@ class BlockArrays:
         multiply(squares, ratios, squares)
         add(squares, 1.0, squares)
         multiply(ratios, shares, ratios)
-        for row in squares:
-            multiply(side.square, row, side.square)
         divide(2.0, squares, squares)
         return list(zip(found, self._index, shares, ratios, squares, strict=False))
 
@@ -368,13 +365,13 @@ class BlockArrays:
     def _join(self, translations: Floats, rotations: Floats) -> None:
         """Put the two sides together, and write the answers."""
         up, down, scale = self._up, self._down, self._squares[0]
-        place, turn, square = up.place, up.turn, up.square
+        place, turn = up.place, up.turn
         if not down.empty:
-            divide(2.0, down.square, scale)
             back = down.turn
             back.conjugate()
+            divide(2.0, self._square(back), scale)
             if up.empty:
-                place, turn, square = down.place, back, down.square
+                place, turn = down.place, back
                 np.negative(place.xyz, place.xyz)
                 place.close()
             else:
@@ -384,21 +381,35 @@ class BlockArrays:
                 place.close()
                 chain(back, turn, up.unused, self._spare)
                 turn = up.unused
-                multiply(square, down.square, square)
             rotate(back, scale, place, self._cross, self._spare)
         copyto(translations.T, place.xyz)
-        np.sqrt(square, scale)
-        np.copysign(scale, self._lead(turn, square), scale)
-        divide(turn.xyz, scale, rotations.T[:3])
-        divide(turn.w, scale, rotations.T[3])
+        divide(1.0, np.sqrt(self._square(turn), scale), scale)
+        multiply(turn.wxyz, scale, turn.wxyz)
+        np.copysign(1.0, self._lead(turn), scale)
+        multiply(turn.xyz, scale, rotations.T[:3])
+        multiply(turn.w, scale, rotations.T[3])
 
-    def _lead(self, turn: QuaternionRows, square: Floats) -> Floats:
+    def _square(self, turn: QuaternionRows) -> Floats:
+        """The squares of quaternions' lengths; 1 where rounding is all they differ from it by."""
+        square: Floats = self._shares[0]
+        off, spare, near = self._ratios[0], self._spare, self._flags
+        multiply(turn.xyz, turn.xyz, spare)
+        multiply(turn.w, turn.w, off)
+        # In the order of `quaternions.unit`, which leaves the same ones as they are.
+        for part in (spare[1], spare[2], off):
+            add(spare[0], part, spare[0])
+        copyto(square, spare[0])
+        subtract(square, 1.0, off)
+        np.less(np.abs(off, off), ROUNDING, near)
+        copyto(square, 1.0, where=near)
+        return square
+
+    def _lead(self, turn: QuaternionRows) -> Floats:
         """The numbers whose sign tf2 makes positive; see `quaternions.canonical`."""
         small, large, size = self._ratios[0], self._flags, self._spare
         lead: Floats = self._shares[0]
         multiply(turn.w, turn.w, small)
-        multiply(square, 0.25, square)
-        np.less_equal(small, square, large)
+        np.less_equal(small, 0.25, large)
         if not large.any():
             w: Floats = turn.w
             return w
