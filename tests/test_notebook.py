@@ -69,6 +69,38 @@ def test_the_notebook_of_the_docs_runs_and_shows_trees_and_tables(tmp_path):
     assert "view.html" in "".join(shown["text/plain"])
 
 
+@pytest.mark.skipif(
+    not (importlib.util.find_spec("nbclient") and importlib.util.find_spec("matplotlib")),
+    reason="nbclient, or the extra 'plot', is not installed",
+)
+def test_a_notebook_shows_each_plot_once_and_later_figures_of_others_too(tmp_path):
+    import nbformat
+
+    made = """
+from tftool import Buffer, Transform, TransformStamped, plot
+buffer = Buffer()
+buffer.set_transform(TransformStamped(10**9, "world", "car", Transform()), "me")
+path = buffer.lookup_transforms("world", "car", [10**9])
+"""
+    cells = {
+        made: 0,
+        "plot(path)": 1,
+        "plot(path);": 1,
+        "figure = plot(path)\nfigure": 1,
+        "figure": 1,
+        "plot(path, what='x')\nplot(path, what='y')": 2,
+        "from matplotlib import pyplot\npyplot.figure().subplots();": 1,
+        "figure, axes = pyplot.subplots()\nplot(path, axes);": 1,
+    }
+    book = nbformat.v4.new_notebook(cells=[nbformat.v4.new_code_cell(one) for one in cells])
+    nbformat.write(book, tmp_path / "plots.ipynb")
+
+    shown = json.loads(told(RUN, "plots.ipynb", place=tmp_path))
+
+    counts = [sum("image/png" in one.get("data", ()) for one in outputs) for outputs in shown]
+    assert dict(zip(cells, counts, strict=True)) == cells
+
+
 def test_a_view_is_a_frame_of_its_own_that_gives_nothing_away(tmp_path):
     buffer = Buffer()
     pose = TransformStamped(seconds(2), "world", '"></iframe><script>', Transform())

@@ -4,6 +4,7 @@ matplotlib is an extra, and is imported when something is drawn.
 """
 
 from collections.abc import Sequence
+from functools import partial
 from textwrap import wrap
 from typing import TYPE_CHECKING, Any, BinaryIO, Final
 
@@ -114,7 +115,10 @@ def plot(
     begin = begin if start is None else start
     if ax is None:
         pyplot = _needed("matplotlib.pyplot")
-        return _figure(found, begin, chosen(words), xy, dark, pyplot.figure)
+        made = partial(
+            pyplot.figure, FigureClass=_needed("tftool.views.notebook_figure").NotebookFigure
+        )
+        return _figure(found, begin, chosen(words), xy, dark, made)
     if xy:
         _draw_path(ax, found, dark)
         return ax
@@ -167,10 +171,14 @@ def _figure(
     make: Any,
 ) -> "Figure":
     matplotlib = _needed("matplotlib")
-    with matplotlib.rc_context({**_COMMON, **(_DARK if dark else _LIGHT)}):
-        drawn = [] if xy else panels(found, start, quantities)
-        height = 6.0 if xy else 1.0 + 1.7 * len(drawn)
-        figure: Figure = make(figsize=(8.0, height), layout="constrained")
+    colours = _DARK if dark else _LIGHT
+    drawn = [] if xy else panels(found, start, quantities)
+    height = 6.0 if xy else 1.0 + 1.7 * len(drawn)
+    # pyplot's first figure also sets up its backend, which must outlast the settings below:
+    # a notebook would show no later figure of anyone's.
+    ground = colours["figure.facecolor"]
+    figure: Figure = make(figsize=(8.0, height), layout="constrained", facecolor=ground)
+    with matplotlib.rc_context({**_COMMON, **colours}):
         title = ", ".join(f"{one.source} in {one.target}" for one in found[:4])
         figure.suptitle(_plain(title + (" …" if len(found) > 4 else "")), fontsize=11)
         if xy:
