@@ -462,9 +462,34 @@ def test_ros2s_words_ask_the_session_and_are_refused_with_a_sentence(capsys):
     assert main(["ros2", "topik", "list"]) == 2
     assert "invalid choice: 'topik'" in capsys.readouterr().err
     assert main(["ros2", "run", "turtlesim", "turtlesim_node"]) == 2
-    assert "'ros2 run' is 'tftool run' here" in capsys.readouterr().err
+    assert capsys.readouterr().err == "tftool: 'ros2 run' is 'tftool run' here.\n"
     assert main(["ros2", "bag", "info", "run.mcap"]) == 2
-    assert "'ros2 bag info' is 'tftool info' here" in capsys.readouterr().err
+    assert capsys.readouterr().err == "tftool: 'ros2 bag info' is 'tftool info' here.\n"
+    assert main(["run", "tf2_ros", "tf2_echo", "map", "odom"]) == 2
+    assert capsys.readouterr().err == (
+        "tftool: 'tf2_ros tf2_echo' is 'tftool echo' here, in a terminal of its own.\n"
+    )
+
+
+@pytest.mark.parametrize(
+    ("words", "told"),
+    [
+        (
+            ["topic", "echo", "/nothing"],
+            "There is no topic '/nothing' after 10 s: 'tftool ros2 topic list' lists them.",
+        ),
+        (["param", "get", "/nobody", "x"], "Node '/nobody' is not there, or has no parameters."),
+        (
+            ["node", "info", "/nobody"],
+            "There is no node '/nobody': 'tftool ros2 node list' lists them.",
+        ),
+    ],
+)
+@pytest.mark.usefixtures("simulated")
+def test_of_what_ros2s_words_do_not_find_that_alone_is_said(tftool, words, told):
+    result = tftool("ros2", *words)
+
+    assert (result.status, result.err.splitlines()[-1]) == (1, f"tftool: {told}")
 
 
 @pytest.mark.parametrize(

@@ -129,7 +129,8 @@ def _type_of_topic(node: Node, topic: str) -> str:
     _wait_until(found)
     if not found():
         raise UsageError(
-            f"there is no topic '{_full(topic)}' after {PATIENCE:g} s: 'ros2 topic list' lists them"
+            f"There is no topic '{_full(topic)}' after {PATIENCE:g} s: 'tftool ros2 topic list' "
+            "lists them."
         )
     return found()
 
@@ -279,7 +280,7 @@ def _parameters(node: Node, name: str) -> AsyncParameterClient:
     """
     client = AsyncParameterClient(node, _full(name))
     if not client.wait_for_services(PATIENCE):
-        raise UsageError(f"node '{_full(name)}' is not there, or has no parameters")
+        raise UsageError(f"Node '{_full(name)}' is not there, or has no parameters.")
     return client
 
 
@@ -365,7 +366,7 @@ def _node_list(node: Node, asked: argparse.Namespace, show: Print) -> None:
 def _node_info(node: Node, asked: argparse.Namespace, show: Print) -> int:
     full = _full(asked.node)
     if not node.wait_for_node(full, PATIENCE):
-        raise UsageError(f"there is no node '{full}': 'ros2 node list' lists them")
+        raise UsageError(f"There is no node '{full}': 'tftool ros2 node list' lists them.")
     namespace, _, name = full.rpartition("/")
     of = (name, namespace or "/")
     show(full)

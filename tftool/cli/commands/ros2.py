@@ -50,7 +50,7 @@ def ros2(
 
     from tftool.cli.hosting import NO_SESSION, open_session
     from tftool.cli.notices import tell_record
-    from tftool.errors import UsageError
+    from tftool.errors import NodeFailed, TftoolError, UsageError
     from tftool.ros import ros2 as ros2_command
     from tftool.ros import running
     from tftool.ros.host import user_code
@@ -60,7 +60,7 @@ def ros2(
     for length in (2, 1):
         asked = " ".join(words[:length])
         if asked in _ELSEWHERE:
-            raise UsageError(f"'ros2 {asked}' is 'tftool {_ELSEWHERE[asked]}' here")
+            raise UsageError(f"'ros2 {asked}' is 'tftool {_ELSEWHERE[asked]}' here.")
     workspace = Workspace(Path.cwd())
     body = ros2_command.body(words, workspace, typer.echo)
     if words[0] in ("interface", "pkg"):
@@ -78,7 +78,13 @@ def ros2(
         await running.until(world, ending.over, run_for)
 
     session.run(work())
-    return ending.judge()
+    try:
+        return ending.judge()
+    except NodeFailed as failed:
+        # No program of the user's has failed: what was named is not there.
+        if isinstance(failed.__cause__, UsageError):
+            raise TftoolError(str(failed.__cause__)) from failed
+        raise
 
 
 def verbs_of(words: "Sequence[str]") -> "Collection[str]":

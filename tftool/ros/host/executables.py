@@ -294,7 +294,7 @@ def check(workspace: Workspace, package: str, executable: str) -> None:
     elsewhere = _ELSEWHERE.get((package, executable))
     if elsewhere is not None:
         raise HasItsOwnCommand(
-            f"'{package} {executable}' is '{elsewhere}' here, in a terminal of its own"
+            f"'{package} {executable}' is '{elsewhere}' here, in a terminal of its own."
         )
     known = [name for one, name in _OURS if one == package]
     known += found.scripts if found is not None else []
