@@ -1,5 +1,6 @@
 """A recording that is looked at: it stands still, and all of it is on the timeline."""
 
+import json
 import re
 import shutil
 
@@ -10,7 +11,7 @@ pytest.importorskip("mcap", reason="writes the test files")
 pytest.importorskip("zstandard", reason="the extra 'recordings' is not installed")
 
 from tests.link.processes import Process
-from tests.sources.writers import SECOND, content, write_mcap
+from tests.sources.writers import SECOND, content, write_mcap, write_rosbag1
 from tests.terminals import Terminal
 from tftool.cli.connection import Connection
 from tftool.cli.hosting import open_session
@@ -89,7 +90,17 @@ def test_monitor_reports_a_whole_recording_at_once(tftool, file):
     assert result.status == 0
     # tf2 counts the messages of a sender: 9 of 10 ticks hold odom, at 50 Hz.
     assert result.out.count("RESULTS: for all Frames") == 1
-    assert re.search(r"Frame: odom, published by player, Average Delay: 0\.002", result.out)
+    assert re.search(r"Frame: odom, published by /tf, Average Delay: 0\.002", result.out)
+
+
+def test_monitor_names_who_sent_a_recordings_transforms_as_info_does(tftool, file, tmp_path):
+    bag = write_rosbag1(tmp_path / "run.bag", content(50))
+
+    for recording in (file, bag):
+        report = json.loads(tftool("monitor", recording, "--json").out)
+        told = {one["frame"]: one["broadcaster"] for one in report["frames"]}
+        edges = json.loads(tftool("info", recording, "--json").out)["edges"]
+        assert told == {one["child"]: one["publishers"][0] for one in edges}
 
 
 def test_monitor_follows_a_chain_of_a_recording(tftool, file):

@@ -370,7 +370,7 @@ def _played(connection: Connection, found: Found, cache_time: Duration | None) -
     timeline = Timeline(recording.source, recording.transforms)
     clock = SimClock(max(timeline.start, 1))
     world = World(clock, cache_time=cache_time or CACHE_TIME)
-    Player(world, "player", timeline=timeline, pace=clock, is_silent=True)
+    Player(world, "player", timeline=timeline, pace=clock, is_silent=True, names_topics=True)
 
     async def alive(until: Stamp | None) -> None:
         await live(world, until=until)

@@ -68,6 +68,7 @@ class Player(Node):
         is_looping: bool = False,
         is_restamped: bool = False,
         is_silent: bool = False,
+        names_topics: bool = False,
         feed: Feed | None = None,
     ) -> None:
         """Join a world.
@@ -84,6 +85,8 @@ class Player(Node):
             is_restamped: Whether to move stamps to the moment at which they are sent, and publish
                 no `/clock`.
             is_silent: Whether to publish no `/clock` though stamps are the recording's.
+            names_topics: Whether the topic stands for who sent it where no node is recorded,
+                as in what is told of a recording; else this node does, which sends it.
             feed: Sends other topics along.
         """
         super().__init__(world, name)
@@ -96,6 +99,7 @@ class Player(Node):
         self._is_looping = is_looping
         self._is_restamped = is_restamped
         self._is_silent = is_silent or is_restamped
+        self._names_topics = names_topics
         self._feed = feed
         self._anchor = self.start  # where it was
         self._since = pace.now()  # when it was there
@@ -251,7 +255,8 @@ class Player(Node):
         if self._is_restamped:
             later = self._shift(due.moment)
             transforms = tuple(_restamped(one, later, due.static) for one in transforms)
-        self.world.broadcast(transforms, due.node or self.name, static=due.static)
+        sender = due.node or (due.topic if self._names_topics else self.name)
+        self.world.broadcast(transforms, sender, static=due.static)
 
     def _shift(self, moment: Stamp) -> Duration:
         """How much later than it was recorded a moment is played."""

@@ -82,12 +82,14 @@ class Due:
     Attributes:
         moment: When, on the clock of the stamps.
         node: Who sent them; empty where that is not recorded.
+        topic: Which they were recorded on.
         static: Whether they hold at all times.
         transforms: As recorded, names without a leading slash.
     """
 
     moment: Stamp
     node: str
+    topic: str
     static: bool
     transforms: tuple[TransformStamped, ...]
 
@@ -142,12 +144,15 @@ class Timeline:
         """What a message has to send: its transforms, moving and static ones apart."""
         moment = int(self.moments[place])
         sender = self._transforms.senders[self._order[place]]
-        node = self._transforms.publishers[int(sender)].node
+        publisher = self._transforms.publishers[int(sender)]
         kinds: dict[bool, list[TransformStamped]] = {}
         for position in range(int(self._firsts[place]), int(self._firsts[place + 1])):
             edge = self._transforms.edges[int(self._edges[position])]
             kinds.setdefault(edge.static, []).append(_sample(edge, int(self._rows[position])))
-        return [Due(moment, node, static, tuple(found)) for static, found in kinds.items()]
+        return [
+            Due(moment, publisher.node, publisher.topic, static, tuple(found))
+            for static, found in kinds.items()
+        ]
 
     def known_at(self, moment: Stamp) -> list[Due]:
         """What was known of every child at a moment: the last that had been received by then.
@@ -173,15 +178,13 @@ class Timeline:
             before = found.get((edge.child, edge.static))
             if before is None or key[:2] >= before[:2]:
                 found[edge.child, edge.static] = key
-        by_sender: dict[tuple[str, bool], list[TransformStamped]] = {}
+        by_sender: dict[tuple[str, str, bool], list[TransformStamped]] = {}
         for (_, static), (_, _, edge, row) in found.items():
             sender = int(self._transforms.senders[edge.messages[row]])
-            node = self._transforms.publishers[sender].node
-            by_sender.setdefault((node, static), []).append(_sample(edge, row))
-        return [
-            Due(moment, node, static, tuple(samples))
-            for (node, static), samples in by_sender.items()
-        ]
+            publisher = self._transforms.publishers[sender]
+            sent = publisher.node, publisher.topic, static
+            by_sender.setdefault(sent, []).append(_sample(edge, row))
+        return [Due(moment, *sent, tuple(samples)) for sent, samples in by_sender.items()]
 
 
 def _sample(edge: Edge, row: int) -> TransformStamped:
