@@ -23,6 +23,7 @@ from typing import TYPE_CHECKING, Any, Final, Literal, TypeAlias, cast
 
 from tftool.frames.native import IS_NATIVE
 from tftool.geometry import poses, quaternions
+from tftool.memory import PAGE, large_pages
 from tftool.stamps import LAST_STAMP, Duration, Stamp
 
 Sample: TypeAlias = tuple[float, float, float, float, float, float, float]
@@ -86,6 +87,9 @@ _LEAST_SLACK: Final = 32
 _LEAST_ROOM: Final = 8
 _MOST_ROOM: Final = 256
 _ROOM: Final = 4
+
+# So many records lie in two large pages of memory.
+_MANY: Final = 2 * PAGE // RECORD
 
 # A quaternion whose square lies between these is of length one but for rounding.
 SHORTEST: Final = 1.0 - quaternions.ROUNDING
@@ -190,9 +194,10 @@ class History(Fields):
         count: How many records there are, pruned ones included.
         period: Nanoseconds from sample to sample, as last measured; where to look is guessed
             from it.
+        settled: With fewer records than this `use_large_pages` would do no good.
     """
 
-    __slots__ = ("_compact_at", "_newest_parent_start", "parent", "period")
+    __slots__ = ("_compact_at", "_newest_parent_start", "parent", "period", "settled")
 
     is_static: Literal[False] = False
 
@@ -200,6 +205,7 @@ class History(Fields):
         # More than any two stamps can be apart.
         self.limit: Duration = min(limit, LAST_STAMP)
         self.period: Duration = 1
+        self.settled: int = _MANY
         self.clear()
 
     def clear(self) -> None:
@@ -662,6 +668,31 @@ class History(Fields):
         last = self.count - 1
         self.newest_stamp = self._stamp(last)
         self._newest = self._newest_pair = None
+
+    def use_large_pages(self) -> None:
+        """Have many samples where the system maps memory in large pages, if it has such.
+
+        Lookups all over five links of 100 000 samples take a quarter less. What is inserted
+        behind the room there is has an array grow again; not before the history is twice as
+        long is it done again.
+        """
+        self.settled = 2 * self.count
+        records = self.records
+        if not IS_NATIVE or not isinstance(records, array):
+            return
+        size = len(records) * records.itemsize
+        pages = large_pages(size, size & -PAGE)
+        if pages is None:
+            return
+        words: Any = memoryview(pages)[:size].cast("q")
+        with memoryview(records) as view:
+            if len(view) != len(words):
+                return
+            # While a view of it is held, no other thread has the array grow, but one may have put
+            # another in its place. From here on nothing is called: no thread comes in between.
+            if records is self.records:
+                words[:] = view
+                self.records = words
 
     # Pruning
 

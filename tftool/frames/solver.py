@@ -179,6 +179,10 @@ class Solver:
             if walk.ended != ARRIVED or not trees.is_steady(walk):
                 return False
             path = path_of(trees, walk)
+        for link in path.moving:
+            # What is asked about once is asked about again.
+            if link.count >= link.settled:
+                link.use_large_pages()
         if self._kept >= MOST_PATHS:
             self.drop_paths()
         self.paths.setdefault(trees.frames[target].name, {})[trees.frames[source].name] = path

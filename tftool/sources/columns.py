@@ -1,6 +1,5 @@
 """Recorded messages in, transforms out: columns per edge that grow as a file is read."""
 
-import mmap
 from array import array
 from collections import Counter
 from collections.abc import Sequence
@@ -10,6 +9,7 @@ from typing import Any, Final
 import numpy as np
 import numpy.typing as npt
 
+from tftool.memory import PAGE, large_pages
 from tftool.sources.contract import Edge, Indexes, Publisher, Stamps, Transforms
 from tftool.stamps import Stamp
 from tftool.wire.rows import (
@@ -25,9 +25,6 @@ _FEWEST: Final = 16
 _MOST_AHEAD: Final = 16  # times as many rows as have come, at most, are made room for
 _FREELY: Final = 1 << 22  # rows of all edges that are allocated however few have come
 _RECORD: Final = 64  # bytes of a transform's
-_PAGE: Final = 1 << 21  # bytes of a large page of memory
-_LARGE: Final = 1 << 21  # bytes from which on a column lies in such pages
-_HUGE: Final = getattr(mmap, "MADV_HUGEPAGE", None)
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -130,18 +127,12 @@ def _wanted(needed: int, share: float, freely: int) -> int:
 
 def _room(size: int) -> Bytes:
     """So many bytes, to be written."""
-    if size < _LARGE or _HUGE is None:
-        return np.empty(size, dtype=np.uint8)
-    # Only whole large pages can be large ones, and a small one costs as much as a hundred
-    # transforms: numpy's own begin and end anywhere.
-    try:
-        pages = mmap.mmap(-1, size + 2 * _PAGE & -_PAGE, mmap.MAP_PRIVATE | mmap.MAP_ANONYMOUS)
-        pages.madvise(_HUGE)
-    except OSError:
-        # A kernel without them, or not as many addresses.
+    # A small page costs as much as a hundred transforms.
+    pages = large_pages(size + PAGE, size + PAGE) if size >= PAGE else None
+    if pages is None:
         return np.empty(size, dtype=np.uint8)
     whole = np.frombuffer(pages, dtype=np.uint8)
-    first = -whole.ctypes.data % _PAGE
+    first = -whole.ctypes.data % PAGE
     return whole[first : first + size]
 
 

@@ -1,0 +1,126 @@
+"""Histories so long that they are put into large pages of memory once they are asked about."""
+
+import sys
+import threading
+
+import numpy as np
+import pytest
+
+from tests.twins import REASON, Twins, is_native
+from tftool.frames.buffer import Buffer
+from tftool.frames.sample import TransformStamped
+from tftool.geometry.rigid import Transform
+from tftool.stamps import seconds
+
+MANY = 70_000
+PERIOD = 10**7
+NEWEST = MANY * PERIOD
+
+
+def pose(number):
+    return Transform((number * 0.001, number % 7 * 0.1, 0.0), (0.0, 0.0, 0.6, 0.8))
+
+
+def sample(stamp, number):
+    return TransformStamped(stamp, "a", "b", pose(number))
+
+
+def filled(buffer, count=MANY):
+    """With a sample every ten milliseconds, put in one by one."""
+    for number in range(1, count + 1):
+        buffer.set_transform(sample(number * PERIOD, number), "me")
+    return buffer
+
+
+@pytest.mark.skipif(not is_native(), reason=REASON)
+@pytest.mark.parametrize(
+    "stamps",
+    [
+        pytest.param(range(NEWEST + 1, NEWEST + 20_000, 1), id="behind all others"),
+        pytest.param(range(NEWEST - 5, NEWEST - 1005, -7), id="late"),
+        pytest.param(range(PERIOD - 1, PERIOD - 1001, -1), id="before all others"),
+        pytest.param([NEWEST + 10 * PERIOD, NEWEST, PERIOD, NEWEST + 1], id="here and there"),
+        pytest.param([NEWEST + 200 * PERIOD, NEWEST + NEWEST // 2, NEWEST], id="pruning"),
+    ],
+)
+def test_what_is_inserted_after_the_first_question_is_found(stamps):
+    twins = Twins(NEWEST + 100 * PERIOD)
+    for buffer in twins.pair:
+        filled(buffer)
+    moments = np.linspace(PERIOD, NEWEST, 1000).astype(np.int64)
+    before = twins.ask("lookup_transforms", "a", "b", moments)
+
+    for number, stamp in enumerate(stamps):
+        for buffer in twins.pair:
+            buffer.set_transform(sample(stamp, number), "me")
+
+    assert before[0].translations.tolist() == before[1].translations.tolist()
+    ours, plain = twins.ask("samples", "b")
+    assert ours.stamps.tolist() == plain.stamps.tolist()
+    assert ours.poses.tolist() == plain.poses.tolist()
+    for moment in (*stamps[::97], 0, NEWEST // 2 + 3, NEWEST + 1):
+        ours, plain = twins.ask("lookup_transform", "b", "a", moment)
+        assert repr(ours) == repr(plain)
+
+
+def test_what_was_handed_out_before_stays_as_it_was():
+    buffer = filled(Buffer(10**18))
+    buffer.lookup_transform("a", "b", NEWEST // 2)
+    other = Buffer(10**18)
+    assert buffer.lend("b", other, NEWEST)
+    held = buffer.samples("b")
+    x = held.poses[:, 0].copy()
+
+    for number in range(1, 500):
+        buffer.set_transform(sample(number * PERIOD + 1, -number), "me")
+
+    assert len(buffer.samples("b").stamps) == MANY + 499
+    assert len(other.samples("b").stamps) == MANY
+    assert np.array_equal(held.poses[:, 0], x)
+
+
+def test_no_sample_is_lost_where_one_thread_asks_and_another_inserts():
+    buffer, links, more = Buffer(10**18), 12, 60
+    stamps = np.arange(1, MANY + 1) * PERIOD
+    for link in range(links):
+        turns = np.tile([0.0, 0.0, 0.0, 1.0], (MANY, 1))
+        buffer.set_transforms("a", f"b{link}", stamps, np.zeros((MANY, 3)), turns)
+    asking = threading.Event()
+
+    def insert():
+        asking.wait()
+        for number in range(1, more + 1):
+            # Behind all others, and between the others: by the kernel and by Python.
+            for stamp in (NEWEST + number * PERIOD, number * PERIOD + 1):
+                for link in range(links):
+                    buffer.set_transform(
+                        TransformStamped(stamp, "a", f"b{link}", Transform()), f"{number % 2}"
+                    )
+
+    interval = sys.getswitchinterval()
+    sys.setswitchinterval(1e-6)
+    inserting = threading.Thread(target=insert)
+    try:
+        inserting.start()
+        asking.set()
+        for link in range(links):
+            buffer.lookup_transform("a", f"b{link}", NEWEST // 2)
+        inserting.join()
+    finally:
+        sys.setswitchinterval(interval)
+
+    for link in range(links):
+        found = buffer.samples(f"b{link}").stamps
+        assert len(found) == MANY + 2 * more
+        assert (np.diff(found) > 0).all()
+
+
+def test_a_history_that_doubles_is_asked_as_well():
+    buffer = filled(Buffer(10**18))
+    for count in (MANY, 2 * MANY, 4 * MANY):
+        for number in range(len(buffer.samples("b").stamps) + 1, count + 1):
+            buffer.set_transform(sample(number * PERIOD, number), "me")
+        buffer.set_transform_static(TransformStamped(0, "b", f"c{count}", Transform()))
+        found = buffer.lookup_transform("a", f"c{count}", count * PERIOD - PERIOD // 2)
+        assert found.transform.translation[0] == pytest.approx((count - 0.5) * 0.001)
+    assert buffer.can_transform("a", "b", seconds(1))

@@ -1,0 +1,31 @@
+"""Memory that the system maps in large pages: of much that is read here and there.
+
+Only whole large pages can be such; what Python and numpy ask for begins and ends anywhere.
+"""
+
+import mmap
+from typing import Final
+
+PAGE: Final = 1 << 21
+"""Bytes of a large page of memory."""
+
+_HUGE: Final = getattr(mmap, "MADV_HUGEPAGE", None)
+
+
+def large_pages(size: int, end: int) -> "mmap.mmap | None":
+    """New memory, in large pages up to one of its bytes; None if the system has no such.
+
+    Args:
+        size: How many bytes it has at least. Those that are never written cost nothing.
+        end: No large page begins at this byte or behind it.
+    """
+    if _HUGE is None:
+        return None
+    try:
+        # So long a piece recent kernels begin at a large page.
+        pages = mmap.mmap(-1, size + PAGE - 1 & -PAGE, mmap.MAP_PRIVATE | mmap.MAP_ANONYMOUS)
+        pages.madvise(_HUGE, 0, end)
+    except OSError:
+        # A kernel without them, or not as many addresses.
+        return None
+    return pages
