@@ -49,6 +49,20 @@ def test_echo_at_a_moment_is_the_lookup(tftool, run):
     assert tuple(told["translation"].values()) == found.transform.translation
 
 
+@pytest.mark.parametrize("words", [["echo"], ["plot"], ["export", "-o", "laser.csv"]])
+def test_an_unknown_frame_is_answered_with_those_there_are(tftool, run, words, monkeypatch):
+    monkeypatch.chdir(run.parent)
+
+    result = tftool(words[0], "odom", "lazer", run, *words[1:])
+
+    hint = next(line for line in result.err.splitlines() if line.startswith("Frames there are: "))
+    named, _, meant = hint.removeprefix("Frames there are: ").partition(". ")
+    assert result.status == 4
+    assert result.out == ""
+    assert sorted(named.split(", ")) == ["arm", "base_link", "camera", "laser", "map", "odom"]
+    assert meant == "Did you mean laser?"
+
+
 def test_a_cut_recording_is_answered_with_a_warning(tftool, run):
     run.write_bytes(run.read_bytes()[:6000])
 

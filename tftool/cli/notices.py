@@ -3,14 +3,18 @@
 import os
 import re
 import sys
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping, Sequence
 from typing import TYPE_CHECKING
 
+from tftool.near_names import near_names
 from tftool.stamps import Duration, as_seconds
 from tftool.views.escaping import visible, visible_lines
 
 if TYPE_CHECKING:
     from tftool.runtime.log import LogRecord
+
+MOST_NAMED = 12
+"""How many frames a hint names."""
 
 _COLORS = {"DEBUG": 32, "WARN": 33, "ERROR": 31, "FATAL": 31}
 """ROS 2's: green, yellow, red; INFO keeps the terminal's own."""
@@ -32,6 +36,32 @@ def complain(who: str, sentence: str) -> None:
         sentence: What it was.
     """
     notice(f"{who}: {visible_lines(sentence.rstrip())}")
+
+
+def name_frames(
+    frames: Sequence[str], asked: Iterable[str | None], when: str = "", advice: str = ""
+) -> bool:
+    """Name the frames there are, when one of those asked for is not among them.
+
+    Args:
+        frames: The frames there are.
+        asked: Those asked for; None is none.
+        when: When they are all there are; "so far" where more may come.
+        advice: A sentence that goes behind it.
+
+    Returns:
+        Whether they were named.
+    """
+    missing = [frame for frame in asked if frame is not None and frame not in frames]
+    if not missing or not frames:
+        return False
+    near = near_names(missing[0], frames)
+    named = ", ".join(visible(frame) for frame in frames[:MOST_NAMED])
+    more = f" and {len(frames) - MOST_NAMED} more" if len(frames) > MOST_NAMED else ""
+    there = f"Frames there are {when}".rstrip()
+    meant = f" Did you mean {visible(near[0])}?" if near else ""
+    notice(f"{there}: {named}{more}.{meant} {advice}".rstrip())
+    return True
 
 
 def tell_listening(lasting: Duration) -> None:

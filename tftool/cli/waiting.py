@@ -4,7 +4,7 @@ import asyncio
 import re
 from dataclasses import dataclass
 
-from tftool.cli.notices import notice
+from tftool.cli.notices import name_frames, notice
 from tftool.errors import (
     BackwardExtrapolationException,
     LookupException,
@@ -13,15 +13,11 @@ from tftool.errors import (
 )
 from tftool.frames.buffer import Buffer
 from tftool.frames.sample import TransformStamped
-from tftool.near_names import near_names
 from tftool.runtime.clock import pace_of
 from tftool.runtime.world import World
 from tftool.stamps import LATEST, Duration, Stamp, as_seconds, seconds
 from tftool.views import echo as view
-from tftool.views.escaping import visible, visible_lines
-
-MOST_NAMED = 12
-"""How many frames a hint names."""
+from tftool.views.escaping import visible_lines
 
 EXPLAINED = ("CLOCK_MIXTURE", "NAME", "SINGLE", "SPLIT", "STOPPED")
 """The causes of a wait that a line can tell; a frame that is missing is hinted at otherwise."""
@@ -205,15 +201,6 @@ class Waiter:
         """Name the frames there are, when one of those asked for is not among them."""
         if self._hinted:
             return
-        frames = self.world.buffer.frames()
         asked = (self.pair.target, self.pair.source, self.pair.fixed_frame)
-        missing = [frame for frame in asked if frame is not None and frame not in frames]
-        if not missing or not frames:
-            return
-        self._hinted = True
-        near = near_names(missing[0], frames)
-        named = ", ".join(visible(frame) for frame in frames[:MOST_NAMED])
-        more = f" and {len(frames) - MOST_NAMED} more" if len(frames) > MOST_NAMED else ""
-        meant = f" Did you mean {visible(near[0])}?" if near else ""
-        end = f" {self.advice}" if self.patience is None else ""
-        notice(f"Frames there are so far: {named}{more}.{meant}{end}")
+        advice = self.advice if self.patience is None else ""
+        self._hinted = name_frames(self.world.buffer.frames(), asked, "so far", advice)

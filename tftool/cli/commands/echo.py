@@ -180,9 +180,11 @@ def _print_recorded(
     most: int | None,
 ) -> None:
     """Print the whole span of a recording, moment by moment."""
+    from tftool.cli.notices import name_frames
     from tftool.cli.recorded import moments
 
     stored = connection.open_stored(found)
+    name_frames(stored.buffer.frames(), frames)
     for answer in moments(stored, *frames, rate=rate, topic=stamps_of, most=most):
         printer.found(answer.stamp, answer)
 

@@ -104,6 +104,7 @@ def export(
     tftool export robot -o frames.mcap --foxglove
     """
     from tftool.cli.interrupting import interruptible
+    from tftool.cli.notices import name_frames
     from tftool.cli.pairs import moments_of, pairs_and_place
     from tftool.cli.recorded import Bar
     from tftool.cli.stored import span, stored_frames
@@ -133,6 +134,8 @@ def export(
         with interruptible():
             if chosen.is_trajectory:
                 moments = moments_of(stored, span(stored, first, last), every, rate, stamps_of)
+                for pair in asked:
+                    name_frames(stored.buffer.frames(), pair)
                 found = [sample(stored.buffer, *pair, moments) for pair in asked]
                 done = write_trajectories(found, output, chosen, style, force=force, progress=bar)
             else:

@@ -111,11 +111,14 @@ def plot(
             return ExitStatus.DONE
     form = None if output is None else _form_of(output, force)
 
+    from tftool.cli.notices import name_frames
     from tftool.cli.stored import span, stored_frames
     from tftool.trajectories.sampling import sample
 
     stored = stored_frames(connection, place, lasting)
     moments = moments_of(stored, span(stored, first, last), every, rate, stamps_of)
+    for pair in asked:
+        name_frames(stored.buffer.frames(), pair)
     found = [sample(stored.buffer, *pair, moments) for pair in asked]
     start = stored.start or min(int(one.path.stamps[0]) for one in found)
     if output is not None and form is not None:
