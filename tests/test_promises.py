@@ -1,8 +1,11 @@
+import ast
+import inspect
 import re
 import subprocess
 import sys
 from collections import Counter
 from pathlib import Path
+from typing import get_args
 
 import pytest
 
@@ -80,6 +83,27 @@ def test_every_promised_name_is_there_under_its_own_name(name):
 def test_another_name_is_refused_as_python_does():
     with pytest.raises(AttributeError, match="no attribute 'Bufer'"):
         _ = tftool.Bufer
+
+
+@pytest.mark.parametrize("name", PROMISED)
+def test_type_checkers_find_every_promised_name(name):
+    """Nothing is imported while it runs: what they read stands under TYPE_CHECKING."""
+    known = set()
+    for statement in ast.parse(Path(tftool.__file__).read_text(encoding="utf-8")).body:
+        if isinstance(statement, ast.If) and ast.unparse(statement.test) == "TYPE_CHECKING":
+            known |= {alias.name for one in statement.body for alias in one.names}
+
+    assert name in known
+
+
+@pytest.mark.parametrize("name", ["diagnose", "diff", "explain", "export", "view"])
+def test_what_takes_a_recording_names_it(name):
+    """A protocol does not do: pyright takes no cached property for a property of one."""
+    takes = next(iter(inspect.signature(getattr(tftool, name)).parameters.values())).annotation
+    if isinstance(takes, str):
+        takes = eval(takes, {known: getattr(tftool, known) for known in PROMISED})
+
+    assert {tftool.Recording, tftool.Buffer} <= set(get_args(takes))
 
 
 def test_the_scalar_path_imports_neither_numpy_nor_asyncio():

@@ -32,6 +32,7 @@ if TYPE_CHECKING:
     from tftool.frames.sample import FrameInfo, Snapshot, TransformStamped
     from tftool.geometry.conversions import quaternion_from_rpy, rpy_from_quaternion
     from tftool.geometry.rigid import Quaternion, Transform, Vector3
+    from tftool.notebook import PageView, view
     from tftool.runtime.clock import Clock, Phase, SimClock, WallClock, run
     from tftool.runtime.node import Node
     from tftool.runtime.supervisor import live

@@ -3,6 +3,7 @@
 from collections.abc import Sequence
 from dataclasses import replace
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 from tftool.diagnostics.buffered import of_buffer
 from tftool.diagnostics.explanation import Explanation, traced
@@ -11,15 +12,18 @@ from tftool.diagnostics.judge import judge
 from tftool.diagnostics.material import Material
 from tftool.diagnostics.model import Model, Settings
 from tftool.diagnostics.recorded import described_by
-from tftool.diagnostics.scope import Readable, Scope
+from tftool.diagnostics.scope import Scope
 from tftool.diagnostics.tracing import Question
 from tftool.errors import without_frames
 from tftool.frames.buffer import Buffer
 from tftool.stamps import CACHE_TIME, LATEST, Duration, Stamp
 
+if TYPE_CHECKING:
+    from tftool.sources.recording import Recording
+
 
 def diagnose(
-    recording: Readable | Buffer,
+    recording: "Recording | Buffer",
     *,
     select: Sequence[str] = (),
     ignore: Sequence[str] = (),
@@ -52,7 +56,7 @@ def diagnose(
 
 
 def explain(
-    recording: Readable | Buffer,
+    recording: "Recording | Buffer",
     target_frame: str,
     source_frame: str,
     time: Stamp = LATEST,
@@ -84,7 +88,7 @@ def explain(
     return traced(model, Question(target_frame, source_frame, time, asked_at, settings, timeout))
 
 
-def _material(recording: Readable | Buffer, scope: Scope) -> Material:
+def _material(recording: "Recording | Buffer", scope: Scope) -> Material:
     if not isinstance(recording, Buffer):
         if not hasattr(recording, "source"):
             raise without_frames(recording)

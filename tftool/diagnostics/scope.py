@@ -1,7 +1,7 @@
 """What of a recording is looked at: which topics, which time, beside which description."""
 
 from dataclasses import dataclass, replace
-from typing import Protocol
+from typing import TYPE_CHECKING, Protocol
 
 import numpy as np
 
@@ -12,24 +12,15 @@ from tftool.near_names import near_names
 from tftool.sources.contract import Edge, Headers, Source, Transforms
 from tftool.stamps import Stamp, as_seconds
 
+if TYPE_CHECKING:
+    from tftool.sources.recording import Recording
+
 
 class Moment(Protocol):
     """A moment as it was asked for."""
 
     def stamp(self, epoch: Stamp) -> Stamp:
         """The moment itself, where what is asked begins at `epoch`."""
-
-
-class Readable(Protocol):
-    """What `tftool.open_recording` gives."""
-
-    @property
-    def source(self) -> Source:
-        """What is read from."""
-
-    @property
-    def transforms(self) -> Transforms:
-        """Every transform, in columns."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -48,7 +39,7 @@ class Scope:
     begin: Moment | None = None
     end: Moment | None = None
 
-    def material(self, recording: Readable) -> Material:
+    def material(self, recording: "Recording") -> Material:
         """What a diagnosis looks at, of a recording.
 
         Raises:

@@ -4,7 +4,7 @@ import os
 from collections.abc import Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
-from typing import Protocol
+from typing import TYPE_CHECKING, TypeAlias
 
 import numpy as np
 import numpy.typing as npt
@@ -20,24 +20,12 @@ from tftool.sources.writing.recording import library_name
 from tftool.stamps import LATEST, Duration, Stamp
 from tftool.trajectories.sampling import Moments, Stamps, Trajectory, sample
 
+if TYPE_CHECKING:
+    from tftool.sources.recording import Recording
+    from tftool.sources.robot import Robot
 
-class HasBuffer(Protocol):
-    """What holds frames in a buffer: a recording, for one."""
-
-    @property
-    def buffer(self) -> Buffer:
-        """All of them."""
-
-
-class HasRestingFrames(Protocol):
-    """What gives its frames when asked: a robot description."""
-
-    def buffer(self) -> Buffer:
-        """Its frames with every joint at rest."""
-
-
-Framed = Buffer | HasBuffer | HasRestingFrames
-"""What frames are exported from: a buffer, a recording, a robot description."""
+Framed: TypeAlias = "Buffer | Recording | Robot"
+"""What frames are exported from; of a robot description with every joint at rest."""
 
 
 @dataclass(frozen=True, slots=True)
