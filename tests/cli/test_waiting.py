@@ -4,7 +4,7 @@ import json
 
 import pytest
 
-from tftool.cli.echoing import Echo, Printer
+from tftool.cli.echoing import Echo, LivePrinter, Printer
 from tftool.cli.session import Session
 from tftool.cli.waiting import FramePair
 from tftool.errors import BackwardExtrapolationException, LookupException, TransformException
@@ -140,6 +140,30 @@ def test_what_nobody_sends_any_more_is_waited_for_anew(world, capsys):
 
     assert places(out) == ["0.000", "1.000", "2.000", "3.000", "10.000"]
     assert err == "Waiting for a in world: nothing new has come since its sender left\n"
+
+
+class Shown(list):
+    """Stands in for a screen: keeps the first line of each picture."""
+
+    def show(self, picture):
+        self.append(picture.plain.partition("\n")[0])
+
+
+def test_on_a_terminal_what_nobody_sends_any_more_grows_old(world, capsys):
+    Mover(world, "a", end=3.05)
+    Mover(world, "a", start=7.5, name="another mover")
+    shown = Shown()
+
+    echoed(
+        world,
+        capsys,
+        printer=LivePrinter(shown, FramePair("world", "a"), 3, False),
+        count=5,
+        departures=Departures(world.clock, 3.1),
+    )
+
+    ages = [line.removeprefix("a in world  ") for line in shown]
+    assert ages == ["0.00 s ago"] * 4 + ["2.0 s ago", "3.0 s ago", "4.0 s ago", "0.00 s ago"]
 
 
 def test_what_goes_on_after_somebody_left_is_not_interrupted(world, capsys):

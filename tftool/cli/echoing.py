@@ -1,5 +1,6 @@
 """One pair of frames, asked again and again, and its answers on stdout as tf2_echo prints them."""
 
+import asyncio
 import json
 import sys
 from collections.abc import Callable
@@ -50,6 +51,9 @@ class Printer:
         else:
             self._write(view.failure(now, refusal, buffer.all_frames_as_string()))
 
+    def aged(self, now: Stamp) -> None:
+        """Leave what is printed as it is."""
+
     def _line(self, what: object) -> None:
         self._write(json.dumps(what, allow_nan=False) + "\n")
 
@@ -69,17 +73,25 @@ class LivePrinter:
         self.pair = pair
         self.precision = precision
         self.with_distance = with_distance
+        self._shown: TransformStamped | None = None
 
     def found(self, now: Stamp, found: TransformStamped) -> None:
         """Show an answer and how old it is."""
+        self._shown = found
         age = now - found.stamp if found.stamp else None
         heading = view.live_heading(self.pair.target, self.pair.source, age)
         answer = view.painted(found, precision=self.precision, with_distance=self.with_distance)
         answer.rstrip()
         self.redrawing.show(heading.append_text(answer))
 
+    def aged(self, now: Stamp) -> None:
+        """Show the answer that stands there again, with the age it has by now."""
+        if self._shown is not None:
+            self.found(now, self._shown)
+
     def failed(self, now: Stamp, refusal: TransformException, buffer: Buffer) -> None:
         """Show a refusal, as much of it as there is room for."""
+        self._shown = None
         from rich.text import Text
 
         words = view.in_words(self.pair.target, self.pair.source)
@@ -139,7 +151,7 @@ class Echo:
         while True:
             if self.departures() != left:
                 left = self.departures()
-                await self.waiter.wait(stale=self.pair.newest(self.world.buffer))
+                await self._renewed()
                 due = pace.now()
             now = clock.now()
             try:
@@ -157,6 +169,27 @@ class Echo:
             await pace.sleep_until(due, Phase.WATCH)
             # Late by more than a period: what was missed is not made up for.
             due = max(due, pace.now() - self.period)
+
+    async def _renewed(self) -> None:
+        """Wait for something new after a sender left; what is shown meanwhile grows old.
+
+        Raises:
+            TransformException: If it does not come in time, or never will.
+        """
+        clock, pace = self.world.clock, pace_of(self.world.clock)
+        waiting = asyncio.ensure_future(self.waiter.wait(stale=self.pair.newest(self.world.buffer)))
+        try:
+            while not waiting.done():
+                timer = pace.timer(pace.now() + self.period)
+                try:
+                    await asyncio.wait((waiting, timer), return_when=asyncio.FIRST_COMPLETED)
+                finally:
+                    timer.cancel()
+                if not waiting.done():
+                    self.printer.aged(clock.now())
+            await waiting
+        finally:
+            waiting.cancel()
 
     def _oddities(self) -> list[str]:
         buffer = self.world.buffer
