@@ -17,7 +17,7 @@ from tftool.sources.editing.changes import (
     fits,
 )
 from tftool.sources.recording import Recording
-from tftool.stamps import LAST_STAMP, Stamp
+from tftool.stamps import LAST_STAMP, Stamp, as_seconds, display
 
 
 def changer_for(edits: Edits, recordings: Sequence[Recording]) -> Changer:
@@ -99,12 +99,40 @@ def _window(edits: Edits, recordings: Sequence[Recording]) -> Window | None:
         if len(kept):
             logs.append(int(kept.min()))
         offsets.append(log_times - edge.stamps)
+    received = [moment for one in recordings for moment in (one.source.start, one.source.end)]
     if edits.by_record_time or not offsets:
+        _refuse_outside(edits, min(received), received)
         return Window(low, high, None, spans if edits.by_record_time else {})
     offset = int(np.median(np.concatenate(offsets)))
+    # Messages of other topics may go on after the last transform.
+    stamped = [
+        int(moment) for _, edge in moving for moment in (edge.stamps.min(), edge.stamps.max())
+    ]
+    _refuse_outside(edits, min(stamped), [*stamped, *(moment - offset for moment in received)])
     end = high if high == LAST_STAMP else high + offset
     start = 0 if edits.start is None else low + offset
     return Window(start, end, (low, high), spans)
+
+
+def _refuse_outside(edits: Edits, start: Stamp, moments: Sequence[Stamp]) -> None:
+    """Refuse a cut of which nothing is left: one end of it lies beyond all of these moments.
+
+    Args:
+        edits: Whose cut.
+        start: From when on people count the recording's seconds.
+        moments: When there is something, in no order.
+
+    Raises:
+        UsageError: If it does.
+    """
+    first, last = min(moments), max(moments)
+    if edits.start is not None and edits.start > last:
+        raise UsageError(
+            f"Nothing was recorded after --from: it ends {as_seconds(last - start):.3f} s after "
+            f"its start, at {display(last)}."
+        )
+    if edits.end is not None and edits.end < first:
+        raise UsageError(f"Nothing was recorded before --to: it begins at {display(first)}.")
 
 
 def _reparenting(edits: Edits, recordings: Sequence[Recording]) -> Reparenting | None:
