@@ -13,277 +13,15 @@
 #define PY_SSIZE_T_CLEAN
 #define Py_LIMITED_API 0x030B0000
 #include <Python.h>
-#include <stdint.h>
 #include <string.h>
 #include <structmember.h>
 
-#include "_kept.h"
+#include "_way.h"
 
 /* What `tftool.frames.native` expects; a build of another interface is not used. */
 #define INTERFACE 6
 
-#if defined(__GNUC__)
-#define INLINE static inline __attribute__((always_inline))
-#define PREFETCH(place) __builtin_prefetch(place)
-#else
-#define INLINE static inline
-#define PREFETCH(place) (void)(place)
-#endif
-
-/* Where one build can hold a function twice, it does so for processors that work on four numbers
-   at once: which one runs is chosen when the module is loaded. */
-#if defined(__GNUC__) && defined(__x86_64__) && defined(__GLIBC__)
-#define WIDE __attribute__((target_clones("avx2", "default")))
-#else
-#define WIDE
-#endif
-
-/* So many moments are worked on together, number by number: what they take stays in the
-   processor's nearest cache, and the compiler turns each loop into vector operations. */
-#define BLOCK 128
-
-/* Poses lie as rows, `width` numbers each: first every x, then y z qx qy qz qw. The functions
-   of one moment and of many are the same: for one, the width is 1. */
-typedef double Rows[7 * BLOCK];
-
-/* As in `history`: a stamp in nanoseconds; x y z, qx qy qz qw. */
-typedef struct {
-    int64_t stamp;
-    double pose[7];
-} Record;
-
-/* One link made ready for moments: records in order, or a pose that never changes. */
-typedef struct {
-    Py_buffer view;
-    const Record *records; /* NULL: `fixed`. */
-    Py_ssize_t last;
-    int64_t oldest, newest; /* The same if there is one record. */
-    double rate;            /* Records a nanosecond. */
-    Py_ssize_t here;        /* Where the first moment is looked for first. */
-    double fixed[7];
-} Edge;
-
-/* Finding ---------------------------------------------------------------- */
-
-/* Where a moment is looked for first, by the mean rate of the samples; memory is told to bring
-   what lies there. Before the last record, if there are two. */
-INLINE Py_ssize_t aim(const Edge *edge, int64_t time) {
-    const double most = edge->last > 0 ? (double)(edge->last - 1) : 0.0;
-    double at = ((double)time - (double)edge->oldest) * edge->rate;
-    at = at < most ? at : most;
-    const Py_ssize_t here = (Py_ssize_t)(at > 0.0 ? at : 0.0);
-    for (int line = 0; line < 3; line++)
-        PREFETCH((const char *)(edge->records + here + line) - (line == 2));
-    return here;
-}
-
-/* The last record at or before a moment, given stamp[0] <= time < stamp[last] and a guess;
-   whatever the stamps are, it is less than `last`. Correct the guess twice, then bisect. */
-static Py_ssize_t find(const Edge *edge, int64_t time, Py_ssize_t at) {
-    const Record *records = edge->records;
-    Py_ssize_t low = 0, high = edge->last;
-    for (int turn = 0; high - low > 1; turn++) {
-        const int64_t there = records[at].stamp;
-        if (there > time)
-            high = at;
-        else if (time < records[at + 1].stamp)
-            return at;
-        else
-            low = at + 1;
-        const double next = (double)at + ((double)time - (double)there) * edge->rate;
-        if (turn >= 2)
-            at = low + (high - low) / 2;
-        else
-            at = next < (double)high ? (next > (double)low ? (Py_ssize_t)next : low) : high - 1;
-    }
-    return low < edge->last ? low : edge->last - 1;
-}
-
-/* Fetch both neighbours of each moment, and how far it lies between them: NaN where the link has
-   no data for it, which makes all of the pose NaN, and of what that is chained with. */
-INLINE void fetch(const Edge *edge, const int64_t *times, int n, int width, double *first,
-                  double *second, double *share) {
-    const Record *records = edge->records;
-    const Py_ssize_t last = edge->last;
-    Py_ssize_t places[BLOCK];
-    for (int i = 0; i < n; i++)
-        places[i] = width > 1 ? aim(edge, times[i]) : edge->here;
-    for (int i = 0; i < n; i++) {
-        const int64_t time = times[i];
-        Py_ssize_t at = places[i];
-        if (edge->oldest < time && time < edge->newest) {
-            if (width > 1) {
-                /* As a rule it is that one or a neighbour; of many, no branch foretells which. */
-                at -= (at > 0) & (records[at].stamp > time);
-                at += (at < last - 1) & (records[at + 1].stamp <= time);
-            }
-            if (!(records[at].stamp <= time && time < records[at + 1].stamp))
-                at = find(edge, time, at);
-        }
-        else /* Of equal stamps at the newest end it is the last, at the oldest end the first. */
-            at = time == edge->oldest && time != edge->newest ? 0 : last;
-        const Record *here = records + at, *next = here + (at < last);
-        const double length = (double)((uint64_t)next->stamp - (uint64_t)here->stamp);
-        const double way = (double)((uint64_t)time - (uint64_t)here->stamp);
-        share[i] = length > 0.0 ? way / length : way > 0.0 ? NAN : 0.0;
-        for (int k = 0; k < 7; k++) {
-            first[k * width + i] = here->pose[k];
-            second[k * width + i] = next->pose[k];
-        }
-    }
-}
-
-/* Arithmetic of poses: twins of `geometry.poses` ------------------------- */
-
-/* Arcs up to this value of 1 - cos are turned by so many terms, the error below 1e-17. */
-#define SHORT_ARC 1e-3
-#define TERMS 4
-
-/* sin(f θ) / sin θ - f for u = 1 - cos θ: how much more of an end an arc takes than its chord.
-   The whole is a product of terms that are all positive:
-   f (1 + b1 (1 + b2 (1 + …))) with b_i = u (i² - f²) / (i (2 i + 1)).
-   Eberly, "A Fast and Accurate Algorithm for Computing SLERP", JGT 2011. */
-INLINE double bend(double f, double u) {
-    double sum = 1.0, more = 0.0;
-    const double less = u * f * f;
-    for (int i = TERMS; i > 0; i--) {
-        const double scale = 1.0 / (i * (2.0 * i + 1.0));
-        more = sum * (u * (i * i * scale) - less * scale);
-        sum = 1.0 + more;
-    }
-    return f * more;
-}
-
-/* The poses on the way from `a` to `b`, to be written to `out`. */
-INLINE void interpolate(const double *a, const double *b, const double *share, int n, int width,
-                        double *out) {
-    double near[BLOCK], sign[BLOCK], keep[BLOCK], take[BLOCK];
-    int longest = 0;
-    for (int i = 0; i < n; i++) {
-        const double *first = a + 3 * width + i, *second = b + 3 * width + i;
-        const double cosine = first[0] * second[0] + first[width] * second[width]
-            + first[2 * width] * second[2 * width] + first[3 * width] * second[3 * width];
-        sign[i] = cosine < 0.0 ? -1.0 : 1.0;
-        near[i] = fabs(cosine) < 1.0 ? fabs(cosine) : 1.0;
-        longest += 1.0 - near[i] > SHORT_ARC;
-    }
-    for (int i = 0; i < n; i++) {
-        keep[i] = bend(1.0 - share[i], 1.0 - near[i]);
-        take[i] = sign[i] * bend(share[i], 1.0 - near[i]);
-    }
-    for (int k = 0; k < 7; k++)
-        for (int i = 0; i < n; i++) {
-            /* Where a sample is met it is taken as it is: no way leads to infinity. Between equals
-               the rotation stays to the last bit. */
-            const double here = a[k * width + i], there = b[k * width + i];
-            const double chord = here + share[i] * ((k < 3 ? there : sign[i] * there) - here);
-            const double arc = k < 3 ? chord : chord + (keep[i] * here + take[i] * there);
-            out[k * width + i] = share[i] == 0.0 ? here : arc;
-        }
-    for (int i = 0; longest > 0 && i < n; i++)
-        if (1.0 - near[i] > SHORT_ARC && share[i] > 0.0) {
-            const double angle = acos(near[i]), sine = sin(angle);
-            const double kept = sin((1.0 - share[i]) * angle) / sine;
-            const double taken = sign[i] * (sin(share[i] * angle) / sine);
-            for (int k = 3; k < 7; k++)
-                out[k * width + i] = kept * a[k * width + i] + taken * b[k * width + i];
-        }
-}
-
-/* Turn a pose by a rotation. */
-INLINE void turn(double ax, double ay, double az, double aw, double *pose, int width) {
-    const double x = pose[0], y = pose[width], z = pose[2 * width];
-    const double bx = pose[3 * width], by = pose[4 * width], bz = pose[5 * width];
-    const double bw = pose[6 * width];
-    const double cx = 2.0 * (ay * z - az * y);
-    const double cy = 2.0 * (az * x - ax * z);
-    const double cz = 2.0 * (ax * y - ay * x);
-    pose[0] = x + aw * cx + ay * cz - az * cy;
-    pose[width] = y + aw * cy + az * cx - ax * cz;
-    pose[2 * width] = z + aw * cz + ax * cy - ay * cx;
-    pose[3 * width] = aw * bx + ax * bw + ay * bz - az * by;
-    pose[4 * width] = aw * by + ay * bw + az * bx - ax * bz;
-    pose[5 * width] = aw * bz + az * bw + ax * by - ay * bx;
-    pose[6 * width] = aw * bw - ax * bx - ay * by - az * bz;
-}
-
-/* `outer` after `inner`, in place of the latter. */
-INLINE void compose(const double *outer, double *inner, int n, int width) {
-    for (int i = 0; i < n; i++) {
-        const double *o = outer + i;
-        turn(o[3 * width], o[4 * width], o[5 * width], o[6 * width], inner + i, width);
-        for (int k = 0; k < 3; k++)
-            inner[k * width + i] += o[k * width];
-    }
-}
-
-/* `second` as seen from `first`, in place of the former: turned back, the difference of both. */
-INLINE void between(const double *first, double *second, int n, int width) {
-    for (int i = 0; i < n; i++) {
-        const double *o = first + i;
-        for (int k = 0; k < 3; k++)
-            second[k * width + i] -= o[k * width];
-        turn(-o[3 * width], -o[4 * width], -o[5 * width], o[6 * width], second + i, width);
-    }
-}
-
-/* Of length one, as samples are, and of tf2's sign: `quaternions.unit`, then `canonical`, of what
-   unit quaternions were chained to. */
-INLINE void settle(double *turn, int n, int width) {
-    for (int i = 0; i < n; i++) {
-        double *q = turn + i;
-        const double square = square_of(q, width);
-        const double scale = fabs(square - 1.0) < ROUNDING ? 1.0 : 1.0 / sqrt(square);
-        for (int k = 0; k < 4; k++)
-            q[k * width] *= scale;
-        const double sign =
-            leading(q[0], q[width], q[2 * width], q[3 * width]) < 0.0 ? -1.0 : 1.0;
-        for (int k = 0; k < 4; k++)
-            q[k * width] *= sign;
-    }
-}
-
-/* The poses of several links one after the other, lowest first, for each moment: `path.chain`. */
-INLINE void climb(const Edge *edges, Py_ssize_t count, const int64_t *times, int n, int width,
-                  double *pose) {
-    Rows first, second, step;
-    double share[BLOCK];
-    for (Py_ssize_t e = 0; e < count || e == 0; e++) {
-        double *out = e > 0 ? step : pose;
-        if (count > 0 && edges[e].records != NULL) {
-            fetch(&edges[e], times, n, width, first, second, share);
-            interpolate(first, second, share, n, width, out);
-        }
-        else
-            for (int k = 0; k < 7; k++)
-                for (int i = 0; i < n; i++)
-                    out[k * width + i] = count > 0 ? edges[e].fixed[k] : k == 6;
-        if (e > 0)
-            compose(step, pose, n, width);
-    }
-}
-
-/* Ways ------------------------------------------------------------------- */
-
-/* So many links need no memory of their own. */
-#define FEW 32
-
-/* The links from source upward, then those from target upward, made ready. */
-typedef struct {
-    Edge *edges, few[FEW];
-    Py_ssize_t ups, count;
-} Way;
-
-/* Poses of source in target, or NaN throughout: `Path.solve`. */
-INLINE void solve_way(const Way *way, const int64_t *times, int n, int width, double *pose) {
-    Rows other;
-    climb(way->edges, way->ups, times, n, width, pose);
-    if (way->count > way->ups) {
-        climb(way->edges + way->ups, way->count - way->ups, times, n, width, other);
-        between(other, pose, n, width);
-    }
-    settle(pose + 3 * width, n, width);
-}
+/* What is shared with Python --------------------------------------------- */
 
 /* The fields of both kinds of links. Python's classes inherit them, and Python's code reads and
    writes them by their names; see `History` for what they mean. */
@@ -362,14 +100,14 @@ static int read_records(const Link *link, int flags, Py_buffer *view) {
     return 0;
 }
 
-/* Make a link ready. Returns whether it is plain; never sets an error. */
-static int read_link(const Link *link, Edge *edge) {
+/* Make a link ready, its records in `view`. Returns whether it is plain; never sets an error. */
+static int read_link(const Link *link, Edge *edge, Py_buffer *view) {
     edge->records = NULL;
     if (link->records == NULL)
         return read_floats(link->_newest, edge->fixed, 7);
-    if (!read_records(link, PyBUF_SIMPLE, &edge->view))
+    if (!read_records(link, PyBUF_SIMPLE, view))
         return 0;
-    edge->records = (const Record *)edge->view.buf + link->start;
+    edge->records = (const Record *)view->buf + link->start;
     edge->last = (Py_ssize_t)(link->count - link->start) - 1;
     edge->newest = link->newest_stamp;
     edge->oldest = edge->last > 0 ? link->oldest_stamp : edge->newest;
@@ -377,24 +115,32 @@ static int read_link(const Link *link, Edge *edge) {
     return 1;
 }
 
+/* A way, and what holds the records of its links meanwhile. */
+typedef struct {
+    Way way;
+    Py_buffer views[MOST_LINKS];
+} Held;
+
 /* Make the links of two tuples ready, to be closed in any case; `time` is when they are read
    first: 0 becomes the newest moment for which every moving link has data, as in `Path.latest`.
    Returns whether all are plain; never sets an error. */
-static int open_way(Way *way, PyTypeObject *fields, PyObject *up, PyObject *down, int64_t *time) {
+static int open_way(Held *held, PyTypeObject *fields, PyObject *up, PyObject *down, int64_t *time) {
+    Way *way = &held->way;
     int64_t latest = 0;
     const Py_ssize_t ups = PyTuple_Size(up), total = ups + PyTuple_Size(down);
     PyTypeObject *known = fields;
     way->count = 0;
     way->ups = ups;
-    way->edges = total <= FEW ? way->few : PyMem_Malloc(sizeof(Edge) * total);
-    for (; way->edges != NULL && way->count < total; way->count++) {
-        const Py_ssize_t i = way->count;
+    if (total > MOST_LINKS)
+        return 0;
+    for (Py_ssize_t i = 0; i < total; i++) {
         PyObject *link = i < ups ? PyTuple_GetItem(up, i) : PyTuple_GetItem(down, i - ups);
         if (Py_TYPE(link) != known && !PyObject_TypeCheck(link, fields))
             return 0;
         known = Py_TYPE(link);
-        if (!read_link((const Link *)link, &way->edges[i]))
+        if (!read_link((const Link *)link, &way->edges[i], &held->views[i]))
             return 0;
+        way->count++;
         const int64_t newest = ((const Link *)link)->newest_stamp; /* 0 if it never moves. */
         if (newest != 0 && (newest < latest || latest == 0))
             latest = newest;
@@ -403,15 +149,13 @@ static int open_way(Way *way, PyTypeObject *fields, PyObject *up, PyObject *down
             way->edges[i].here = aim(&way->edges[i], *time != 0 ? *time : newest);
     }
     *time = *time != 0 ? *time : latest;
-    return way->edges != NULL;
+    return 1;
 }
 
-static void close_way(Way *way) {
-    for (Py_ssize_t i = 0; i < way->count; i++)
-        if (way->edges[i].records != NULL)
-            PyBuffer_Release(&way->edges[i].view);
-    if (way->edges != way->few)
-        PyMem_Free(way->edges);
+static void close_way(Held *held) {
+    for (Py_ssize_t i = 0; i < held->way.count; i++)
+        if (held->way.edges[i].records != NULL)
+            PyBuffer_Release(&held->views[i]);
 }
 
 /* Looking up -------------------------------------------------------------- */
@@ -487,17 +231,17 @@ static PyObject *answer(PyObject *made, const double *pose) {
 static int solve_path(const Door *door, const Types *types, PyObject *target, PyObject *source,
                       int64_t *time, double *pose, PyObject **made) {
     PyObject *path = value_of(value_of(door->_paths, target), source), *up, *down;
-    Way way;
+    Held held;
     if (!is_tuple(path, 3) || !PyTuple_Check(up = PyTuple_GetItem(path, 0))
         || !PyTuple_Check(down = PyTuple_GetItem(path, 1)))
         return 0;
     /* Memory brings the samples meanwhile. To make tuples may run the collector, and that code
        which lets go of the path; what the way has opened it holds. */
-    const int is_open = open_way(&way, types->fields, up, down, time)
+    const int is_open = open_way(&held, types->fields, up, down, time)
         && (made == NULL || (*made = prepare(types, *time, target, source)) != NULL);
     if (is_open)
-        solve_way(&way, time, 1, 1, pose);
-    close_way(&way);
+        solve_way(&held.way, time, 1, 1, pose);
+    close_way(&held);
     return is_open && pose[6] == pose[6];
 }
 
@@ -701,30 +445,6 @@ METHOD(set_transform) {
 
 /* A batch ---------------------------------------------------------------- */
 
-/* Poses of source in target for so many moments, block by block, or NaN where `valid` becomes 0.
-   Returns how many these are. */
-WIDE static Py_ssize_t solve_rows(const Way *way, Py_ssize_t rows, const int64_t *times,
-                                  double *places, double *turns, unsigned char *valid) {
-    Py_ssize_t missing = 0;
-    Rows pose;
-    for (Py_ssize_t start = 0; start < rows; start += BLOCK) {
-        const int n = rows - start < BLOCK ? (int)(rows - start) : BLOCK;
-        solve_way(way, times + start, n, BLOCK, pose);
-        const double *w = pose + 6 * BLOCK;
-        for (int i = 0; i < n; i++)
-            valid[start + i] = (times[start + i] != 0) & (w[i] == w[i]);
-        for (Py_ssize_t i = 0, row = start; i < n; i++, row++) {
-            missing += !valid[row];
-            const double known = valid[row] ? 1.0 : NAN;
-            for (int k = 0; k < 3; k++)
-                places[3 * row + k] = pose[k * BLOCK + i] * known;
-            for (int k = 0; k < 4; k++)
-                turns[4 * row + k] = pose[(3 + k) * BLOCK + i] * known;
-        }
-    }
-    return missing;
-}
-
 PyDoc_STRVAR(solve_doc, "solve(up, down, times, translations, rotations, valid)\n--\n\n"
 "Write the poses of a path at many moments, NaN where a link has no data. Returns how many rows\n"
 "have none, or None where a link is not plain. Other threads of Python run meanwhile; the records\n"
@@ -737,7 +457,7 @@ static PyObject *solve(PyObject *module, PyObject *args) {
     PyObject *up, *down, *result = NULL;
     Py_ssize_t missing = -1;
     int64_t first = 0;
-    Way way;
+    Held held;
     if (!PyArg_ParseTuple(args, "O!O!y*w*w*w*:solve", &PyTuple_Type, &up, &PyTuple_Type, &down,
                           &views[0], &views[1], &views[2], &views[3]))
         return NULL;
@@ -750,13 +470,13 @@ static PyObject *solve(PyObject *module, PyObject *args) {
         PyErr_SetString(PyExc_ValueError, "moments, translations, rotations and valid are "
             "aligned rows of 8, 24, 32 and 1 bytes, of each equally many");
     else {
-        if (open_way(&way, types->fields, up, down, &first)) {
+        if (open_way(&held, types->fields, up, down, &first)) {
             Py_BEGIN_ALLOW_THREADS
-            missing = solve_rows(&way, rows, views[0].buf, views[1].buf, views[2].buf,
+            missing = solve_rows(&held.way, rows, views[0].buf, views[1].buf, views[2].buf,
                                  views[3].buf);
             Py_END_ALLOW_THREADS
         }
-        close_way(&way);
+        close_way(&held);
         result = missing < 0 ? Py_NewRef(Py_None) : PyLong_FromSsize_t(missing);
     }
     for (int i = 0; i < 4; i++)
