@@ -626,3 +626,18 @@ def test_a_batch_and_its_plain_twin_agree(poses, moments, ordered):
         twins_raised = twins.ask("lookup_transforms", target, source, asked)
         if isinstance(twins_raised[0], tuple):
             assert repr(twins_raised[0]) == repr(twins_raised[1])
+
+
+def test_a_path_of_more_links_than_the_kernel_reads_is_answered_plainly():
+    twins, links = Twins(seconds(10)), 130
+    for link in range(links):
+        for stamp in (1, 2):
+            pose = Transform((float(stamp), 0.5, 0.0), (0.0, 0.0, 0.6, 0.8))
+            sample = TransformStamped(seconds(stamp), f"f{link}", f"f{link + 1}", pose)
+            twins.ask("set_transform", sample)
+
+    for end in (127, 128, 129, 130):
+        ours, plain = twins.ask("lookup_transform", "f0", f"f{end}", seconds(1.5))
+        assert repr(ours) == repr(plain)
+        ours, plain = twins.ask("lookup_transforms", "f0", f"f{end}", [seconds(1.5)])
+        assert repr(ours.rotations) == repr(plain.rotations)

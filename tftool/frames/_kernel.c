@@ -42,20 +42,19 @@ typedef struct {
 typedef struct {
     PyTypeObject *fields, *tuples[4];
     PyObject *blanks[4], *empty; /* As in `TUPLES`; "". */
+    newfunc make;                /* A tuple's constructor. */
 } Types;
 
-/* The tuples an answer is made of: where their types are found, their sizes, and what the arguments
-   are that make one of that size. */
+/* The tuples an answer is made of: where their types are found, and what the arguments are that
+   make one of their size. */
 enum { VECTOR, QUATERNION, TRANSFORM, STAMPED };
 static const struct {
-    const char *module, *name;
-    Py_ssize_t size;
-    const char *blank;
+    const char *module, *name, *blank;
 } TUPLES[4] = {
-    {"tftool.geometry.rigid", "Vector3", 3, "((OOO))"},
-    {"tftool.geometry.rigid", "Quaternion", 4, "((OOOO))"},
-    {"tftool.geometry.rigid", "Transform", 2, "((OO))"},
-    {"tftool.frames.sample", "TransformStamped", 4, "((OOOO))"},
+    {"tftool.geometry.rigid", "Vector3", "((OOO))"},
+    {"tftool.geometry.rigid", "Quaternion", "((OOOO))"},
+    {"tftool.geometry.rigid", "Transform", "((OO))"},
+    {"tftool.frames.sample", "TransformStamped", "((OOOO))"},
 };
 
 /* Whether something is there, and a tuple of that size. */
@@ -174,19 +173,12 @@ static PyObject *value_of(PyObject *dictionary, PyObject *name) {
         ? PyDict_GetItemWithError(dictionary, name) : NULL;
 }
 
-/* From 3.14 on a tuple keeps its hash: in memory that is only cleared it would be 0, and it takes
-   Python's own constructor, and a tuple to copy, to say that there is none yet. */
-#ifndef KEEPS_HASH
-#define KEEPS_HASH (Py_Version >= 0x030E0000)
-#endif
-
 /* A new tuple of one of the types, to be filled; NULL with an error set on failure. The collector
-   is not to see it without its items, nor ever: of numbers and plain strings is no circle. */
+   is never to see it: of numbers and plain strings is no circle. */
 static PyObject *blank(const Types *types, int i) {
-    PyTypeObject *type = types->tuples[i];
-    PyObject *made = KEEPS_HASH
-        ? ((newfunc)PyType_GetSlot(&PyTuple_Type, Py_tp_new))(type, types->blanks[i], NULL)
-        : PyType_GenericAlloc(type, TUPLES[i].size);
+    /* From 3.14 on a tuple keeps its hash, 0 in memory that is only cleared: it takes Python's own
+       constructor, and a tuple to copy, to say that there is none yet. */
+    PyObject *made = types->make(types->tuples[i], types->blanks[i], NULL);
     if (made != NULL)
         PyObject_GC_UnTrack(made);
     return made;
@@ -568,6 +560,7 @@ static int module_exec(PyObject *module) {
             link_members, no_methods)) == NULL
         || (types->empty = PyUnicode_InternFromString("")) == NULL)
         return -1;
+    types->make = (newfunc)PyType_GetSlot(&PyTuple_Type, Py_tp_new);
     for (int i = 0; i < 4; i++) {
         PyObject *home = PyImport_ImportModule(TUPLES[i].module);
         PyObject *type = home == NULL ? NULL : PyObject_GetAttrString(home, TUPLES[i].name);
