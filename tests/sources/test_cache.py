@@ -52,7 +52,7 @@ def same(one, other):
     for column in ("log_times", "senders"):
         np.testing.assert_array_equal(getattr(one, column), getattr(other, column))
     for mine, its in zip(one.edges, other.edges, strict=True):
-        fields = ("parent", "child", "static", "slashed")
+        fields = ("parent", "child", "static", "slashed", "kept")
         assert [getattr(mine, name) for name in fields] == [getattr(its, name) for name in fields]
         np.testing.assert_array_equal(mine.records, its.records)
         np.testing.assert_array_equal(mine.messages, its.messages)

@@ -106,10 +106,14 @@ class ColumnCache:
 
 
 def _packed(transforms: Transforms, key: str) -> Iterator[bytes | memoryview]:
-    """The bytes of an entry: a head in JSON, and each column behind it."""
-    columns: list[np.ndarray[Any, Any]] = [transforms.log_times, transforms.senders]
-    for edge in transforms.edges:
-        columns += [edge.records, edge.messages]
+    """The bytes of an entry: a head in JSON, and all columns behind it, the wide ones first."""
+    edges = transforms.edges
+    columns: list[np.ndarray[Any, Any]] = [
+        transforms.log_times,
+        *(edge.records for edge in edges),
+        transforms.senders,
+        *(edge.messages for edge in edges),
+    ]
     parts = [np.ascontiguousarray(one).data.cast("B") for one in columns]
     check = 0
     for part in parts:
@@ -119,8 +123,8 @@ def _packed(transforms: Transforms, key: str) -> Iterator[bytes | memoryview]:
             "key": key,
             "messages": len(transforms.log_times),
             "edges": [
-                (edge.parent, edge.child, edge.static, edge.slashed, len(edge))
-                for edge in transforms.edges
+                (edge.parent, edge.child, edge.static, edge.slashed, len(edge), edge.kept)
+                for edge in edges
             ],
             "publishers": [
                 (one.topic, one.node, one.durability, one.reliability, one.offers)
@@ -135,9 +139,7 @@ def _packed(transforms: Transforms, key: str) -> Iterator[bytes | memoryview]:
     yield len(head).to_bytes(8, "little")
     yield zlib.crc32(head).to_bytes(4, "little")
     yield head
-    for part in parts:
-        yield part
-        yield bytes(-len(part) % 8)
+    yield from parts
 
 
 def _unpacked(data: bytearray, key: str) -> Transforms:
@@ -148,27 +150,24 @@ def _unpacked(data: bytearray, key: str) -> Transforms:
     """
     start = head_size(bytes(data[: len(MAGIC) + 12]))
     head = parsed_head(bytes(data[:start]), key)
-    place, check = start, 0
-
-    def column(count: int, kind: str) -> np.ndarray[Any, Any]:
-        nonlocal place, check
-        size = count * np.dtype(kind).itemsize
-        if not 0 <= size <= len(data) - place:
-            raise ValueError("cut")
-        check = zlib.crc32(memoryview(data)[place : place + size], check)
-        found = np.frombuffer(data, dtype=kind, count=count, offset=place)
-        place += size + -size % 8
-        return found
-
-    messages = int(head["messages"])
-    log_times, senders = column(messages, "<i8"), column(messages, "<i4")
-    edges = []
-    for parent, child, static, slashed, count in head["edges"]:
-        records = column(count * 8, "<i8").reshape(count, 8)
-        edges.append(Edge(parent, child, static, slashed, records, column(count, "<i4")))
-    if check != head["check"] or place != len(data):
+    messages, counts = int(head["messages"]), [int(edge[4]) for edge in head["edges"]]
+    rows = sum(counts)
+    if min(messages, *counts, 0) < 0 or len(data) - start != 12 * messages + 68 * rows:
+        raise ValueError("cut")
+    if zlib.crc32(memoryview(data)[start:]) != head["check"]:
         raise ValueError("damaged")
+    # One piece each, of which every edge has its rows: they may be many.
+    wide = np.frombuffer(data, "<i8", messages + 8 * rows, start)
+    narrow = np.frombuffer(data, "<i4", messages + rows, start + wide.nbytes)
+    records, places = wide[messages:].reshape(rows, 8), narrow[messages:]
+    edges, end = [], 0
+    for parent, child, static, slashed, count, kept in head["edges"]:
+        begin, end = end, end + count
+        edges.append(
+            Edge(parent, child, static, slashed, records[begin:end], places[begin:end], kept)
+        )
     publishers = tuple(Publisher(*one) for one in head["publishers"])
+    log_times, senders = wide[:messages], narrow[:messages]
     return Transforms(tuple(edges), log_times, senders, publishers, tuple(head["damage"]))
 
 

@@ -14,7 +14,7 @@ from typing import Any, Final
 
 from tftool.sources.find import METADATA, Found
 
-FORMAT: Final = 1
+FORMAT: Final = 2
 """Is raised whenever the same recording would give other columns, or they lie otherwise."""
 
 WORTHWHILE: Final = 4 << 20
