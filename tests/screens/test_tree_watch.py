@@ -30,7 +30,7 @@ def shown(*keys, frames=60, size=(80, 24), news="", **setting):
         ]
         for sample in samples:
             world.buffer.set_transform(sample, "me")
-    app = TreeWatch(world, lambda: {"link_01": ("two-parents",)}, setting=Setting(**setting))
+    app = TreeWatch(world, lambda _: {"link_01": ("two-parents",)}, setting=Setting(**setting))
     lines = []
 
     async def main():

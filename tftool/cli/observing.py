@@ -79,13 +79,17 @@ class Observed:
         """All frames as they were then, each at the latest moment of its chain."""
         return self.buffer.snapshot(self.now)
 
-    def marks(self) -> dict[str, tuple[str, ...]]:
-        """The frames that something is wrong with, and the ids of the doctor's checks."""
+    def marks(self, snapshot: "Snapshot") -> dict[str, tuple[str, ...]]:
+        """The frames that something is wrong with, and the ids of the doctor's checks.
+
+        Args:
+            snapshot: These frames, as `snapshot` gives them.
+        """
         if self.moving is not None:
             return {}  # a description at rest sends nothing
         from tftool.diagnostics.marking import marks
 
-        return marks(self.buffer)
+        return marks(self.buffer, snapshot)
 
 
 def observe(

@@ -6,24 +6,29 @@ takes as long as all else that shows a tree.
 
 from tftool.diagnostics.catalogue import CHECKS
 from tftool.frames.buffer import Buffer
+from tftool.frames.sample import Snapshot
 from tftool.stamps import NANOSECONDS, SIMULATED_BELOW
 
 
-def marks(buffer: Buffer) -> dict[str, tuple[str, ...]]:
+def marks(buffer: Buffer, snapshot: Snapshot) -> dict[str, tuple[str, ...]]:
     """The frames of a buffer that something is wrong with, and the ids of the checks.
 
     A frame is marked `two-parents`, `clock-mixture` or `edge-stopped`.
+
+    Args:
+        buffer: Which.
+        snapshot: All its frames, as they are now.
     """
-    if _is_calm(buffer):
+    if _is_calm(buffer, snapshot):
         return {}
     from tftool.diagnostics.buffered import marked
 
     return marked(buffer)
 
 
-def _is_calm(buffer: Buffer) -> bool:
+def _is_calm(buffer: Buffer, snapshot: Snapshot) -> bool:
     """Whether no check can hit: one parent each, one clock for all, and no link is late."""
-    moving = [info for info in buffer.snapshot(0).frames if info.samples and not info.is_static]
+    moving = [info for info in snapshot.frames if info.samples and not info.is_static]
     if not moving:
         return True
     newest = [info.newest for info in moving]

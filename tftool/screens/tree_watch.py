@@ -95,7 +95,7 @@ class TreeWatch(WorldApp):
     def __init__(
         self,
         world: World,
-        marks: Callable[[], Marks],
+        marks: Callable[[Snapshot], Marks],
         setting: Setting | None = None,
     ) -> None:
         # What is drawn is text, and belongs among the user's text.
@@ -143,7 +143,7 @@ class TreeWatch(WorldApp):
 
     def _look(self) -> None:
         snapshot = self.world.buffer.snapshot(self.world.clock.now())
-        self._seen = (snapshot, self._marks_now())
+        self._seen = (snapshot, self._marks_now(snapshot))
         self._draw()
 
     def _draw(self) -> None:

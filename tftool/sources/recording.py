@@ -253,8 +253,8 @@ class Recording:
             kinds = [kind[child] for kind in (moving, static) if child in kind]
             if len(kinds) > 1:
                 oddities[f"'{child}' is sent as static and as moving: what came last counts"] += 1
-            # In tf2 a frame is one or the other, and the last to come wipes the rest.
-            kinds.sort(key=lambda edges: max(map(_last, edges)))
+                # In tf2 a frame is one or the other, and the last to come wipes the rest.
+                kinds.sort(key=lambda edges: max(map(_last, edges)))
             for edges in kinds:
                 if edges[0].static:
                     _set_static(buffer, transforms, edges, oddities)
@@ -436,12 +436,13 @@ def _set_static(
     """Set the last of a child's statics, whichever parent it names."""
     edge = max(edges, key=_last)
     authority = transforms.publishers[int(transforms.senders[edge.messages[-1]])].authority
-    x, y, z = edge.translations[-1].tolist()
-    qx, qy, qz, qw = edge.rotations[-1].tolist()
+    x, y, z, qx, qy, qz, qw = edge.records[-1].view(np.float64)[1:].tolist()
     pose = Transform((x, y, z), (qx, qy, qz, qw))
     sample = TransformStamped(int(edge.stamps[-1]), edge.parent, edge.child, pose)
     if not buffer.set_transform_static(sample, authority):
         oddities[f"the static '{edge.child}' in '{edge.parent}' is refused by tf2"] += 1
+    if sum(map(len, edges)) == 1:
+        return
     values = sum(len(np.unique(one.records[:, 1:], axis=0)) for one in edges)
     if values > 1:
         text = f"'{edge.child}' has {values} different static values: the last one counts"

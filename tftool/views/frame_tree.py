@@ -1,9 +1,9 @@
 """Every tree of frames: as text for people, as data for programs."""
 
-from collections.abc import Collection, Mapping, Sequence
-from dataclasses import dataclass
+from collections.abc import Collection, Iterator, Mapping, Sequence
+from itertools import zip_longest
 from types import MappingProxyType
-from typing import Any, TypeAlias
+from typing import Any, NamedTuple, TypeAlias
 
 from rich.cells import cell_len
 from rich.text import Text
@@ -79,8 +79,7 @@ def render(
             names[frame] += f" ({', '.join(ids)})"
     guides = (ASCII if ascii_only else UNICODE)[0]
     rows = [_row(branch, names, guides, moving) for branch in branches(forest)]
-    for line in _table(rows, HEADINGS if moving is None else ROBOT_HEADINGS):
-        text.append("\n").append_text(line)
+    text.append_tokens(_table(rows, HEADINGS if moving is None else ROBOT_HEADINGS))
     if marks:
         text.append(f"\n\nWhat is in brackets is wrong: {advice(marks)}", style="yellow")
     return text
@@ -151,18 +150,12 @@ def facts(info: FrameInfo) -> tuple[str, ...]:
     )
 
 
-@dataclass(frozen=True, slots=True)
-class _Row:
-    """One line: guides, the frame's name, what there is to say about its link, and its colour."""
+class _Row(NamedTuple):
+    """One line: guides, the guides with the frame's name and the facts of its link, its colour."""
 
     lead: str
-    name: str
-    facts: tuple[str, ...]
+    cells: tuple[str, ...]
     style: str
-
-    @property
-    def cells(self) -> tuple[str, ...]:
-        return (self.lead + self.name, *self.facts)
 
 
 def _row(
@@ -176,28 +169,26 @@ def _row(
     if told and moving is not None:
         info = info._replace(is_static=info.frame not in moving)
         told = ("fixed" if info.is_static else "moving", visible(info.authority or NONE))
-    return _Row(guides.lead(branch.turns), name, told, _style(info))
+    lead = guides.lead(branch.turns)
+    return _Row(lead, (lead + name, *told), _style(info))
 
 
-def _table(rows: list[_Row], headings: tuple[str, ...]) -> list[Text]:
-    """One line a frame, under headings where there are links to describe."""
-    if any(row.facts for row in rows):
-        rows = [_Row("", headings[0], headings[1:], "dim"), *rows]
-    widths = [
-        min(WIDEST, max(cell_len(row.cells[column]) for row in rows if column < len(row.cells)))
-        for column in range(max(len(row.cells) for row in rows))
-    ]
-    return [_line(row, widths) for row in rows]
-
-
-def _line(row: _Row, widths: list[int]) -> Text:
-    padded = []
-    for column, (cell, width) in enumerate(zip(row.cells, widths, strict=False)):
-        room = " " * (width - cell_len(cell))
-        # Numbers stand right, so that their points are under each other.
-        padded.append(room + cell if column >= 3 else cell + room)
-    whole = "  ".join(padded).rstrip()
-    return Text().append(row.lead, style="dim").append(whole[len(row.lead) :], style=row.style)
+def _table(rows: list[_Row], headings: tuple[str, ...]) -> Iterator[tuple[str, str]]:
+    """One line a frame, under headings where there are links to describe, and its styles."""
+    if any(len(row.cells) > 1 for row in rows):
+        rows = [_Row("", headings, "dim"), *rows]
+    sizes = [[cell_len(cell) for cell in row.cells] for row in rows]
+    widths = [min(WIDEST, max(column)) for column in zip_longest(*sizes, fillvalue=0)]
+    for row, taken in zip(rows, sizes, strict=True):
+        padded = []
+        for column, (cell, size) in enumerate(zip(row.cells, taken, strict=True)):
+            room = " " * (widths[column] - size)
+            # Numbers stand right, so that their points are under each other.
+            padded.append(room + cell if column >= 3 else cell + room)
+        whole = "  ".join(padded).rstrip()
+        yield "\n", ""
+        yield row.lead, "dim"
+        yield whole[len(row.lead) :], row.style
 
 
 def _style(info: FrameInfo) -> str:

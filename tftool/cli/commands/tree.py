@@ -109,8 +109,9 @@ def tree(
     seen = observe(connection, place, at, cache_time=cache_time)
     # dot, mermaid and YAML have no place for them.
     silent = (TreeFormat.dot, TreeFormat.mermaid, TreeFormat.yaml)
-    marks = {} if form in silent else seen.marks()
-    _write(seen.snapshot(), seen.moving, form, output, marks, wide=wide)
+    snapshot = seen.snapshot()
+    marks = {} if form in silent else seen.marks(snapshot)
+    _write(snapshot, seen.moving, form, output, marks, wide=wide)
     for sentence in rivalries(seen.buffer, seen.buffer.frames()):
         notice(sentence)
     return ExitStatus.DONE
@@ -249,7 +250,7 @@ def _watch_with_keys(session: "Session", duration: Duration | None) -> None:
 
     world = session.world
     setting = setting_from(os.environ, sys.stdout.encoding or "ascii", Setting())
-    app = TreeWatch(world, lambda: marks(world.buffer), setting)
+    app = TreeWatch(world, lambda snapshot: marks(world.buffer, snapshot), setting)
 
     def tell(record: "LogRecord") -> None:
         if is_news(record):
@@ -286,9 +287,8 @@ async def _redrawn(world: "World", duration: Duration | None, console: "Console"
         end = None if duration is None else due + duration
         pace.limit(end)
         while end is None or due <= end:
-            picture = _fitting(
-                world.buffer.snapshot(world.clock.now()), None, marks(world.buffer), console
-            )
+            snapshot = world.buffer.snapshot(world.clock.now())
+            picture = _fitting(snapshot, None, marks(world.buffer, snapshot), console)
             live.update(Group(picture, news), refresh=True)
             due = max(due + seconds(0.5), pace.now())
             await pace.sleep_until(due, Phase.WATCH)
