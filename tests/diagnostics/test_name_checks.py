@@ -1,10 +1,13 @@
 """The checks of names, each on a small robot of its own."""
 
 import pytest
+from hypothesis import given
+from hypothesis import strategies as st
 
 from tests.diagnostics.judged import found, ids
 from tests.diagnostics.robots import Robot, robot
 from tftool.diagnostics.findings import Severity
+from tftool.diagnostics.names import distance
 
 
 def test_a_frame_that_no_transform_names_is_told_with_what_fits():
@@ -85,3 +88,27 @@ def test_names_that_tools_stumble_over(name):
     made = robot()
     made.static("base_link", name)
     assert found(made, "awkward-name").frames == (name,)
+
+
+def by_definition(one, other):
+    """The distance as it is defined: of the ways to begin, the best one."""
+    if not one or not other:
+        return len(one) + len(other)
+    ways = [
+        by_definition(one[1:], other) + 1,
+        by_definition(one, other[1:]) + 1,
+        by_definition(one[1:], other[1:]) + (one[0] != other[0]),
+    ]
+    if len(one) > 1 and one[0] == other[1:2] and one[1] == other[0]:
+        ways.append(by_definition(one[2:], other[2:]) + 1)
+    return min(ways)
+
+
+@given(st.text("ab_", max_size=6), st.text("ab_", max_size=6), st.integers(0, 3))
+def test_the_distance_of_two_names_is_that_of_its_definition_up_to_what_is_asked(one, other, most):
+    right = by_definition(one, other)
+
+    measured = distance(one, other, most)
+
+    assert measured == right if right <= most else measured > most
+    assert distance(f"robot/{one}_link", f"robot/{other}_link", 12) == right

@@ -158,15 +158,17 @@ def static_missing(model: Model, limits: Limits) -> Iterator[Hit]:
 
 def static_late(model: Model, limits: Limits) -> Iterator[Hit]:
     """Statics arrive after what needs them."""
+    spatial = [heard for heard in model.heard if heard.is_spatial and len(heard.logs)]
+    earliest = min((int(heard.logs[0]) for heard in spatial), default=NEVER)
     for track in model.statics:
-        if not len(track.logs):
+        if not len(track.logs) or track.logs[0] <= earliest:
             continue
         first = int(track.logs[0])
         below = model.below(track.child)
         missed = [
             (heard, int(np.count_nonzero(heard.logs < first)))
-            for heard in model.heard
-            if heard.is_spatial and heard.frame in below and len(heard.logs)
+            for heard in spatial
+            if heard.frame in below
         ]
         missed = [(heard, count) for heard, count in missed if count]
         late = max((first - int(heard.logs[0]) for heard, _ in missed), default=0)

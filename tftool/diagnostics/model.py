@@ -96,8 +96,8 @@ class Model:
         self.material = material
         self.settings = settings or Settings()
         tracks = [Track(edge, material.transforms) for edge in material.transforms.edges]
-        self.nameless = tuple(t for t in tracks if not t.parent or not t.child or _is_own(t))
-        self.tracks = tuple(t for t in tracks if t not in self.nameless)
+        self.nameless = tuple(track for track in tracks if _is_nameless(track))
+        self.tracks = tuple(track for track in tracks if not _is_nameless(track))
         self.heard = tuple(
             Heard(headers, number)
             for headers in material.headers.values()
@@ -186,13 +186,14 @@ class Model:
         """By the latest parents, the largest first."""
         root_of: dict[str, tuple[str, bool]] = {}
         for frame in sorted(self.frames):
-            walked: list[str] = []
+            walked: dict[str, None] = {}
             here, circle = frame, False
             while here not in root_of:
                 if here in walked:
-                    here, circle = min(walked[walked.index(here) :]), True
+                    way = list(walked)
+                    here, circle = min(way[way.index(here) :]), True
                     break
-                walked.append(here)
+                walked[here] = None
                 above = self.parents.get(here)
                 if above is None:
                     break
@@ -226,17 +227,21 @@ class Model:
 
     def below(self, frame: str) -> frozenset[str]:
         """A frame and everything that hangs below it by the latest parents."""
-        children: dict[str, list[str]] = {}
-        for child, track in self.parents.items():
-            children.setdefault(track.parent, []).append(child)
         found: set[str] = set()
         waiting = [frame]
         while waiting:
             one = waiting.pop()
             if one not in found:
                 found.add(one)
-                waiting += children.get(one, ())
+                waiting += self._children.get(one, ())
         return frozenset(found)
+
+    @cached_property
+    def _children(self) -> dict[str, list[str]]:
+        children: dict[str, list[str]] = {}
+        for child, track in self.parents.items():
+            children.setdefault(track.parent, []).append(child)
+        return children
 
     @cached_property
     def sensor_frame(self) -> str:
@@ -355,8 +360,8 @@ class Model:
         return min(offsets, default=0)
 
 
-def _is_own(track: Track) -> bool:
-    return track.parent == track.child
+def _is_nameless(track: Track) -> bool:
+    return not track.parent or not track.child or track.parent == track.child
 
 
 def _steps_back(stamps: Stamps) -> list[int]:

@@ -150,7 +150,7 @@ def case_twins(model: Model, limits: Limits) -> Iterator[Hit]:
     """Names that differ in case, hyphens, underscores or blanks only."""
     alike: dict[str, list[str]] = defaultdict(list)
     for name in _names(model):
-        alike[re.sub(r"[-_\s]", "", name).casefold()].append(name)
+        alike[_bare(name)].append(name)
     for twins in alike.values():
         if len(twins) > 1:
             yield _twins(model, twins)
@@ -164,6 +164,7 @@ def typo_twins(model: Model, limits: Limits) -> Iterator[Hit]:
     if len(dangling) * len(names) > MOST_COMPARED:
         dangling = dangling[: max(1, MOST_COMPARED // len(names))]
     told: set[frozenset[str]] = set()
+    spelled = {name: _Spelled(name) for name in names} if dangling else {}
     for one in dangling:
         for other in names:
             pair = frozenset((one, other))
@@ -171,29 +172,53 @@ def typo_twins(model: Model, limits: Limits) -> Iterator[Hit]:
                 continue
             if one in model.frames and model.tree_of[one] is model.tree_of.get(other):
                 continue
-            if _is_typo(one, other, limits):
+            if _is_typo(spelled[one], spelled[other], limits):
                 told.add(pair)
                 yield _twins(model, sorted(pair))
 
 
-def _is_typo(one: str, other: str, limits: Limits) -> bool:
-    shorter = min(len(one), len(other))
-    if shorter < limits["shortest"] or last_part(one) == last_part(other):
-        return False
-    if re.sub(r"[-_\s]", "", one).casefold() == re.sub(r"[-_\s]", "", other).casefold():
-        return False
-    if _FAMILY.sub("#", one.lower()) == _FAMILY.sub("#", other.lower()):
-        return False
-    return distance(one, other) <= (1 if shorter < limits["long"] else 2)
+class _Spelled:
+    """A name, and what of it counts beside its letters when it is compared."""
+
+    def __init__(self, name: str) -> None:
+        self.name = name
+        self.last_part = last_part(name)
+        self.bare = _bare(name)
+        self.family = _FAMILY.sub("#", name.lower())
 
 
-def distance(one: str, other: str) -> int:
+def _bare(name: str) -> str:
+    """A name without case, hyphens, underscores and blanks."""
+    return re.sub(r"[-_\s]", "", name).casefold()
+
+
+def _is_typo(one: _Spelled, other: _Spelled, limits: Limits) -> bool:
+    shorter = min(len(one.name), len(other.name))
+    if shorter < limits["shortest"] or one.last_part == other.last_part:
+        return False
+    if one.bare == other.bare or one.family == other.family:
+        return False
+    most = 1 if shorter < limits["long"] else 2
+    return distance(one.name, other.name, most) <= most
+
+
+def distance(one: str, other: str, most: int) -> int:
     """Letters to insert, drop, change or swap with a neighbour to make one word of another.
+
+    Args:
+        one: A word.
+        other: Another.
+        most: Where they are more, what is returned is some number above it.
 
     Source:
         Damerau, "A technique for computer detection and correction of spelling errors",
         1964; here in its restricted form (optimal string alignment).
     """
+    # What both begin and end with decides nothing, and is most of two names of one robot.
+    begin = _shared(one, other)
+    one, other = one[begin:], other[begin:]
+    end = _shared(one[::-1], other[::-1])
+    one, other = one[: len(one) - end], other[: len(other) - end]
     before: list[int] = []
     last = list(range(len(other) + 1))
     for row, letter in enumerate(one, start=1):
@@ -206,7 +231,16 @@ def distance(one: str, other: str) -> int:
                 cost = min(cost, before[column - 2] + 1)
             here.append(cost)
         before, last = last, here
+        # A swap goes on from the row before; else no number below is less than the least here.
+        if min(last) > most and min(before) >= most:
+            return most + 1
     return last[-1]
+
+
+def _shared(one: str, other: str) -> int:
+    """With how many letters both begin."""
+    pairs = enumerate(zip(one, other, strict=False))
+    return next((at for at, (a, b) in pairs if a != b), min(len(one), len(other)))
 
 
 def namespace_twins(model: Model, limits: Limits) -> Iterator[Hit]:

@@ -294,12 +294,11 @@ def _same(track: Track, one: int, other: int, limits: Limits) -> bool:
 
 def static_on_tf(model: Model, limits: Limits) -> Iterator[Hit]:
     """A constant on /tf that could be static."""
-    moving = [track for track in model.dynamic if track.moves]
-    if not moving:
+    if not any(track.moves for track in model.dynamic):
         return
     carried = _by_child(model.dynamic)
     for track in model.dynamic:
-        if track.is_localisation or track in moving or len(track.stamps) < limits["samples"]:
+        if track.is_localisation or track.moves or len(track.stamps) < limits["samples"]:
             continue
         joint = model.joint_above.get(track.child)
         if joint is not None and joint.moves:

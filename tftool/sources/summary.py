@@ -100,11 +100,11 @@ def trees(transforms: Transforms) -> list[TreeFacts]:
             parents[edge.child] = last, edge.parent
     roots: dict[str, str] = {}
     for name in names:
-        passed = []
+        passed: dict[str, None] = {}
         here = name
         # Up to a root, to what is known already, or round a loop.
         while here not in roots and here in parents and here not in passed:
-            passed.append(here)
+            passed[here] = None
             here = parents[here][1]
         root = roots.get(here, here)
         for one in (*passed, here):
