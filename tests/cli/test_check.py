@@ -76,6 +76,27 @@ def test_what_cannot_be_read_ends_with_3_and_the_rest_is_judged(tftool, scenario
     assert result.out.endswith("\n3 scenarios, 2 failed (wrong, gone): 1 of 1 expectation held\n")
 
 
+@pytest.mark.parametrize("word", ["more/*.yaml", "more", "more/"])
+def test_a_glob_and_a_folder_stand_for_the_scenarios_in_them(tftool, scenarios, word):
+    (scenarios / "more").mkdir()
+    (scenarios / "more" / "a.yaml").write_text(GOOD)
+    (scenarios / "more" / "b.yaml").write_text(BAD)
+    (scenarios / "more" / "notes.txt").write_text("no scenario")
+
+    result = tftool("check", word, "good.yaml")
+
+    assert result.status == 1
+    assert result.out.splitlines()[-1] == "3 scenarios, 1 failed (b): 3 of 4 expectations held"
+
+
+def test_a_folder_does_not_hide_a_built_in_scenario(tftool, scenarios):
+    (scenarios / "static").mkdir()
+    (scenarios / "static" / "bad.yaml").write_text(BAD)
+
+    assert tftool("check", "static").status == 0
+    assert tftool("check", "./static").status == 1
+
+
 def test_built_in_scenarios_are_known_by_name(tftool, scenarios):
     result = tftool("check", "static", "two_trees")
 

@@ -129,6 +129,25 @@ def test_the_demo_is_recorded_as_it_is_played(here, tftool):
     assert tftool("demo", "--for", "5", "--record", "run.mcap").status == 2
 
 
+def test_check_keeps_recordings_of_scenarios_of_one_name_apart(here, tftool):
+    for folder, turtle in (("left", "turtle1"), ("right", "turtle9")):
+        (here / folder).mkdir()
+        (here / folder / "fails.yaml").write_text(
+            "duration: 2 s\nnodes:\n  - turtlesim: {}\n"
+            "  - broadcaster: {turtle: turtle1}\n"
+            f"  - static: {{parent: map, child: {turtle}_sees}}\n"
+            "expect:\n  - {at: 1 s, trees: 9}\n"
+        )
+
+    done = tftool("check", "left/fails.yaml", "right", "--record", "kept")
+
+    assert done.status == 1
+    assert sorted(os.listdir("kept")) == ["fails.mcap", "fails_2.mcap"]
+    for name, child in (("fails", "turtle1_sees"), ("fails_2", "turtle9_sees")):
+        with open_recording(f"kept/{name}.mcap") as recording:
+            assert child in {edge.child for edge in recording.edges}
+
+
 def test_check_keeps_the_recording_of_a_scenario_that_fails_and_no_other(here, tftool):
     (here / "fails.yaml").write_text(
         "about: It fails.\nduration: 2 s\nnodes:\n  - turtlesim: {}\n"

@@ -20,6 +20,9 @@ if TYPE_CHECKING:
     from tftool.scenario.schema import Scenario
     from tftool.scenario.verdict import Verdict
 
+SUFFIXES = (".yaml", ".yml")
+"""What scenario files in a folder end in."""
+
 _IN_PLACE = re.compile(r"([A-Za-z_]\w*)=(.*)", re.DOTALL)
 
 
@@ -27,7 +30,8 @@ def check(
     scenarios: Annotated[
         list[str],
         typer.Argument(
-            metavar="SCENARIO...", help="Built-in scenarios by name, or paths of scenario files."
+            metavar="SCENARIO...",
+            help="Built-in scenarios by name, or scenario files: paths, globs, folders.",
         ),
     ],
     programs: Annotated[
@@ -89,8 +93,13 @@ def check(
     from tftool.cli.printing import write, write_file
     from tftool.views import judgements
 
+    kept = None if recordings is None else _Kept(recordings)
     with _judge_of(programs or (), launched, force=force, verbose=verbose) as judge:
-        judged = [_judge(word, judge, recordings, own_nodes=launched is None) for word in scenarios]
+        judged = [
+            _judge(word, judge, kept, own_nodes=launched is None)
+            for words in scenarios
+            for word in _unfolded(words)
+        ]
     reports = [report for report, _ in judged]
     if for_programs:
         sys.stdout.write(json.dumps(judgements.as_rows(reports), indent=2) + "\n")
@@ -111,6 +120,25 @@ def check(
     if not all(readable for _, readable in judged):
         return ExitStatus.UNREADABLE
     return ExitStatus.DONE if all(report.ok for report in reports) else ExitStatus.FAILED
+
+
+def _unfolded(word: str) -> list[str]:
+    """The files that a glob or a folder of scenarios stands for: not every shell unfolds globs."""
+    import glob
+    import os
+
+    from tftool.scenario import builtin
+    from tftool.sources.find import METADATA
+
+    files: list[str] = []
+    if builtin.path_of(word) is None:
+        if os.path.isdir(word):
+            listed = sorted(os.listdir(word))
+            if METADATA not in listed:
+                files = [os.path.join(word, one) for one in listed if one.endswith(SUFFIXES)]
+        elif not os.path.lexists(word):
+            files = sorted(glob.glob(word))
+    return files or [word]
 
 
 @contextmanager
@@ -181,7 +209,7 @@ def _words(option: str, text: str) -> tuple[str, ...]:
 
 
 def _judge(
-    word: str, judge: "Callable[..., Verdict]", recordings: Path | None, *, own_nodes: bool
+    word: str, judge: "Callable[..., Verdict]", kept: "_Kept | None", *, own_nodes: bool
 ) -> "tuple[Report, bool]":
     """Report on one scenario, and whether it could be read; what could not is told at once."""
     from tftool.cli.naming import scenario_named
@@ -197,12 +225,30 @@ def _judge(
         return Report(Path(word).stem or word, word, (), failure=str(error)), False
     for mistake in scenario.not_a_tree if own_nodes else ():
         notice(visible_lines(str(mistake)))
-    if recordings is None:
+    if kept is None:
         return judge(scenario).report(), True
-    return _recorded(scenario, judge, recordings).report(), True
+    return _recorded(scenario, judge, kept.place(scenario.name)).report(), True
 
 
-def _recorded(scenario: "Scenario", judge: "Callable[..., Verdict]", folder: Path) -> "Verdict":
+class _Kept:
+    """The folder in which recordings of one run are kept, each under a name of its own."""
+
+    def __init__(self, folder: Path) -> None:
+        self._folder = folder
+        self._names: set[str] = set()
+
+    def place(self, name: str) -> Path:
+        """Where a scenario's recording is kept: by its name, numbered where that is taken."""
+        plain = free = re.sub(r"[^0-9A-Za-z_-]", "_", name)
+        number = 1
+        while free in self._names:
+            number += 1
+            free = f"{plain}_{number}"
+        self._names.add(free)
+        return self._folder / f"{free}.mcap"
+
+
+def _recorded(scenario: "Scenario", judge: "Callable[..., Verdict]", kept: Path) -> "Verdict":
     """Judge a scenario; its recording stays if something did not hold."""
     from functools import partial
 
@@ -212,11 +258,12 @@ def _recorded(scenario: "Scenario", judge: "Callable[..., Verdict]", folder: Pat
     from tftool.views.escaping import visible
 
     try:
-        folder.mkdir(parents=True, exist_ok=True)
+        kept.parent.mkdir(parents=True, exist_ok=True)
     except OSError as error:
         reason = error.strerror or error
-        raise InputError(f"'{visible(str(folder))}' cannot be written to: {reason}.") from error
-    kept = folder / f"{re.sub(r'[^0-9A-Za-z_-]', '_', scenario.name)}.mcap"
+        raise InputError(
+            f"'{visible(str(kept.parent))}' cannot be written to: {reason}."
+        ) from error
     # Beside its name until it is judged: one of an earlier run stays where nothing fails.
     played = kept.with_name(f".{kept.name}")
     verdict = judge(scenario, watch=partial(recorded, path=played, force=True))
