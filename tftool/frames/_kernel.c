@@ -151,6 +151,7 @@ static int open_way(Held *held, PyTypeObject *fields, PyObject *up, PyObject *do
     return 1;
 }
 
+/* Let go of the records of the links that are ready. */
 static void close_way(Held *held) {
     for (Py_ssize_t i = 0; i < held->way.count; i++)
         if (held->way.edges[i].records != NULL)
@@ -269,6 +270,7 @@ static int solve_plain(PyObject *self, const Types *types, PyObject *const *args
         && solve_path((const Door *)self, types, args[0], args[1], time, pose, made);
 }
 
+/* Each method answers as its entry in `door_methods` says, or has its plain twin answer. */
 METHOD(lookup_transform) {
     const Types *types = PyType_GetModuleState(door);
     PyObject *made = NULL;
@@ -280,6 +282,7 @@ METHOD(lookup_transform) {
     return PLAINLY(lookup_transform);
 }
 
+/* It asks for the answer, and tells only whether there is one. */
 METHOD(can_transform) {
     int64_t time;
     double pose[7];
@@ -296,6 +299,7 @@ static int solve_leg(const Door *door, const Types *types, PyObject *target, PyO
         || solve_path(door, types, target, source, time, pose, NULL);
 }
 
+/* Two answers, one behind the other; whatever is not plain is refused or answered in Python. */
 METHOD(lookup_transform_full) {
     const Types *types = PyType_GetModuleState(door);
     const Door *buffer = (const Door *)self;
@@ -418,6 +422,7 @@ static int insert(const Door *door, const Types *types, PyObject *sample, PyObje
     return done;
 }
 
+/* Who listens or waits is told by Python, once the sample is in. */
 METHOD(set_transform) {
     const Types *types = PyType_GetModuleState(door);
     const Door *buffer = (const Door *)self;
@@ -495,6 +500,7 @@ static PyMemberDef door_members[] = {
 #define HELD 4
 #define HELD_OF(self) ((PyObject **)((char *)(self) + sizeof(PyObject)))
 
+/* Show the collector all that is held, and the type, as every heap type must. */
 static int held_traverse(PyObject *self, visitproc visit, void *arg) {
     Py_VISIT(Py_TYPE(self));
     for (int i = 0; i < HELD; i++)
@@ -502,6 +508,7 @@ static int held_traverse(PyObject *self, visitproc visit, void *arg) {
     return 0;
 }
 
+/* Let go of all that is held: the collector found it in a circle. */
 static int held_clear(PyObject *self) {
     for (int i = 0; i < HELD; i++)
         Py_CLEAR(HELD_OF(self)[i]);
@@ -549,6 +556,7 @@ static PyTypeObject *holder(PyObject *module, const char *name, size_t size, con
     return (PyTypeObject *)made;
 }
 
+/* Fill the module and its state. Returns -1 with an error set on failure. */
 static int module_exec(PyObject *module) {
     Types *types = PyModule_GetState(module);
     PyTypeObject *door = holder(module, "tftool.frames._kernel.Door", sizeof(Door),
