@@ -59,6 +59,19 @@ test("what is shown is live, stale or gone", () => {
   assert.equal(freshness("open", model, false), "live");
 });
 
+test("a page that is opened late says how old its news is", () => {
+  const model = new Model();
+  const came = (now, newest, when) => model.setPoses({ at: null, revision: -2, now, newest }, when);
+  came(50, 10, 1_000);
+  came(57, 10, 8_000);
+  assert.equal(model.unheard(), 7);
+  assert.equal(model.quiet(), 47);
+  // What came since is as old as it is long ago, whatever clock it was stamped with.
+  came(58, 11, 9_000);
+  came(64, 11, 15_000);
+  assert.equal(model.quiet(), 6);
+});
+
 test("of a long name the end is always to be seen", () => {
   assert.deepEqual(halves("base_link"), ["base_link"]);
   assert.deepEqual(halves("front_left_ultrasonic_optical_frame_3"), ["front_left_ultrasonic_opt", "ical_frame_3"]);

@@ -51,7 +51,7 @@ export class Model {
     this.heard = new Map(); // name → { stamp, when }: when the latest common stamp last changed
     this.heardAt = 0; // when poses of the present came last, milliseconds
     /** When a stamp newer than all before came last, milliseconds, and what the session's time was. */
-    this.fresh = { newest: Number.NaN, when: 0, now: 0 };
+    this.fresh = { newest: Number.NaN, when: 0, now: 0, isFirst: true };
     this.silence = 0; // seconds since then, while nothing can come
     /** @type {Map<string, number>} */
     this.places = new Map(); // of the names, in the order in which they first appeared
@@ -112,7 +112,9 @@ export class Model {
     if (last && poses.now < moment(last)) this.forget();
     this.remember(poses);
     this.heardAt = when;
-    if (this.fresh.newest !== poses.newest) this.fresh = { newest: poses.newest, when, now: poses.now };
+    if (this.fresh.newest !== poses.newest) {
+      this.fresh = { newest: poses.newest, when, now: poses.now, isFirst: Number.isNaN(this.fresh.newest) };
+    }
   }
 
   /** Keep poses for trails, in the order of their moments. */
@@ -217,6 +219,12 @@ export class Model {
   unheard() {
     if (!this.poses || this.poses.now === this.fresh.now) return 0;
     return (this.heardAt - this.fresh.when) / 1000;
+  }
+
+  /** The same for people: what was old when the page was opened is as old as its stamp says. */
+  quiet() {
+    if (!this.poses || !this.fresh.isFirst) return this.unheard();
+    return Math.max(this.unheard(), (this.poses.now - this.poses.newest) / this.rate);
   }
 
   /** Seconds since the frame's newest stamp, the silence since the server was heard last included. */

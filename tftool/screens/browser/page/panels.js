@@ -136,7 +136,7 @@ export function showBanner(state, model, { missed, fixed }) {
   const said = {
     gone: `The session is gone. ${last} Waiting for it to come back.`,
     silent: `tftool view does not answer. ${last}`,
-    stale: `No new data for ${spell(model.unheard())}. The newest transform is of ${seen}.`,
+    stale: `No new data for ${spell(model.quiet())}. The newest transform is of ${seen}.`,
   };
   setText($("banner"), said[state]);
 }
