@@ -58,3 +58,15 @@ def test_a_moment_counts_from_the_start_unless_it_is_a_stamp():
 def test_a_moment_that_is_none_is_refused(text):
     with pytest.raises(typer.BadParameter):
         moment(text)
+
+
+def test_nanoseconds_are_refused_with_what_they_are_in_seconds():
+    """`--json` gives stamps in nanoseconds: they are handed back."""
+    with pytest.raises(typer.BadParameter) as refused:
+        moment("1750000002123456789")
+
+    assert str(refused.value) == (
+        "'1750000002123456789' is too large for seconds; if it is nanoseconds, write "
+        "1750000002.123456789."
+    )
+    assert moment("1750000002.123456789") == At(1750000002123456789, is_stamp=True)

@@ -178,6 +178,11 @@ def moment(text: str) -> At:
     """
     if re.match(r"\d{4}-?\d\d-?\d\d[T ]", text):
         return _date(text)
+    if re.fullmatch(r"[0-9]{18,19}", text):
+        raise typer.BadParameter(
+            f"'{text}' is too large for seconds; if it is nanoseconds, write "
+            f"{text[:-9]}.{text[-9:]}."
+        )
     try:
         not_negative(float(text))
         found, exact = _nanoseconds(text)
