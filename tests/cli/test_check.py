@@ -171,6 +171,14 @@ def test_junit_is_for_build_servers(tftool, scenarios):
     assert (root.attrib["tests"], root.attrib["failures"], root.attrib["errors"]) == ("4", "1", "1")
 
 
+def test_a_report_goes_to_no_file_called_dash(tftool, scenarios):
+    result = tftool("check", "good.yaml", "--junit", "-")
+
+    assert result.status == 2
+    assert "'-' stands for stdout" in result.err
+    assert not (scenarios / "-").exists()
+
+
 def test_a_report_that_cannot_be_written_is_told(tftool, scenarios):
     result = tftool("check", "good.yaml", "--junit", "no/such/folder.xml")
 

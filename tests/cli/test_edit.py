@@ -94,6 +94,7 @@ def test_a_dry_run_writes_nothing(run, capsys):
     [
         (["-o", "a.mcap", "--force"], 2, "is the input"),
         (["-o", "b.txt"], 2, "names no container"),
+        (["-o", "-"], 2, "'-' stands for stdout, to which this is not written"),
         (["-o", "nowhere/b.mcap"], 3, "there is no folder"),
         (["-o", "b.mcap", "--split-every", "5"], 2, "folder: 'b', not 'b.mcap'"),
         (["-o", "b.mcap", "--set", "base_link:laser=1,2"], 2, "takes 6 numbers"),

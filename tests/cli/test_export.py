@@ -55,6 +55,17 @@ def same_turns(found, wanted, within):
     return (Rotation.from_quat(found) * Rotation.from_quat(wanted).inv()).magnitude().max() < within
 
 
+@pytest.mark.parametrize("words", [["odom", "camera", "-f", "csv"], ["-f", "sh"]])
+def test_a_dash_is_no_name_of_a_file(tftool, run, tmp_path, monkeypatch, words):
+    monkeypatch.chdir(tmp_path)
+
+    result = tftool("export", *words[:-2], run, *words[-2:], "-o", "-")
+
+    assert result.status == 2
+    assert "'-' stands for stdout, to which this is not written: name a file." in result.err
+    assert os.listdir(tmp_path) == ["run.mcap"]
+
+
 def test_a_recording_becomes_tum(tftool, run, wanted, tmp_path):
     result = tftool("export", "odom", "camera", run, "-o", tmp_path / "run.tum")
 

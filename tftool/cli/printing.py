@@ -39,7 +39,11 @@ def write_file(path: Path, content: str | bytes) -> None:
 
     Raises:
         InputError: If that fails.
+        UsageError: If the name is `-`.
     """
+    from tftool.sources.writing.target import refuse_stdout
+
+    refuse_stdout(path)
     try:
         if isinstance(content, bytes):
             path.write_bytes(content)

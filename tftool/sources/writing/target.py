@@ -19,12 +19,23 @@ PART: Final = ".part"
 """What is added to a name while it is written."""
 
 
+def refuse_stdout(path: Path) -> None:
+    """Refuse `-`, which people write for stdout, as the name of a file.
+
+    Raises:
+        UsageError: If it is that.
+    """
+    if str(path) == "-":
+        raise UsageError("'-' stands for stdout, to which this is not written: name a file.")
+
+
 def refuse_existing(path: Path, *, force: bool) -> None:
     """Refuse to write where something is, a broken symbolic link included.
 
     Raises:
-        UsageError: If something has that name and `force` is not given.
+        UsageError: If something has that name and `force` is not given, or it is `-`.
     """
+    refuse_stdout(path)
     if not force and os.path.lexists(path):
         raise UsageError(f"'{path}' exists: --force replaces it.")
 
