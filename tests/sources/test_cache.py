@@ -1,6 +1,7 @@
 """Columns that are kept for the next question to a large recording."""
 
 import json
+import os
 import random
 import subprocess
 import sys
@@ -13,12 +14,12 @@ pytest.importorskip("rosbags", reason="writes the test files")
 pytest.importorskip("mcap", reason="writes the test files")
 pytest.importorskip("zstandard", reason="the extra 'recordings' is not installed")
 
-from tests.patience import PATIENCE
+from tests.patience import PATIENCE, answered
 from tests.sources.writers import content, write_mcap
 from tftool import open_recording
 from tftool.sources import cache_heads as caching
 from tftool.sources.cache import ColumnCache
-from tftool.sources.cache_heads import default_folder, key_of
+from tftool.sources.cache_heads import default_folder, frames_kept, key_of
 from tftool.sources.find import find
 
 SENT = content(40)
@@ -102,6 +103,23 @@ def test_garbage_in_the_cache_is_as_if_it_were_not_there(file, cache, seed):
     found, _ = transforms_of(file, cache)
 
     same(found, whole)
+
+
+@pytest.mark.parametrize("make", [getattr(os, "mkfifo", os.mkdir), os.mkdir])
+def test_what_is_no_file_in_an_entrys_place_is_passed_over_and_left_alone(file, cache, make):
+    entry = cache.folder / f"{key_of(find(str(file)))}.columns"
+    cache.folder.mkdir()
+    make(entry)
+    make(cache.folder / "other.columns")
+
+    assert answered(lambda: frames_kept(find(str(file)))) is None
+    found, was_read = answered(lambda: transforms_of(file, cache))
+
+    assert was_read
+    same(found, transforms_of(file)[0])
+    ColumnCache(cache.folder, most_bytes=30_000).store("0", found)
+    assert not (cache.folder / "other.columns").is_file()
+    assert (cache.folder / "other.columns").exists()
 
 
 def test_an_entry_of_another_recording_is_none_of_this(file, cache, tmp_path):

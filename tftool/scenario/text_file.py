@@ -3,6 +3,7 @@
 from pathlib import Path
 
 from tftool.errors import InputError
+from tftool.named_files import open_named
 from tftool.scenario import document
 from tftool.views.escaping import visible
 
@@ -14,7 +15,7 @@ def text_of(path: Path | str) -> str:
         InputError: If it cannot be read, or is no UTF-8.
     """
     try:
-        with Path(path).open("rb") as file:
+        with open_named(Path(path)) as file:
             raw = file.read(4 * document.LARGEST + 1)
     except OSError as error:
         raise InputError(

@@ -8,6 +8,7 @@ not there: it may be cut, be another program's, or be written by another process
 import contextlib
 import json
 import os
+import stat
 import tempfile
 import zlib
 from collections.abc import Iterator
@@ -16,6 +17,7 @@ from typing import Any, Final
 
 import numpy as np
 
+from tftool.named_files import open_regular
 from tftool.sources.cache_heads import MAGIC, SUFFIX, head_size, key_of, parsed_head
 from tftool.sources.contract import Edge, Publisher, Transforms
 from tftool.sources.find import Found
@@ -46,7 +48,7 @@ class ColumnCache:
             return None
         path = self.folder / f"{key}{SUFFIX}"
         try:
-            with path.open("rb") as file:
+            with open_regular(path) as file:
                 size = os.fstat(file.fileno()).st_size
                 if size > LARGEST:
                     return None
@@ -92,6 +94,8 @@ class ColumnCache:
             if path.suffix in (SUFFIX, ".part"):
                 with contextlib.suppress(OSError):
                     status = path.stat()
+                    if not stat.S_ISREG(status.st_mode):
+                        continue  # none of ours
                     entries.append((status.st_mtime, status.st_size, path))
                     newest = max(newest, status.st_mtime)
         total = sum(size for _, size, _ in entries)

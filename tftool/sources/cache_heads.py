@@ -12,6 +12,7 @@ from collections.abc import Iterator
 from pathlib import Path
 from typing import Any, Final
 
+from tftool.named_files import open_regular
 from tftool.sources.find import METADATA, Found
 
 FORMAT: Final = 2
@@ -128,7 +129,7 @@ def frames_kept(found: Found) -> list[str] | None:
         return None
     try:
         key = key_of(found, any_size=True)
-        with (folder / f"{key}{SUFFIX}").open("rb") as file:
+        with open_regular(folder / f"{key}{SUFFIX}") as file:
             first = file.read(len(MAGIC) + 12)
             head = parsed_head(first + file.read(head_size(first) - len(first)), key)
         links = [(str(edge[0]), str(edge[1])) for edge in head["edges"]]

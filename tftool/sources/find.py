@@ -14,6 +14,7 @@ from enum import Enum
 from pathlib import Path
 
 from tftool.errors import InputError
+from tftool.named_files import open_regular
 
 MCAP_MAGIC = b"\x89MCAP0\r\n"
 SQLITE_MAGIC = b"SQLite format 3\x00"
@@ -220,7 +221,7 @@ def _nothing(path: Path) -> InputError:
 
 
 def _is_metadata(path: Path) -> bool:
-    with path.open("rb") as file:
+    with open_regular(path) as file:
         return b"rosbag2_bagfile_information" in file.read(_HEAD)
 
 

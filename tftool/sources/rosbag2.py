@@ -11,6 +11,7 @@ from pathlib import Path
 from typing import Any, Final
 
 from tftool.errors import InputError
+from tftool.named_files import open_regular
 from tftool.sources.compressed import most_of, zstandard
 from tftool.sources.container import Container
 from tftool.sources.find import METADATA, Found, Kind, kind_of_file, refusal
@@ -129,11 +130,13 @@ def _listed(folder: Path, damage: list[str]) -> list[str]:
     try:
         if path.stat().st_size > _LARGEST_METADATA:
             raise ValueError("it is too large")
-        document: Any = yaml_guard.load(path.read_text(encoding="utf-8"), loader)
+        with open_regular(path) as file:
+            document: Any = yaml_guard.load(file.read().decode(), loader)
         names = document["rosbag2_bagfile_information"]["relative_file_paths"]
         return [Path(str(name)).name for name in names][:10_000]
-    except (yaml.YAMLError, ValueError, KeyError, TypeError, RecursionError) as error:
-        first = (str(error) or type(error).__name__).splitlines()[0]
+    except (OSError, yaml.YAMLError, ValueError, KeyError, TypeError, RecursionError) as error:
+        why = getattr(error, "strerror", None) or str(error) or type(error).__name__
+        first = why.splitlines()[0]
         damage.append(f"Its {METADATA} cannot be read ({first}): the files are read as they are.")
         return []
 

@@ -17,6 +17,7 @@ from tftool import yaml_guard
 from tftool.errors import InputError, UsageError
 from tftool.frames.buffer import NO_LIMIT, Buffer
 from tftool.frames.sample import TransformStamped
+from tftool.named_files import read_named
 from tftool.notation.static_arguments import StaticArguments, of_line
 from tftool.stamps import Stamp
 
@@ -69,7 +70,7 @@ def load_statics(path: Path, name: str | None = None) -> StaticFrames:
     try:
         if path.stat().st_size > LARGEST:
             raise InputError(f"'{name}' is larger than {LARGEST} bytes: it is no launch file.")
-        text = path.read_text(encoding="utf-8-sig", errors="replace")
+        text = read_named(path).decode("utf-8-sig", "replace")
     except OSError as error:
         raise InputError(f"'{name}' cannot be read: {error.strerror or error}.") from error
     start = text.lstrip()

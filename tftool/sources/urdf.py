@@ -18,6 +18,7 @@ from xml.parsers import expat
 from tftool.errors import DescriptionError, InputError, Mistake, UsageError
 from tftool.geometry.conversions import quaternion_from_rpy
 from tftool.geometry.rigid import Transform, Vector3
+from tftool.named_files import read_named
 from tftool.near_names import did_you_mean, near_names
 from tftool.sources.robot_description import (
     JOINT_TYPES,
@@ -142,7 +143,7 @@ def _text_of(path: Path) -> str:
         size = path.stat().st_size
         if size > LARGEST:
             raise InputError(f"'{path}' has {size:,} bytes; a description may have {LARGEST:,}")
-        raw = path.read_bytes()
+        raw = read_named(path)
     except OSError as error:
         raise InputError(f"cannot read '{path}': {error.strerror or error}") from error
     declared = re.match(rb"""\s*<\?xml[^>]*encoding=["']([\w.-]+)["']""", raw)

@@ -11,6 +11,7 @@ from pathlib import Path
 from typing import Any, NamedTuple
 
 from tftool.errors import InputError, UsageError
+from tftool.named_files import read_named_text
 from tftool.near_names import did_you_mean, near_names
 
 _STRANGE = re.compile(r"[^A-Za-z0-9_]")
@@ -371,7 +372,7 @@ def read_parameters(
     from tftool import yaml_guard
 
     try:
-        text = path.read_text(encoding="utf-8")
+        text = read_named_text(path)
     except (OSError, UnicodeDecodeError) as error:
         reason = error.strerror if isinstance(error, OSError) else "it is not UTF-8 text"
         raise InputError(f"cannot read the parameter file '{path}': {reason}") from None

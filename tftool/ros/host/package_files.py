@@ -11,6 +11,7 @@ from pathlib import Path, PurePosixPath
 from typing import Any
 
 from tftool.errors import InputError
+from tftool.named_files import read_named_text
 
 MARKS = ("package.xml", "setup.py", "setup.cfg", "pyproject.toml")
 """One of these in a folder makes it a package."""
@@ -111,7 +112,7 @@ def read_text(path: Path) -> str:
         InputError: If it cannot be read, or is no UTF-8.
     """
     try:
-        return path.read_text(encoding="utf-8")
+        return read_named_text(path)
     except (OSError, UnicodeDecodeError) as error:
         raise InputError(f"cannot read '{path}': {error}") from None
 

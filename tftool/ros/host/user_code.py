@@ -7,6 +7,7 @@ from types import CodeType, ModuleType
 from typing import Any
 
 from tftool.errors import InputError, UsageError
+from tftool.named_files import open_regular
 from tftool.ros.host import importing, program
 from tftool.ros.host.error_text import syntax_sentence
 from tftool.ros.host.shims import builtins_for_users
@@ -63,7 +64,8 @@ def compile_file(path: Path) -> Any:
         InputError: If it cannot be read or is no Python.
     """
     try:
-        source = path.read_bytes()
+        with open_regular(path) as file:
+            source = file.read()
     except OSError as error:
         raise InputError(f"cannot read '{path}': {error.strerror}") from None
     try:

@@ -10,6 +10,7 @@ import yaml
 
 from tftool import yaml_guard
 from tftool.errors import InputError
+from tftool.named_files import read_named
 from tftool.near_names import did_you_mean
 
 DEEPEST = 100
@@ -98,7 +99,7 @@ def read(path: Path) -> list[Element]:
         InputError: If it cannot be read or is laid out otherwise; the line is told.
     """
     try:
-        data = path.read_bytes()
+        data = read_named(path)
     except OSError as error:
         raise InputError(f"cannot read '{path}': {error.strerror}") from None
     return read_xml(data, path) if path.suffix == ".xml" else read_yaml(data, path)

@@ -7,6 +7,7 @@ from pathlib import Path
 from typing import Any, get_args
 
 from tftool.errors import UsageError
+from tftool.named_files import read_named_text
 from tftool.ros.host import names
 from tftool.ros.launch.context import LaunchContext
 from tftool.ros.launch.parsing import parsed
@@ -114,7 +115,7 @@ class ParameterFile:
         """
         path = Path(perform(context, self._given))
         if is_true(perform(context, self.allow_substs)):
-            text = perform(context, parsed(path.read_text(encoding="utf-8"), str(path)))
+            text = perform(context, parsed(read_named_text(path), str(path)))
             handle, made = tempfile.mkstemp(prefix="parameters-", suffix=".yaml")
             with open(handle, "w", encoding="utf-8") as file:
                 file.write(text)

@@ -8,6 +8,7 @@ from pathlib import Path
 from typing import Any, Final
 
 from tftool.errors import UsageError
+from tftool.named_files import read_named_text
 from tftool.near_names import did_you_mean
 from tftool.ros.launch import commands, packages
 from tftool.ros.launch.context import LaunchContext
@@ -325,7 +326,7 @@ class FileContent(Substitution):
         """The text."""
         path = perform(context, self.path)
         try:
-            return Path(path).read_text(encoding="utf-8")
+            return read_named_text(Path(path))
         except (OSError, UnicodeDecodeError) as error:
             reason = getattr(error, "strerror", None) or "it is no UTF-8 text"
             raise SubstitutionFailure(f"cannot read '{path}': {reason}") from None

@@ -7,6 +7,7 @@ from pathlib import Path
 from typing import Any
 
 from tftool.errors import InputError, UsageError
+from tftool.named_files import open_regular
 from tftool.sources.editing.mcap_tape import McapTape
 from tftool.sources.editing.rosbag1_tape import Rosbag1Tape
 from tftool.sources.editing.sqlite_tape import SqliteTape
@@ -145,7 +146,8 @@ def _metadata(folder: Path) -> Mapping[str, Any] | None:
     from tftool import yaml_guard
 
     try:
-        document = yaml_guard.load((folder / METADATA).read_text(encoding="utf-8"))
+        with open_regular(folder / METADATA) as file:
+            document = yaml_guard.load(file.read().decode())
         found = document["rosbag2_bagfile_information"]
     except (OSError, yaml.YAMLError, ValueError, KeyError, TypeError, RecursionError):
         return None

@@ -1,0 +1,86 @@
+"""Files that people name, and files that should be there: opened so that nothing hangs.
+
+Opening a pipe waits for a process that writes into it, for ever where none does.
+"""
+
+import errno
+import io
+import os
+import stat
+from pathlib import Path
+from typing import BinaryIO, Final
+
+LARGEST: Final = 64 << 20
+"""Bytes that are taken from a pipe or a device, which may never end."""
+
+_HOW: Final = os.O_RDONLY | getattr(os, "O_NONBLOCK", 0) | getattr(os, "O_BINARY", 0)
+
+
+def open_regular(path: Path) -> io.BufferedReader:
+    """A file for reading.
+
+    Raises:
+        OSError: If it cannot be opened, or is no regular file but a pipe, say.
+    """
+    file, mode = _opened(path)
+    if not stat.S_ISREG(mode):
+        file.close()
+        raise OSError(errno.EINVAL, "it is no regular file", str(path))
+    return io.BufferedReader(file)
+
+
+def open_named(path: Path) -> BinaryIO:
+    """A file, or all that comes through a pipe, as of a shell's `<(command)`.
+
+    Raises:
+        OSError: If it cannot be opened, no process writes into the pipe, or too much comes.
+    """
+    file, mode = _opened(path)
+    if stat.S_ISREG(mode):
+        return io.BufferedReader(file)
+    with file:
+        # None: a process has it open, and has not written yet.
+        first = file.read(io.DEFAULT_BUFFER_SIZE)
+        if first == b"" and stat.S_ISFIFO(mode):
+            raise OSError(errno.EINVAL, "it is a pipe into which no process writes", str(path))
+        os.set_blocking(file.fileno(), True)
+        data = bytearray(first or b"")
+        while len(data) <= LARGEST and (more := file.read(io.DEFAULT_BUFFER_SIZE)):
+            data += more
+    if len(data) > LARGEST:
+        raise OSError(errno.EFBIG, f"more than {LARGEST >> 20} MiB come out of it", str(path))
+    return io.BytesIO(data)
+
+
+def read_named(path: Path) -> bytes:
+    """All of a file, or of what comes through a pipe.
+
+    Raises:
+        OSError: As of `open_named`.
+    """
+    with open_named(path) as file:
+        return file.read()
+
+
+def read_named_text(path: Path) -> str:
+    """The same as UTF-8 text, whose lines end as Python's do.
+
+    Raises:
+        OSError: As of `open_named`.
+        UnicodeDecodeError: If it is no UTF-8.
+    """
+    with io.TextIOWrapper(open_named(path), encoding="utf-8") as file:
+        return file.read()
+
+
+def _opened(path: Path) -> tuple[io.FileIO, int]:
+    """A file that was opened without waiting for anyone, and its mode; a folder is refused."""
+    number = os.open(path, _HOW)
+    try:
+        mode = os.fstat(number).st_mode
+        if stat.S_ISDIR(mode):
+            raise IsADirectoryError(errno.EISDIR, os.strerror(errno.EISDIR), str(path))
+        return io.FileIO(number), mode
+    except BaseException:
+        os.close(number)
+        raise
