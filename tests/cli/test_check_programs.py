@@ -79,7 +79,7 @@ def test_a_listener_that_looks_the_wrong_way_round_fails_with_what_was_found(tft
     assert result.status == 1
     assert "turtles FAILED" in shown
     assert (
-        "at 10 s: distance from turtle2 to turtle1 is 0.041481 m ± 1e-05 found at 10 s: " in shown
+        "at 10 s: distance from turtle2 to turtle1 is 0.041481 m ± 1e-05 m found at 10 s: " in shown
     )
     assert "at 3 s: distance" not in shown
 

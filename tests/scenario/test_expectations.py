@@ -95,7 +95,7 @@ def test_what_is_true_holds(expectation):
         ),
         (
             "{by: 2 s, distance: {from: map, to: post}, is: 4 m, tolerance: 1 mm}",
-            "by 2 s: distance from map to post is 4 m ± 0.001",
+            "by 2 s: distance from map to post is 4 m ± 0.001 m",
             "5 m",
             2,
         ),

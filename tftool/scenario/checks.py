@@ -105,7 +105,7 @@ class RangeCheck(AnswerCheck):
             low, high = self.between
             parts.append(f"between {low:g} and {self._shown(high)}")
         if self.equal is not None:
-            off = "" if self.tolerance in (0.0, NEAR) else f" ± {self.tolerance:g}"
+            off = "" if self.tolerance in (0.0, NEAR) else f" ± {self._shown(self.tolerance)}"
             parts.append(f"is {self._shown(self.equal)}{off}")
         return " and ".join(parts)
 
