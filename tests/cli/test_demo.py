@@ -56,6 +56,25 @@ def test_all_scenarios_are_listed(tftool):
     assert "turtles      turtle2 follows turtle1, the tutorial's demo." in plain.out
 
 
+def test_on_a_narrow_terminal_the_list_breaks_between_words(tftool, monkeypatch):
+    piped = tftool("demo", "--list").out.splitlines()
+    monkeypatch.setenv("COLUMNS", "50")
+    monkeypatch.setenv("TERM", "xterm")
+    monkeypatch.setattr("sys.stdout.isatty", lambda: True)
+
+    lines = tftool("demo", "--list").out.splitlines()
+
+    rows = []
+    for line in lines:
+        if line.startswith(" " * 13):
+            rows[-1] += " " + line.lstrip()
+        else:
+            rows.append(line)
+    assert max(map(len, lines)) <= 50
+    assert len(lines) > len(piped)
+    assert rows == piped
+
+
 def test_two_runs_print_the_same(tftool):
     assert tftool("demo").out == tftool("demo").out
 

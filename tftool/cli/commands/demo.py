@@ -245,9 +245,15 @@ def _list(*, for_programs: bool) -> None:
     if for_programs:
         typer.echo(json.dumps([{"name": name, "about": about} for name, about in listed]))
         return
-    wide = max(len(name) for name, _ in listed) + 2
+    from rich.table import Table
+    from rich.text import Text
+
+    from tftool.cli.printing import write
+
+    table = Table.grid(padding=(0, 2), pad_edge=False)
     for name, about in listed:
-        typer.echo(f"{name:{wide}}{about}")
+        table.add_row(Text(name), Text(about))
+    write(table)
 
 
 def _show_recording(connection: "Connection", word: str, *, ascii_only: bool, light: bool) -> None:
