@@ -9,10 +9,12 @@ import os
 import statistics
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass
+from importlib.util import find_spec
 from pathlib import Path
 from random import Random
 
-from tests.benchmarks import growth, noetic
+from tests.benchmarks import batch, growth, noetic
+from tests.benchmarks.batch_peers import transform_tree_plan
 from tests.benchmarks.sides import Side
 from tests.differential.compare import PYTHON, missing
 from tftool.frames.native import IS_NATIVE, SWITCH
@@ -22,6 +24,8 @@ ROOT = Path(__file__).parents[2]
 TURNS = 11
 MOST = 2000
 """Questions a turn; fewer where each takes long."""
+SHOWN = 20
+"""So many answers are compared."""
 
 SECOND = 10**9
 PERIOD = 10**7
@@ -272,6 +276,36 @@ def row(workload: Workload, taken: dict[str, float]) -> str:
     return line
 
 
+def against_transform_tree() -> str:
+    """`transform_tree` (Rust), asked from Python for one moment after the other: a matrix."""
+    depth, wanted = 3, 1.0
+    name = f"transform_tree, any time in 1,000 samples, {depth} links"
+    if find_spec("tf_tree") is None:
+        return f"  {name}: left out, it is not installed"
+    world = batch.chain(depth)
+    plan = transform_tree_plan(world.stamps, world.samples)
+    moments = world.times(MOST, in_order=False).tolist()
+    lookup, target, source = world.buffer.lookup_transform, "f0", world.source
+
+    def ours() -> None:
+        for moment in moments:
+            lookup(target, source, moment)
+
+    def theirs() -> None:
+        for moment in moments:
+            plan.at(moment)
+
+    for moment in moments[:SHOWN]:
+        place = lookup(target, source, moment).transform.translation
+        if math.dist(place, plan.at(moment)[:3, 3].tolist()) > 1e-9:
+            return f"  {name}: answers differ"
+    taken = batch.interleaved({"ours": ours, "theirs": theirs}, rounds=TURNS)
+    mine, other = (seconds / MOST * 1e9 for seconds in taken.values())
+    ratio = other / mine
+    missed = " missed" if ratio < wanted else ""
+    return f"  {name}: {mine:.0f} ns, theirs {other:.0f} ns, {ratio:.2f} ({wanted:g}{missed})"
+
+
 def report() -> str:
     """Measure, and say it as a table: the native kernel and the plain path, in the same turns."""
     found, absent = sides()
@@ -299,7 +333,8 @@ def report() -> str:
         lines.append(row(workload, table[workload.name]))
     for side in found.values():
         side.end()
-    return "\n".join([*lines, memory + "   wanted: 70 at most", *growth.lines(table)])
+    memory += "   wanted: 70 at most"
+    return "\n".join([*lines, memory, *growth.lines(table), against_transform_tree()])
 
 
 if __name__ == "__main__":
