@@ -63,6 +63,25 @@ def test_an_unknown_frame_is_answered_with_those_there_are(tftool, run, words, m
     assert meant == "Did you mean laser?"
 
 
+@pytest.mark.parametrize(
+    ("words", "status", "told"),
+    [
+        (["echo", "map", "odom", "run.mcap"], 4, "There are no frames at all.\n"),
+        (["plot", "map", "odom", "run.mcap"], 4, "There are no frames at all.\n"),
+        (["view", "run.mcap", "-o", "run.html"], 3, "has no frames: there is nothing to show.\n"),
+    ],
+)
+def test_a_recording_without_frames_says_so(tftool, tmp_path, monkeypatch, words, status, told):
+    monkeypatch.chdir(tmp_path)
+    write_mcap(tmp_path / "run.mcap", [one for one in SENT if not one.topic.startswith("/tf")])
+
+    result = tftool(*words)
+
+    assert result.status == status
+    assert told in result.err
+    assert [path.name for path in tmp_path.iterdir()] == ["run.mcap"]
+
+
 def test_a_cut_recording_is_answered_with_a_warning(tftool, run):
     run.write_bytes(run.read_bytes()[:6000])
 

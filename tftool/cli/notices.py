@@ -53,6 +53,8 @@ def name_frames(
         Whether they were named.
     """
     missing = [frame for frame in asked if frame is not None and frame not in frames]
+    if not frames and not when:
+        notice("There are no frames at all.")
     if not missing or not frames:
         return False
     near = near_names(missing[0], frames)

@@ -11,7 +11,7 @@ import typer
 from tftool.cli.app import ExitStatus
 from tftool.cli.connection_options import ROBOT
 from tftool.cli.options import CacheTime, Force, From, RunFor, option, output_file, within
-from tftool.errors import UsageError
+from tftool.errors import InputError, UsageError
 from tftool.stamps import Duration, as_seconds
 
 if TYPE_CHECKING:
@@ -151,6 +151,8 @@ def _write(
         raise UsageError(f"'{output}' does not say that it is a page: end it in .html.")
     refuse_existing(output, force=force)
     data = _page_data(connection, place, run_for, meshes)
+    if not data.buffer.frames():
+        raise InputError(f"{visible(data.name)} has no frames: there is nothing to show.")
     bar = Bar("Packing")
     with interruptible(), whole_file(output, force=force) as file:
         try:
@@ -271,7 +273,6 @@ def _hear_description(
 ) -> None:
     """Hand on each robot whose description is published."""
     from tftool.cli.notices import notice
-    from tftool.errors import InputError
     from tftool.nodes.joints import DESCRIPTION, LATCHED, description_type
     from tftool.screens.browser.meshes import MeshFolders
     from tftool.screens.browser.robots import ShownRobot
