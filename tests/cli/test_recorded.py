@@ -10,7 +10,7 @@ pytest.importorskip("mcap", reason="writes the test files")
 pytest.importorskip("zstandard", reason="the extra 'recordings' is not installed")
 
 from tests.sources.writers import SECOND, Sent, content, numbers, write_mcap, write_rosbag1
-from tftool import open_recording
+from tftool import Transform, TransformStamped, open_recording, seconds, write_recording
 from tftool.views.info import as_text
 
 SENT = content()
@@ -253,3 +253,31 @@ def test_hostile_names_reach_the_terminal_as_text(tmp_path, tftool):
         for char in ("\x1b", "\r", "\u202e"):
             assert char not in result.out.replace("\x1b[?25l", "").replace("\x1b[?25h", "")
             assert char not in result.err
+
+
+def test_files_of_a_folder_that_are_no_recordings_are_named_in_a_line(tftool, tmp_path):
+    runs, whole = tmp_path / "runs", tmp_path / "whole"
+    for folder in (runs, whole):
+        (folder / "notes").mkdir(parents=True)
+        for name in ("a.mcap", "b.mcap"):
+            with write_recording(folder / name) as recording:
+                pose = TransformStamped(seconds(1), "map", name[0], Transform())
+                recording.transforms([pose], log_time=seconds(1))
+    (runs / "empty.bag").touch()
+    (runs / "junk.bin").write_bytes(bytes(range(256)))
+    (runs / ".hidden").touch()
+    (runs / "a.mcap-wal").touch()
+    (runs / "gone").symlink_to(tmp_path / "nowhere")
+
+    for words in (
+        ["tree"], ["info"], ["doctor"], ["edit", "-o", tmp_path / "all.mcap"], ["diff", runs],
+    ):  # fmt: skip
+        result = tftool(words[0], *words[1:], runs)
+        assert result.status in (0, 1), result.err
+        (line,) = {line for line in result.err.splitlines() if "assed over" in line}
+        assert line == "Passed over, as no recordings: 'empty.bag' (empty), 'gone', 'junk.bin'."
+    assert "assed over" not in tftool("tree", whole).err
+    for number in range(9):
+        (whole / f"{number}.txt").write_text("x", "utf-8")
+    told = tftool("tree", f"{whole}/*").err
+    assert "'0.txt', '1.txt', '2.txt', '3.txt' and 5 more." in told

@@ -21,6 +21,7 @@ from itertools import islice
 from pathlib import Path
 
 from tftool.cli.fleet_tasks import NONE_FOUND, UNREADABLE, FleetTask
+from tftool.cli.notices import notice
 from tftool.cli.rows import Row, RowFile
 from tftool.cli.workers import Processes, Workers
 from tftool.errors import InputError, UsageError
@@ -200,6 +201,9 @@ def expanded(words: Sequence[str]) -> list[str]:
             found.append(word)
             continue
         several = what.kind is Kind.SEVERAL
+        if several:
+            for text in what.told():
+                notice(visible(text))
         found += [str(path) for path in what.paths] if several else [word]
     return list(dict.fromkeys(found))
 

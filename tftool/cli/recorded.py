@@ -73,6 +73,8 @@ def read(
         raise
     finally:
         bar.stop()
+    for text in found.told():
+        notice(visible(text))
     return recording
 
 

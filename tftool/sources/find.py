@@ -27,6 +27,9 @@ MOST_FILES = 10_000
 """Files of one folder or glob that are looked at."""
 
 _HEAD = 4096
+_MOST_NAMES = 4
+BESIDE = ("-wal", "-shm", "-journal")
+"""How the files end that sqlite has beside a database."""
 _MCAP_MANGLED = (b"\x89MCAP0\n", b"\x89MCAP0\r\r\n")
 _OLD_BAG = b"#ROSRECORD"
 _CONTROL = re.compile(rb"[\x00-\x08\x0e-\x1a\x1c-\x1f]")
@@ -76,11 +79,29 @@ class Found:
         kind: What it is. ROSBAG2 is a folder with rosbag2's metadata.
         paths: The file or the folder; of SEVERAL, each of its recordings in the order of
             their names, files and folders.
+        passed_over: Files beside them, in the folder or of the glob, that are no recordings.
     """
 
     name: str
     kind: Kind
     paths: tuple[Path, ...]
+    passed_over: tuple[Path, ...] = ()
+
+    def told(self) -> list[str]:
+        """What is worth saying of what was found, as sentences: which files are passed over."""
+        if not self.passed_over:
+            return []
+        names = ", ".join(map(_said, self.passed_over[:_MOST_NAMES]))
+        more = len(self.passed_over) - _MOST_NAMES
+        beside = f" and {more} more" if more > 0 else ""
+        return [f"Passed over, as no recordings: {names}{beside}."]
+
+
+def _said(path: Path) -> str:
+    with contextlib.suppress(OSError):
+        if not path.stat().st_size:
+            return f"'{path.name}' (empty)"
+    return f"'{path.name}'"
 
 
 def names_a_path(word: str) -> bool:
@@ -230,31 +251,35 @@ def _folder(word: str, path: Path) -> Found:
     if (path / METADATA).exists():
         return Found(word, Kind.ROSBAG2, (path,))
     entries = sorted(path.iterdir())
-    paths, kinds = _recordings(entries)
+    paths, kinds, others = _recordings(entries)
     if not paths:
         raise InputError(
             f"No recording (MCAP, rosbag2, ROS 1 bag) is in the folder '{word}', "
             f"which has {len(entries)} {'entry' if len(entries) == 1 else 'entries'}."
         )
     if len(paths) == 1:
-        return Found(word, kinds.pop(), paths)
+        return Found(word, kinds.pop(), paths, others)
     # The parts of one recording whose metadata is lost, else recordings of their own.
     is_split = kinds in ({Kind.SQLITE}, {Kind.MCAP}) and len({_stem(one) for one in paths}) == 1
-    return Found(word, Kind.ROSBAG2, (path,)) if is_split else Found(word, Kind.SEVERAL, paths)
+    if is_split:
+        return Found(word, Kind.ROSBAG2, (path,), others)
+    return Found(word, Kind.SEVERAL, paths, others)
 
 
 def _several(word: str, matches: list[str]) -> Found:
-    paths, kinds = _recordings([Path(match) for match in matches])
+    paths, kinds, others = _recordings([Path(match) for match in matches])
     if not paths:
         raise InputError(
             f"None of the {len(matches)} files that '{word}' names is a recording "
             "(MCAP, rosbag2, ROS 1 bag)."
         )
-    return Found(word, kinds.pop() if len(paths) == 1 else Kind.SEVERAL, paths)
+    return Found(word, kinds.pop() if len(paths) == 1 else Kind.SEVERAL, paths, others)
 
 
-def _recordings(entries: list[Path]) -> tuple[tuple[Path, ...], set[Kind]]:
-    """Those of many files and folders that are recordings, or may be, and of which kinds.
+def _recordings(
+    entries: list[Path],
+) -> tuple[tuple[Path, ...], set[Kind], tuple[Path, ...]]:
+    """Those of many files and folders that are recordings, or may be; of which kinds; other files.
 
     Raises:
         PermissionError: If none is known to be one, and some may not be read.
@@ -263,27 +288,32 @@ def _recordings(entries: list[Path]) -> tuple[tuple[Path, ...], set[Kind]]:
         raise InputError(
             f"{len(entries)} files are more than are opened at once ({MOST_FILES}): name fewer."
         )
-    found, kinds = [], set()
+    found, kinds, others = [], set(), []
     refused: PermissionError | None = None
     for entry in entries:
+        kind = None
+        is_folder = False
         try:
-            if entry.is_dir():
-                kind = Kind.ROSBAG2 if (entry / METADATA).exists() else None
-            else:
+            is_folder = entry.is_dir()
+            if not is_folder:
                 kind = kind_of_file(entry)
+            elif (entry / METADATA).exists():
+                kind = Kind.ROSBAG2
         except PermissionError as error:
             # It may be one: who opens it tells that it is left out.
             found.append(entry)
             refused = refused or error
             continue
         except (InputError, OSError):
-            continue  # as a link to nothing, or to itself
+            pass  # as a link to nothing, or to itself
         if kind is Kind.ROSBAG2 or kind in _RECORDINGS:
             found.append(entry)
             kinds.add(kind)
+        elif not (is_folder or entry.name.startswith(".") or entry.name.endswith(BESIDE)):
+            others.append(entry)
     if refused is not None and not kinds:
         raise refused
-    return tuple(found), kinds
+    return tuple(found), kinds, tuple(others)
 
 
 def refusal(path: Path, error: OSError) -> InputError:

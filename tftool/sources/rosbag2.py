@@ -14,7 +14,7 @@ from tftool.errors import InputError
 from tftool.named_files import open_regular
 from tftool.sources.compressed import most_of, zstandard
 from tftool.sources.container import Container
-from tftool.sources.find import METADATA, Found, Kind, kind_of_file, refusal
+from tftool.sources.find import BESIDE, METADATA, Found, Kind, kind_of_file, refusal
 from tftool.sources.joined import Joined
 from tftool.sources.mcap import Mcap
 from tftool.sources.rosbag1 import Rosbag1
@@ -143,7 +143,7 @@ def _listed(folder: Path, damage: list[str]) -> list[str]:
 
 def _is_part(path: Path) -> bool:
     """Whether a file of a folder is one of a recording's."""
-    if path.name == METADATA or path.name.endswith(("-wal", "-shm", "-journal")):
+    if path.name == METADATA or path.name.endswith(BESIDE):
         return False
     try:
         return kind_of_file(path) in (Kind.MCAP, Kind.SQLITE, Kind.ZSTD)

@@ -89,6 +89,7 @@ def open_input(name: str) -> EditedInput:
     if not found.kind.is_recording:
         raise UsageError(f"'{name}' is a {found.kind.value}: a recording is needed here.")
     opened = EditedInput(name)
+    opened.damage += found.told()
     try:
         if found.kind is Kind.ROSBAG2:
             folder = found.paths[0]
