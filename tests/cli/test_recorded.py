@@ -281,3 +281,22 @@ def test_files_of_a_folder_that_are_no_recordings_are_named_in_a_line(tftool, tm
         (whole / f"{number}.txt").write_text("x", "utf-8")
     told = tftool("tree", f"{whole}/*").err
     assert "'0.txt', '1.txt', '2.txt', '3.txt' and 5 more." in told
+
+
+@pytest.mark.parametrize(
+    "words",
+    [
+        ["echo", "odom", "base_link", "RUN"],
+        ["echo", "odom", "base_link", "RUN", "--once"],
+        ["tree", "RUN"],
+        ["tree", "RUN", "--at", "0.1"],
+    ],
+)
+def test_a_recording_has_no_cache_time_of_lookups(tftool, run, words):
+    asked = [run if word == "RUN" else word for word in words]
+
+    assert tftool(*asked).status == 0
+    refused = tftool(*asked, "--cache-time", "1")
+    assert (refused.status, refused.out) == (2, "")
+    assert f"All of '{run}' is known" in " ".join(refused.err.split())
+    assert tftool("monitor", run, "--cache-time", "1").status == 0

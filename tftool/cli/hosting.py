@@ -191,6 +191,7 @@ def open_session(
         refuse_to_share(connection, word)
         if plays:
             return _played(connection, found, cache_time)
+        refuse_to_forget(found, cache_time)
         return _recorded(connection, found, simulated=simulated)
     refuse_options_of_files(connection, word)
     link = None
@@ -296,6 +297,18 @@ def refuse_options_of_files(connection: Connection, word: str | None) -> None:
     what = "The session that runs" if word is None else f"'{visible(word)}'"
     connection.robot.refuse(f"{what} is no robot description and no recording")
     connection.recording.refuse(f"{what} is no recording")
+
+
+def refuse_to_forget(found: Found, cache_time: Duration | None) -> None:
+    """Refuse --cache-time where FROM is all there, and lookups reach back to its beginning.
+
+    Raises:
+        UsageError: If it was given.
+    """
+    if cache_time is not None:
+        raise UsageError(
+            f"All of '{visible(found.name)}' is known, to its beginning: leave out --cache-time."
+        )
 
 
 def _hosted(

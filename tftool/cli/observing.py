@@ -31,6 +31,7 @@ from tftool.cli.hosting import (
     join_session,
     open_session,
     refuse_options_of_files,
+    refuse_to_forget,
     refuse_to_share,
 )
 from tftool.cli.naming import kind_word, named
@@ -119,6 +120,7 @@ def observe(
     found = None if word is None else named(word)
     if found is not None and found.kind is not Kind.SCENARIO:
         refuse_to_share(connection, word)
+        refuse_to_forget(found, cache_time)
         stored = connection.open_stored(found)
         name, start = f"{kind_word(found)} '{visible(stored.name)}'", stored.start
         moment = LATEST if at is None else checked_moment(at, name, start, stored.end - start)

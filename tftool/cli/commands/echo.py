@@ -104,7 +104,13 @@ def echo(
     tftool echo turtle2 turtle1 --offset -5 --fixed-frame world
     """
     from tftool.cli.echoing import Printer
-    from tftool.cli.hosting import A_MOMENT, NO_SESSION, open_session, refuse_to_share
+    from tftool.cli.hosting import (
+        A_MOMENT,
+        NO_SESSION,
+        open_session,
+        refuse_to_forget,
+        refuse_to_share,
+    )
     from tftool.cli.naming import named
     from tftool.cli.notices import notice
     from tftool.cli.pairs import refuse_file_as_frame
@@ -129,6 +135,7 @@ def echo(
     of_one_moment = stamps_of is None and (once or at is not None or offset is not None)
     if found is not None and found.kind.is_recording and not of_one_moment:
         refuse_to_share(connection, place)
+        refuse_to_forget(found, cache_time)
         notice(f"{heading}:")
         _print_recorded(connection, found, (target, source), printer, rate, stamps_of, count)
         return ExitStatus.DONE
