@@ -51,7 +51,7 @@ def test_info_shows_joints_with_their_limits(tftool, robot):
     result = tftool("info", str(robot))
 
     assert result.status == 0
-    assert "3 links, 2 joints of which 1 move" in result.out
+    assert "3 links, 2 joints of which 1 moves" in result.out
     assert "Root: foot" in result.out
     (turn,) = [line for line in result.out.splitlines() if line.startswith("  turn ")]
     assert "arm in foot" in turn
@@ -116,6 +116,7 @@ def test_tree_tells_programs_which_frames_move(tftool, robot):
     ("words", "told"),
     [
         (["--joint", "turm=1"], "has no joint 'turm'; did you mean 'turn'?"),
+        (["--joint", "elbow=1"], "has no joint 'elbow'; those that move are turn"),
         (["--joint", "bolt=1"], "joint 'bolt' is fixed: it takes no position"),
         (["--joint", "turn"], "write NAME=VALUE"),
         (["--joint", "turn=fast"], "write NAME=VALUE"),

@@ -21,6 +21,9 @@ from tftool.sources.robot_description import RobotDescription, RobotJoint, Robot
 from tftool.sources.urdf import load_description
 from tftool.stamps import Stamp
 
+MOST_NAMED = 12
+"""How many joints a refusal names."""
+
 Floats: TypeAlias = npt.NDArray[np.float64]
 
 Records: TypeAlias = npt.NDArray[np.int64]
@@ -290,7 +293,11 @@ class Robot:
     def _check_joint(self, name: str) -> None:
         joint = self.joints.get(name)
         if joint is None:
+            moving = [one.name for one in self.joints.values() if one.moves]
             hint = did_you_mean(name, self.joints)
+            if moving and not hint:
+                more = ", ..." if len(moving) > MOST_NAMED else ""
+                hint = f"; those that move are {', '.join(moving[:MOST_NAMED])}{more}"
             raise UsageError(f"robot '{self.name}' has no joint '{name[:100]}'{hint}")
         if not joint.moves:
             raise UsageError(f"joint '{name}' is {joint.type}: it takes no position")
