@@ -266,6 +266,8 @@ def frozen_stamp(model: Model, limits: Limits) -> Iterator[Hit]:
 
 def _frozen(track: Track, limits: Limits) -> tuple[int, int, int] | None:
     """A stamp that came again and again, how often, and for how long."""
+    if track.is_orderly and limits["times"] > 1:
+        return None
     stamped = track.stamps != 0
     if np.count_nonzero(stamped) < limits["times"]:
         return None
@@ -287,6 +289,8 @@ def repeated_stamp(model: Model, limits: Limits) -> Iterator[Hit]:
     """The same stamp twice, with the same value."""
     for track in model.dynamic:
         places = track.by_stamp
+        if track.is_orderly:
+            continue
         again = np.flatnonzero(np.diff(track.sorted_stamps) == 0)
         if len(again) <= limits["samples"] or _frozen(track, _FROZEN) is not None:
             continue
@@ -330,6 +334,8 @@ def old_data(model: Model, limits: Limits) -> Iterator[Hit]:
     for track in model.dynamic:
         by_child[track.child].append(track)
     for tracks in by_child.values():
+        if len(tracks) == 1 and tracks[0].is_orderly:
+            continue
         stamps, newest = _newest_before(tracks)
         old = (stamps < newest - model.settings.cache_time) & (stamps != 0)
         if old.any():

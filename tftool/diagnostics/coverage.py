@@ -69,18 +69,23 @@ def _least_gap(track: Track, limits: Limits) -> float:
 def holes(track: Track, limits: Limits) -> list[tuple[int, int]]:
     """Stamps between which an edge has nothing, although it should."""
     # Between a stamp that is years off and the others nothing is missing.
-    stamps = track.stamps[track.by_stamp[~track.wild[track.by_stamp]]]
+    stamps = track.sorted_stamps
+    if track.wild.any():
+        stamps = stamps[~track.wild[track.by_stamp]]
     if len(stamps) < limits["samples"] or not track.period:
         return []
     if len(track.steps) < 0.5 * (len(stamps) - 1):
         return []  # its stamps stand still: that is another fault
-    wide = np.flatnonzero(np.diff(stamps) > _least_gap(track, limits))
-    return [(int(stamps[place]), int(stamps[place + 1])) for place in wide.tolist()]
+    wide = stamps[1:] - stamps[:-1] > _least_gap(track, limits)
+    places = wide.nonzero()[0].tolist()
+    return [(int(stamps[place]), int(stamps[place + 1])) for place in places]
 
 
 def edge_stopped(model: Model, limits: Limits) -> Iterator[Hit]:
     """A transform ends long before the recording does."""
     length = model.end - model.start
+    alive: list[Track | Heard] = [*model.dynamic, *model.heard]
+    latest = max((int(one.logs[-1]) for one in alive if len(one.logs)), default=model.start)
     for track in model.dynamic:
         if len(track.stamps) < 2:
             continue
@@ -89,12 +94,11 @@ def edge_stopped(model: Model, limits: Limits) -> Iterator[Hit]:
         least = max(limits["periods"] * track.period, limits["seconds"] * NANOSECONDS)
         if before <= least or before <= limits["share"] * length:
             continue
-        latest = model.parents.get(track.child)
-        if latest is not None and latest.parent != track.parent:
+        above = model.parents.get(track.child)
+        if above is not None and above.parent != track.parent:
             continue
         # What all ends at once, as a session does that its host leaves, is no link's own fault.
-        others = (int(o.logs[-1]) for o in _alive(model) if o is not track and len(o.logs))
-        if max(others, default=last) - last <= least:
+        if latest - last <= least:
             continue
         yield Hit(
             edges=(track.edge,),
@@ -110,10 +114,6 @@ def edge_stopped(model: Model, limits: Limits) -> Iterator[Hit]:
                 "below": sorted(model.below(track.child)),
             },
         )
-
-
-def _alive(model: Model) -> "list[Track | Heard]":
-    return [*model.dynamic, *model.heard]
 
 
 def single_sample(model: Model, limits: Limits) -> Iterator[Hit]:

@@ -70,8 +70,11 @@ def _fight(model: Model, child: str, tracks: Sequence[Track], switches: int, fir
 
 def publisher_conflict(model: Model, limits: Limits) -> Iterator[Hit]:
     """Two sources publish the same transform with different values."""
+    # Where fewer than two are known by name, no edge has two that are.
+    named = len({one.node for one in model.material.transforms.publishers if one.node}) > 1
     for track in model.dynamic:
-        hit = _named_conflict(model, track, limits) or _unnamed_conflict(track, limits)
+        hit = _named_conflict(model, track, limits) if named else None
+        hit = hit or _unnamed_conflict(track, limits)
         if hit is not None:
             yield hit
 
@@ -114,12 +117,16 @@ def _unnamed_conflict(track: Track, limits: Limits) -> Hit | None:
     places = track.by_stamp[:MOST_FOLLOWED]
     if len(places) < 2 * limits["samples"]:
         return None
+    apart = track.strides[: len(places) - 1]
+    # Nor does one leave its own track that moves and turns so little, whatever the time it takes.
+    if apart.max() < 0.5 * limits["reach"] and not track.has_turns(
+        places[1:], places[:-1], 0.5 * limits["reach"]
+    ):
+        return None
     times = track.stamps[places] / NANOSECONDS
-    gaps = np.diff(times)
-    jumps = track.apart(places[1:], places[:-1])
-    jumps += 0.5 * track.turned(places[1:], places[:-1])
+    jumps = apart + 0.5 * track.turned(places[1:], places[:-1])
     # Who never leaves its own track needs no following.
-    leaves = jumps >= limits["reach"] + limits["speed"] * np.minimum(gaps, 0.2)
+    leaves = jumps >= limits["reach"] + limits["speed"] * np.minimum(np.diff(times), 0.2)
     if np.count_nonzero(leaves) < limits["changes"]:
         return None
     owners = _follow(track, places, limits)

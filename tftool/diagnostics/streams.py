@@ -9,12 +9,7 @@ import numpy as np
 import numpy.typing as npt
 
 from tftool.geometry.batch import Floats, angles_between, unit
-from tftool.sources.contract import (
-    Edge,
-    Headers,
-    Stamps,
-    Transforms,
-)
+from tftool.sources.contract import Edge, Headers, Publisher, Stamps, Transforms, median
 from tftool.stamps import NANOSECONDS, SIMULATED_BELOW, seconds
 
 Number = TypeVar("Number", bound=np.generic)
@@ -26,6 +21,9 @@ Places = npt.NDArray[np.intp]
 
 NEVER = np.iinfo(np.int64).max
 """The arrival of what never arrives."""
+
+FAR = 2**61
+"""Nanoseconds from 1970 beyond which no moment is looked for."""
 
 WILD = seconds(3600)
 """How far from where it belongs a single stamp is no late message and no slow clock."""
@@ -78,7 +76,7 @@ class Stream:
     def median_latency(self) -> int:
         """Nanoseconds; of those whose stamp is not 0."""
         stamped = self.latency[self.stamps != 0]
-        return int(np.median(stamped)) if len(stamped) else 0
+        return int(median(stamped)) if len(stamped) else 0
 
     @cached_property
     def wild(self) -> Mask:
@@ -89,7 +87,9 @@ class Stream:
         far = np.zeros(len(self.stamps), dtype=np.bool_)
         if len(far) < 3:
             return far
-        steps = np.diff(self.latency)
+        steps = self.latency[1:] - self.latency[:-1]
+        if steps.max() <= WILD and steps.min() >= -WILD:
+            return far
         up, down = steps > WILD, steps < -WILD
         far[1:-1] = (up[:-1] & down[1:]) | (down[:-1] & up[1:])
         # At the ends there is one neighbour alone, which has to be at home itself.
@@ -156,21 +156,37 @@ class Track(Stream):
         return senders[: self.lap]
 
     @cached_property
+    def _publishers(self) -> list[Publisher]:
+        senders = self.senders
+        if len(senders) and senders.min() == senders.max():
+            return [self._transforms.publishers[senders[0]]]
+        return [self._transforms.publishers[number] for number in np.unique(senders).tolist()]
+
+    @cached_property
     def nodes(self) -> tuple[str, ...]:
         """Who publishes it, where that is known."""
-        numbers = np.unique(self.senders)
-        names = (self._transforms.publishers[number].node for number in numbers.tolist())
-        return tuple(sorted({name for name in names if name}))
+        return tuple(sorted({one.node for one in self._publishers if one.node}))
 
     @cached_property
     def topics(self) -> tuple[str, ...]:
         """Where it came from."""
-        numbers = np.unique(self.senders)
-        return tuple(sorted({self._transforms.publishers[n].topic for n in numbers.tolist()}))
+        return tuple(sorted({one.topic for one in self._publishers}))
+
+    @cached_property
+    def is_orderly(self) -> bool:
+        """Whether all are known to be usable, and to have come in the order of their stamps."""
+        return (
+            self.order is None
+            and self._edge.kept == len(self._edge) > 0
+            and (self.static or self._edge.stamps[0] > 0)
+            and bool(self._edge.stamps[-1] <= FAR)
+        )
 
     @cached_property
     def finite(self) -> Mask:
         """Which have nothing but finite numbers, shape (n,)."""
+        if self.is_orderly:
+            return np.ones(self.lap, dtype=np.bool_)
         finite = np.isfinite(self.translations).all(axis=1)
         mask: Mask = np.asarray(finite & np.isfinite(self.rotations).all(axis=1))
         return mask
@@ -186,12 +202,16 @@ class Track(Stream):
     @cached_property
     def usable(self) -> Mask:
         """Which tf2 would keep: finite, with a rotation, and a stamp unless static."""
+        if self.is_orderly:
+            return self.finite
         mask: Mask = self.finite & (self.squares > ZERO_QUATERNION)
         return mask if self.static else mask & (self.stamps != 0)
 
     @cached_property
     def by_stamp(self) -> npt.NDArray[np.intp]:
         """Places of the usable ones in the order of their stamps; of equal ones, as they came."""
+        if self.is_orderly:
+            return np.arange(self.lap)
         places = np.flatnonzero(self.usable)
         stamps = self.stamps[places]
         return places[np.argsort(stamps, kind="stable")] if _falls(stamps) else places
@@ -199,20 +219,20 @@ class Track(Stream):
     @cached_property
     def sorted_stamps(self) -> Stamps:
         """Of the usable ones, ascending."""
-        stamps: Stamps = self.stamps[self.by_stamp]
+        stamps: Stamps = self.stamps if self.is_orderly else self.stamps[self.by_stamp]
         return stamps
 
     @cached_property
     def steps(self) -> Stamps:
         """Differences of neighbouring sorted stamps, those of equal ones left out."""
-        steps = np.diff(self.sorted_stamps)
+        steps = self.sorted_stamps[1:] - self.sorted_stamps[:-1]
         positive: Stamps = steps[steps > 0]
         return positive
 
     @cached_property
     def period(self) -> int:
         """Median step, nanoseconds; 0 where there is none."""
-        return int(np.median(self.steps)) if len(self.steps) else 0
+        return int(median(self.steps)) if len(self.steps) else 0
 
     @cached_property
     def first_arrivals(self) -> Stamps:
@@ -235,6 +255,11 @@ class Track(Stream):
         away = self.translations[some] - self.translations[others]
         apart: Floats = np.sqrt(np.einsum("ij,ij->i", away, away))
         return apart
+
+    @cached_property
+    def strides(self) -> Floats:
+        """Metres between neighbours by stamp, shape (k - 1,)."""
+        return self.apart(self.by_stamp[1:], self.by_stamp[:-1])
 
     def turned(self, some: Places, others: Places) -> Floats:
         """Radians between poses, row by row."""
@@ -297,9 +322,8 @@ class Heard(Stream):
 
 def bounded(stamps: Stamps) -> Stamps:
     """Moments near enough that their differences fit 64 bits; those of ROS all are."""
-    far = 2**61
-    if len(stamps) and (int(stamps.max()) > far or int(stamps.min()) < -far):
-        return np.clip(stamps, -far, far)
+    if len(stamps) and (stamps.max() > FAR or stamps.min() < -FAR):
+        return np.clip(stamps, -FAR, FAR)
     return stamps
 
 

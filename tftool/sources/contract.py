@@ -153,6 +153,15 @@ class Transforms:
         return self.senders[edge.messages]
 
 
+def median(column: Stamps) -> float:
+    """As numpy's of whole numbers, at a third of its cost where they are few; of one at least."""
+    half = len(column) // 2
+    if len(column) % 2:
+        return float(np.partition(column, half)[half])
+    middle = np.partition(column, (half - 1, half))
+    return (float(middle[half - 1]) + float(middle[half])) / 2.0
+
+
 @dataclass(frozen=True, slots=True, eq=False)
 class Headers:
     """The headers of a topic's messages, in the order of the recording.

@@ -205,14 +205,11 @@ class Recording:
         for edge in self.edges:
             if edge.static:
                 continue
-            stamps = edge.stamps
-            for simulated in (False, True):
-                chosen = stamps[(stamps < SIMULATED_BELOW) == simulated]
-                chosen = chosen[chosen > 0]
-                if len(chosen):
-                    count, low, high = spans.get(simulated, (0, 2**63 - 1, 0))
-                    low, high = min(low, int(chosen.min())), max(high, int(chosen.max()))
-                    spans[simulated] = (count + len(chosen), low, high)
+            for chosen in _by_clock(edge.stamps):
+                first, last = int(chosen.min()), int(chosen.max())
+                simulated = first < SIMULATED_BELOW
+                count, low, high = spans.get(simulated, (0, first, last))
+                spans[simulated] = (count + len(chosen), min(low, first), max(high, last))
         if not spans and self.robot is not None:
             moved = [states.stamps for states in self.joint_states.states if len(states)]
             if moved:
@@ -405,6 +402,15 @@ class Recording:
         children = sorted({edge.child for edge in self.edges})
         shown = ", ".join(children[:8])
         return f"there are {shown}{' …' if len(children) > 8 else ''}" if children else "none is"
+
+
+def _by_clock(stamps: Stamps) -> list[Stamps]:
+    """Stamps above 0, those of a simulation's clock apart from others; as a rule all of one."""
+    if len(stamps) and stamps.min() >= SIMULATED_BELOW:
+        return [stamps]
+    stamps = stamps[stamps > 0]
+    is_sim = stamps < SIMULATED_BELOW
+    return [chosen for chosen in (stamps[~is_sim], stamps[is_sim]) if len(chosen)]
 
 
 def _set_moving(

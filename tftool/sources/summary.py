@@ -1,10 +1,11 @@
 """What a recording holds, in numbers: edges with rates and clock offsets, trees, what is odd."""
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
 
-from tftool.sources.contract import Edge, Transforms
+from tftool.sources.contract import Edge, Transforms, median
 from tftool.sources.recording import Recording
 from tftool.stamps import SIMULATED_BELOW, Duration, Stamp
 
@@ -62,26 +63,31 @@ def edge_facts(transforms: Transforms) -> list[EdgeFacts]:
 
 def _facts(transforms: Transforms, edge: Edge) -> EdgeFacts:
     stamps = edge.stamps
-    senders = np.unique(transforms.senders_of(edge)).tolist()
-    publishers = tuple(sorted({transforms.publishers[one].authority for one in senders}))
+    senders = transforms.senders_of(edge)
+    # Most edges come from one publisher, and in order: to find others takes several times as long.
+    numbers = [senders[0]] if senders.min() == senders.max() else np.unique(senders).tolist()
+    publishers = tuple(sorted({transforms.publishers[one].authority for one in numbers}))
+    first, last = int(stamps.min()), int(stamps.max())
     rate = offset = None
     if not edge.static:
-        ordered = np.sort(stamps)
-        periods = np.diff(ordered)
-        periods = periods[periods > 0]
-        rate = 1e9 / float(np.median(periods)) if len(periods) else None
+        periods = stamps[1:] - stamps[:-1]
+        if len(periods) and periods.min() <= 0:
+            ordered = np.sort(stamps)
+            periods = ordered[1:] - ordered[:-1]
+            periods = periods[periods > 0]
+        rate = 1e9 / median(periods) if len(periods) else None
         late = transforms.log_times_of(edge) - stamps
-        offset = Offset(int(late.min()), int(np.median(late)), int(late.max()))
+        offset = Offset(int(late.min()), int(median(late)), int(late.max()))
     return EdgeFacts(
         edge.parent,
         edge.child,
         edge.static,
         len(edge),
         rate,
-        int(stamps.min()),
-        int(stamps.max()),
+        first,
+        last,
         offset,
-        bool(0 < int(np.median(stamps)) < SIMULATED_BELOW) and not edge.static,
+        not edge.static and first < SIMULATED_BELOW and 0 < int(median(stamps)) < SIMULATED_BELOW,
         publishers,
     )
 
@@ -115,13 +121,21 @@ def trees(transforms: Transforms) -> list[TreeFacts]:
     return [TreeFacts(root, n) for root, n in sorted(counts.items(), key=lambda one: -one[1])]
 
 
-def oddities(recording: Recording) -> list[str]:
-    """What is odd about a recording's transforms, as sentences; damage is told apart."""
+def oddities(
+    recording: Recording, edges: Sequence[EdgeFacts], forest: Sequence[TreeFacts]
+) -> list[str]:
+    """What is odd about a recording's transforms, as sentences; damage is told apart.
+
+    Args:
+        recording: Which.
+        edges: Its edges in numbers.
+        forest: Its trees.
+    """
     found = [
         f"{text}." if count == 1 else f"{text} ({count} times)."
         for text, count in recording.oddities.items()
     ]
-    facts = [one for one in edge_facts(recording.transforms) if not one.static]
+    facts = [one for one in edges if not one.static]
     simulated = [one for one in facts if one.simulated]
     if simulated and len(simulated) < len(facts):
         odd = min(simulated, [one for one in facts if not one.simulated], key=len)
@@ -133,7 +147,6 @@ def oddities(recording: Recording) -> list[str]:
         )
     elif simulated and recording.source.start >= SIMULATED_BELOW:
         found.append("Stamps count from the start of a simulation; log times from 1970.")
-    forest = trees(recording.transforms)
     if len(forest) > 1:
         roots = ", ".join(tree.root for tree in forest[:4])
         found.append(

@@ -33,7 +33,7 @@ def as_text(recording: Recording, width: int | None = None) -> str:
             are left out. None for all.
     """
     source = recording.source
-    edges = edge_facts(recording.transforms)
+    edges, forest = edge_facts(recording.transforms), trees(recording.transforms)
     topics = recording.topics
     messages = sum(topic.count for topic in topics)
     span = source.end - source.start
@@ -62,7 +62,7 @@ def as_text(recording: Recording, width: int | None = None) -> str:
             right=("messages", "rate"),
         )
     if edges:
-        lines += ["", *wrapped(f"Frames: {_forest(trees(recording.transforms))}", width)]
+        lines += ["", *wrapped(f"Frames: {_forest(forest)}", width)]
         lines += table(
             ("edge", "kind", "transforms", "rate", "delay", "least … most", "from"),
             list(map(_row, edges)),
@@ -72,7 +72,8 @@ def as_text(recording: Recording, width: int | None = None) -> str:
         )
     if recording.robot is not None:
         lines += ["", *wrapped(f"Robot: {_robot(recording, recording.robot)}", width)]
-    for heading, sentences in (("Damage", recording.damage), ("Odd", oddities(recording))):
+    odd = oddities(recording, edges, forest)
+    for heading, sentences in (("Damage", recording.damage), ("Odd", odd)):
         if sentences:
             lines += ["", heading]
             for sentence in sentences:
@@ -136,6 +137,7 @@ def _robot(recording: Recording, robot: Robot) -> str:
 def as_object(recording: Recording) -> dict[str, Any]:
     """The same for programs; moments and durations in nanoseconds."""
     source, publishers = recording.source, _publishers(recording)
+    edges, forest = edge_facts(recording.transforms), trees(recording.transforms)
     return {
         "name": recording.name,
         "kind": source.kind,
@@ -154,12 +156,10 @@ def as_object(recording: Recording) -> dict[str, Any]:
             "gaps": list(recording.described.gaps),
         },
         "topics": [_topic_object(topic, publishers[topic.name]) for topic in recording.topics],
-        "edges": [_edge_object(edge) for edge in edge_facts(recording.transforms)],
-        "trees": [
-            {"root": tree.root, "frames": tree.frames} for tree in trees(recording.transforms)
-        ],
+        "edges": [_edge_object(edge) for edge in edges],
+        "trees": [{"root": tree.root, "frames": tree.frames} for tree in forest],
         "damage": list(recording.damage),
-        "odd": oddities(recording),
+        "odd": oddities(recording, edges, forest),
     }
 
 
