@@ -1,5 +1,6 @@
 """Recordings written anew: what is asked for changes, everything else stays byte for byte."""
 
+import random
 import shutil
 import struct
 import subprocess
@@ -29,6 +30,7 @@ from tests.sources.writers import (
 from tftool.errors import UsageError
 from tftool.frames.sample import TransformStamped
 from tftool.geometry.rigid import Transform
+from tftool.sources import container
 from tftool.sources.editing import mcap_tape, rosbag1_tape
 from tftool.sources.editing.changes import Edits
 from tftool.sources.editing.rewriting import edit
@@ -388,6 +390,47 @@ def test_times_sequences_attachments_and_metadata_are_kept(tmp_path):
             )
 
     assert told(out) == told(path)
+
+
+def with_attachments(path, *attached):
+    from mcap.writer import Writer
+
+    with path.open("wb") as stream:
+        writer = Writer(stream)
+        writer.start()
+        schema = writer.register_schema("Kind", "jsonschema", b"{}")
+        writer.add_message(writer.register_channel("/a", "json", schema), 1, b"{}", 1)
+        for number, data in enumerate(attached):
+            writer.add_attachment(number, 7, f"file {number}", "text/plain", data)
+        writer.finish()
+    return path
+
+
+def attachments_of(path):
+    with path.open("rb") as stream:
+        reader = SeekingReader(stream, validate_crcs=True)
+        return [(one.name, one.data, one.create_time) for one in reader.iter_attachments()]
+
+
+def test_an_attachment_larger_than_what_is_read_at_once_is_kept(tmp_path, monkeypatch):
+    data = random.Random(5).randbytes(1_300_000)
+    path = with_attachments(tmp_path / "a.mcap", data, b"", b"small")
+    monkeypatch.setattr(container, "LARGEST", 100_000)
+
+    edit([str(path)], tmp_path / "b.mcap", Edits())
+
+    told = attachments_of(tmp_path / "b.mcap")
+    assert told == [("file 0", data, 0), ("file 1", b"", 1), ("file 2", b"small", 2)]
+
+
+def test_a_damaged_attachment_is_left_out_and_told(tmp_path):
+    path = with_attachments(tmp_path / "a.mcap", b"first words", b"second words")
+    path.write_bytes(path.read_bytes().replace(b"first words", b"worst words"))
+
+    done = edit([str(path)], tmp_path / "b.mcap", Edits())
+
+    assert any("CRC of the attachment" in one for one in done.notes)
+    assert [name for name, _, _ in attachments_of(tmp_path / "b.mcap")] == ["file 1"]
 
 
 # Damage

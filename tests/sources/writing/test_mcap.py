@@ -16,8 +16,9 @@ from mcap.stream_reader import StreamReader
 import tftool
 from tests.sources.writers import numbers
 from tftool.errors import InputError, UsageError
+from tftool.sources.editing.pieces import Piece
 from tftool.sources.writing.channel import Channel
-from tftool.sources.writing.mcap import RECORD, McapWriter
+from tftool.sources.writing.mcap import RECORD, CopiedAttachment, McapWriter
 
 START = 1_750_000_000 * 10**9
 PAIRS = [("odom", "base_link"), ("base_link", "arm"), ("map", "odom")]
@@ -107,7 +108,14 @@ def test_small_chunks_without_chunks_attachments_and_metadata_are_read_by_the_st
         two = writer.channel(Channel("/b", "Kind", "json", "jsonschema", b"{}"))
         for number in range(20):
             writer.write((one, two)[number % 2], 100 + number, b"%d" % number, 90, number)
-        writer.copy_attachment(notes.end()[RECORD.size :])
+        # As it lies in another file: two times, two names behind their lengths, what it holds.
+        other = tmp_path / "other"
+        other.write_bytes(notes.end())
+        body = other.read_bytes()[RECORD.size :]
+        names = body[16 : body.index(b"text/plain") + len("text/plain")]
+        with other.open("rb") as file:
+            piece = Piece(file.fileno(), 0, RECORD.size + len(body))
+            writer.copy_attachment(CopiedAttachment(piece, body[:16], names, len("words")))
         writer.copy_metadata(about.end()[RECORD.size :])
         writer.finish()
 

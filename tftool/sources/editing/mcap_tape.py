@@ -15,7 +15,7 @@ from tftool.sources.find import MCAP_MAGIC
 from tftool.sources.mcap_records import AS_IT_IS, reason_of, strings_at, text_at
 from tftool.sources.writing import mcap as format
 from tftool.sources.writing.channel import Channel
-from tftool.sources.writing.mcap import ChunkEntry
+from tftool.sources.writing.mcap import ChunkEntry, CopiedAttachment
 from tftool.stamps import LAST_STAMP, Stamp
 
 _U16, _U32, _U64 = struct.Struct("<H"), struct.Struct("<I"), struct.Struct("<Q")
@@ -178,7 +178,7 @@ class McapTape:
                 elif code in (format.SCHEMA, format.CHANNEL):
                     self.learn(code, self.file.at(body, length))
                 elif code == format.ATTACHMENT:
-                    self._attachment(self.file.at(body, length), position)
+                    self._attachment(position, length)
                 elif code == format.METADATA:
                     self.extras.metadata.append(self.file.at(body, length))
             except (InputError, struct.error) as error:
@@ -191,14 +191,24 @@ class McapTape:
         if not ended:
             self.file.note(f"The recording breaks off at byte {position}.")
 
-    def _attachment(self, body: bytes, position: int) -> None:
-        (crc,) = _U32.unpack_from(body, len(body) - 4)
-        if crc and zlib.crc32(body[:-4]) != crc:
-            self.file.note(
-                f"The CRC of the attachment at byte {position} is wrong: it is left out."
-            )
+    def _attachment(self, position: int, length: int) -> None:
+        """Note where an attachment lies, which may be larger than memory."""
+        file, body = self.file, position + 9
+        place = body + 16
+        for _ in range(2):
+            (size,) = _U32.unpack(file.at(place, 4))
+            place += 4 + size
+        end = body + length - 4
+        if place + 8 > end:
+            raise InputError("it is too short for an attachment")
+        names = file.at(body + 16, place - body - 16)
+        (size,) = _U64.unpack(file.at(place, 8))
+        (crc,) = _U32.unpack(file.at(end, 4))
+        if crc and Piece(file.fileno(), body, length - 4).crc() != crc:
+            file.note(f"The CRC of the attachment at byte {position} is wrong: it is left out.")
             return
-        self.extras.attachments.append(body)
+        whole = Piece(file.fileno(), position, 9 + length)
+        self.extras.attachments.append(CopiedAttachment(whole, file.at(body, 16), names, size))
 
 
 class _Loose:

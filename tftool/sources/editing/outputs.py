@@ -290,8 +290,8 @@ class EditedFile:
         """Write what stands beside messages, and close the file."""
         if self._mcap is not None:
             for tape in tapes:
-                for body in tape.extras.attachments:
-                    self._mcap.copy_attachment(body)
+                for attachment in tape.extras.attachments:
+                    self._mcap.copy_attachment(attachment)
                 for body in tape.extras.metadata:
                     self._mcap.copy_metadata(body)
                 if isinstance(tape, McapTape) and self._fits(tapes.index(tape), tape):

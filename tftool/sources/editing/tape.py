@@ -10,6 +10,7 @@ from typing import Any, NamedTuple, Protocol
 
 from tftool.sources.container import ChunkedFile
 from tftool.sources.writing.channel import Channel
+from tftool.sources.writing.mcap import CopiedAttachment
 from tftool.stamps import Stamp
 
 
@@ -69,11 +70,11 @@ class Extras:
     """What a file holds beside messages.
 
     Attributes:
-        attachments: MCAP's attachments, each the body of its record.
+        attachments: MCAP's attachments, which stay in their file.
         metadata: MCAP's metadata records, each the body.
     """
 
-    attachments: list[bytes] = field(default_factory=list)
+    attachments: list[CopiedAttachment] = field(default_factory=list)
     metadata: list[bytes] = field(default_factory=list)
 
 

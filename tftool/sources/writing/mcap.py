@@ -53,6 +53,23 @@ _NOTHING_YET: Final = 2**64 - 1
 
 
 @dataclass(frozen=True, slots=True)
+class CopiedAttachment:
+    """An attachment of another file.
+
+    Attributes:
+        piece: Its record.
+        times: Its two times, as they are packed.
+        names: Its name and media type, likewise.
+        size: Bytes of what is attached.
+    """
+
+    piece: CopiedPiece
+    times: bytes
+    names: bytes
+    size: int
+
+
+@dataclass(frozen=True, slots=True)
 class ChunkEntry:
     """A chunk as the summary tells of it.
 
@@ -376,9 +393,7 @@ class McapWriter:
         for channel, count in counts.items():
             self._count(channel, count, entry.start, entry.end)
         self._defined.update(counts)
-        before = self._crc if self._with_crc else None
-        self._crc = piece.copy_to(self._file.fileno(), self.position, before)
-        self.position = self._file.seek(self.position + piece.length)
+        self._copy(piece)
         self._chunks.append(
             ChunkEntry(
                 entry.start,
@@ -393,29 +408,18 @@ class McapWriter:
             )
         )
 
-    def copy_attachment(self, body: bytes) -> None:
-        """Append an attachment whose record is there already.
+    def _copy(self, piece: CopiedPiece) -> None:
+        before = self._crc if self._with_crc else None
+        self._crc = piece.copy_to(self._file.fileno(), self.position, before)
+        self.position = self._file.seek(self.position + piece.length)
 
-        Raises:
-            struct.error: If it is none.
-        """
-        times = body[:16]
-        place = 16
-        for _ in range(2):
-            (length,) = _U32.unpack_from(body, place)
-            place += 4 + length
-        (size,) = _U64.unpack_from(body, place)
-        names = body[16:place]
+    def copy_attachment(self, copied: CopiedAttachment) -> None:
+        """Append an attachment as it stands in another file."""
         self.flush()
-        begin = self.position
-        piece = record(ATTACHMENT, body)
-        self._put(piece)
-        self._attachments.append(
-            record(
-                ATTACHMENT_INDEX,
-                struct.pack("<QQ", begin, len(piece)) + times + _U64.pack(size) + names,
-            )
-        )
+        place = struct.pack("<QQ", self.position, copied.piece.length)
+        self._copy(copied.piece)
+        told = place + copied.times + _U64.pack(copied.size) + copied.names
+        self._attachments.append(record(ATTACHMENT_INDEX, told))
 
     def copy_metadata(self, body: bytes) -> None:
         """Append a metadata record that is there already.
