@@ -1,5 +1,6 @@
 """Results on stdout, as wide as the terminal or a line each where there is none; and in files."""
 
+import shutil
 import sys
 from pathlib import Path
 from typing import TYPE_CHECKING
@@ -11,6 +12,11 @@ if TYPE_CHECKING:
 
 LOG_WIDTH = 2000
 """How wide a line gets where there is no terminal to wrap it for."""
+
+
+def line_width() -> int | None:
+    """Cells a line on stdout may take; None where no terminal shows it."""
+    return shutil.get_terminal_size().columns if sys.stdout.isatty() else None
 
 
 def write(what: "RenderableType", *, end: str = "\n", is_wide: bool = True) -> None:

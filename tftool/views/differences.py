@@ -2,6 +2,8 @@
 
 from typing import Final
 
+from rich.cells import cell_len
+
 from tftool.comparing.compare import (
     Change,
     Differences,
@@ -11,28 +13,40 @@ from tftool.comparing.compare import (
 )
 from tftool.stamps import Stamp, as_seconds
 from tftool.views.escaping import visible
-from tftool.views.info import table
+from tftool.views.info import table, wrapped
 
 HEAD: Final = ("link", "change", "mm", "degrees", "")
 
 
-def lines(found: Differences, *, everything: bool = False) -> str:
+def lines(found: Differences, width: int | None = None, *, everything: bool = False) -> str:
     """A line for each link that differs, and what was compared.
 
     Args:
         found: What to write.
+        width: Cells a line may take: what has no room stands below its link. None for all.
         everything: Whether to write the links that do not differ, too.
     """
     told = found.links if everything else found.changed
     text = [f"A {visible(found.first)}", f"B {visible(found.second)}"]
     if told:
-        text += [
-            "",
-            *table(HEAD, [_row(one, found.start) for one in told], right=("mm", "degrees")),
-            "",
-        ]
-    text.append(summary(found))
+        text += ["", *_table([_row(one, found.start) for one in told], width), ""]
+    text += wrapped(summary(found), width)
     return "".join(f"{line.rstrip()}\n" for line in text)
+
+
+def _table(rows: list[tuple[str, ...]], width: int | None) -> list[str]:
+    numbers = ("mm", "degrees")
+    whole = table(HEAD, rows, right=numbers)
+    if width is None or max(map(cell_len, whole)) <= width:
+        return whole
+    heading, *shown = table(
+        HEAD[:-1], [row[:-1] for row in rows], width, goes=("change",), right=numbers
+    )
+    below = [wrapped(row[-1], width, "      ") if row[-1] else [] for row in rows]
+    return [
+        heading,
+        *(one for line, more in zip(shown, below, strict=True) for one in (line, *more)),
+    ]
 
 
 def summary(found: Differences) -> str:

@@ -75,6 +75,7 @@ def diff(
     tftool diff run1.mcap run2.mcap --align start --json
     """
     from tftool.cli.notices import notice
+    from tftool.cli.printing import line_width
     from tftool.comparing.compare import Allowance, compare
     from tftool.views import differences as view
     from tftool.views.escaping import visible
@@ -96,7 +97,7 @@ def diff(
     elif markdown:
         sys.stdout.write(view.as_markdown(found))
     else:
-        sys.stdout.write(view.lines(found, everything=everything))
+        sys.stdout.write(view.lines(found, line_width(), everything=everything))
     return ExitStatus.FAILED if found else ExitStatus.DONE
 
 

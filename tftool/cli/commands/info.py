@@ -1,7 +1,6 @@
 """`tftool info`: what a recording or a robot description holds."""
 
 import json
-import shutil
 import sys
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
@@ -66,6 +65,7 @@ def info(
 def _compared(places: list[str], processes: int, *, for_programs: bool) -> ExitStatus:
     """Several recordings, a line each."""
     from tftool.cli import fleet, fleet_tasks
+    from tftool.cli.printing import line_width
     from tftool.cli.workers import workers_of
     from tftool.views import info as view
 
@@ -74,7 +74,7 @@ def _compared(places: list[str], processes: int, *, for_programs: bool) -> ExitS
     if for_programs:
         sys.stdout.write(json.dumps(rows, indent=2) + "\n")
     else:
-        sys.stdout.write(view.as_lines(rows, _width()))
+        sys.stdout.write(view.as_lines(rows, line_width()))
     return ExitStatus.UNREADABLE if fleet_tasks.UNREADABLE in counts else ExitStatus.DONE
 
 
@@ -82,6 +82,7 @@ def _one(connection: Connection, place: str, *, for_programs: bool) -> ExitStatu
     """All there is to say of one recording or description."""
     from tftool.cli.naming import named
     from tftool.cli.notices import notice
+    from tftool.cli.printing import line_width
     from tftool.cli.recorded import read, told_of_odometry
     from tftool.sources.find import Kind
     from tftool.views import info as view
@@ -117,19 +118,15 @@ def _one(connection: Connection, place: str, *, for_programs: bool) -> ExitStatu
 
             given = None if connection.robot.urdf is None else Described(recording.robot)
             diagnosis = judge(Scope(given).material(recording))
-            width = _width()
+            width = line_width()
             sys.stdout.write(view.as_text(recording, width))
             told = "\n".join(view.wrapped(brief(diagnosis), width))
             sys.stdout.write(f"\n{told}\n")
     return ExitStatus.DONE
 
 
-def _width() -> int | None:
-    """Cells a line may take; None where no terminal shows it."""
-    return shutil.get_terminal_size().columns if sys.stdout.isatty() else None
-
-
 def _describe(connection: Connection, found: "Found", *, for_programs: bool) -> None:
+    from tftool.cli.printing import line_width
     from tftool.sources.robot import load_urdf
     from tftool.views import robot_info as view
 
@@ -140,4 +137,4 @@ def _describe(connection: Connection, found: "Found", *, for_programs: bool) -> 
     if for_programs:
         sys.stdout.write(json.dumps(view.as_object(found.name, robot), indent=2) + "\n")
     else:
-        sys.stdout.write(view.as_text(found.name, robot, _width()))
+        sys.stdout.write(view.as_text(found.name, robot, line_width()))
