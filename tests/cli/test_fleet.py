@@ -70,12 +70,39 @@ def test_parquet_has_a_row_a_finding_and_is_gone_on_with(tftool, fleet, tmp_path
     some = sorted(map(str, fleet.glob("day*/run*.mcap")))
     assert tftool("doctor", *some[:3], "-o", output).status == 1
     result = tftool("doctor", *some, "-o", output, "--resume")
-    assert "(3 were in it already)" in result.out
+    assert "(3 were in it already: " in result.out
     table = parquet.read_table(output).to_pylist()
     assert ids_of(table) == {k: v for k, v in expected().items() if k != "cut.mcap"}
     found = next(row for row in table if row["id"] == "unknown-frame")
     assert (found["frames"], found["topics"], found["count"]) == (["laser_frame"], ["/scan"], 40)
     assert [one.name for one in tmp_path.glob("found*")] == ["found.parquet"]
+
+
+@pytest.mark.parametrize("suffix", ["jsonl", "csv", "parquet"])
+def test_what_the_file_held_already_counts_for_the_status(tftool, fleet, tmp_path, suffix):
+    """A build that goes on with an interrupted sweep is as red as one that did all of it."""
+    if suffix == "parquet":
+        pytest.importorskip("pyarrow.parquet", reason="the extra 'parquet'")
+    output = tmp_path / f"found.{suffix}"
+    some = sorted(map(str, fleet.glob("day*/run*.mcap")))
+    first = tftool("doctor", *some, "-o", output)
+    told = first.out.partition(": ")[2].partition(".")[0]
+
+    again = tftool("doctor", *some, "-o", output, "--resume")
+
+    assert (first.status, again.status) == (1, 1)
+    assert told.startswith("4 with errors")
+    assert f"({len(some)} were in it already: {told})" in again.out
+    assert tftool("doctor", *some, "-o", output, "--resume", "--fail-on", "never").status == 0
+
+
+@pytest.mark.parametrize("suffix", ["jsonl", "csv"])
+def test_what_could_not_be_read_before_counts_as_well(tftool, fleet, tmp_path, suffix):
+    output = tmp_path / f"found.{suffix}"
+    broken = fleet / "day1" / "cut.mcap"
+    for command in ("doctor", "info"):
+        assert tftool(command, broken, "-o", output).status == 3
+        assert tftool(command, broken, "-o", output, "--resume").status == 3
 
 
 def test_rows_of_a_process_that_was_killed_become_part_of_the_table(tftool, fleet, tmp_path):
@@ -86,7 +113,7 @@ def test_rows_of_a_process_that_was_killed_become_part_of_the_table(tftool, flee
     # What it leaves behind: the rows so far, and half of one.
     (tmp_path / "found.parquet.part").write_bytes(left.read_bytes() + b'{"source": "ha')
     result = tftool("doctor", *some, "-o", tmp_path / "found.parquet", "--resume")
-    assert "(2 were in it already)" in result.out
+    assert "(2 were in it already: " in result.out
     table = parquet.read_table(tmp_path / "found.parquet")
     assert set(table.column("source").to_pylist()) == set(some)
 
@@ -98,7 +125,7 @@ def test_names_that_are_no_text_are_in_every_file(tftool, tmp_path):
     for suffix in ("jsonl", "csv", "parquet"):
         output = tmp_path / f"found.{suffix}"
         assert tftool("doctor", strange, "-o", output).status == 0
-        assert "(1 were in it already)" in tftool("doctor", strange, "-o", output, "--resume").out
+        assert "(1 were in it already: " in tftool("doctor", strange, "-o", output, "--resume").out
     assert parquet.read_table(tmp_path / "found.parquet").num_rows == 1
 
 

@@ -8,6 +8,7 @@ alone.
 import glob
 import os
 import sys
+from collections import Counter
 from collections.abc import Iterator, Sequence
 from concurrent.futures import (
     FIRST_COMPLETED,
@@ -231,10 +232,11 @@ def told(counts: dict[str, int]) -> str:
     return ", ".join(f"{counts[key]:,} {word}" for key, word in words.items() if key in counts)
 
 
-def announce(counts: dict[str, int], passed_over: int, output: Path) -> None:
-    """Say on stdout what came of a sweep."""
+def announce(counts: dict[str, int], earlier: dict[str, int], output: Path) -> None:
+    """Say on stdout what came of a sweep, and what of the recordings that were passed over."""
     total = sum(counts.values())
-    over = f" ({passed_over:,} were in it already)" if passed_over else ""
+    passed = sum(earlier.values())
+    over = f" ({passed:,} were in it already: {told(earlier)})" if passed else ""
     what = told(counts) or "nothing left to do"
     name = "recording" if total == 1 else "recordings"
     sys.stdout.write(f"{total:,} {name}: {what}. Rows are in {visible(str(output))}{over}.\n")
@@ -246,15 +248,20 @@ def swept_into(
     """Work on many recordings, write a file of rows, and say what came of it.
 
     Returns:
-        How many recordings there are of each outcome.
+        How many recordings there are of each outcome, in all of the file.
     """
     sources = expanded(words)
     if not sources:
         raise UsageError("Name the recordings: files, folders, globs, URLs.")
-    output = RowFile(path, task.columns, resume=resume)
+    output = RowFile(path, task.columns, task.judged, resume=resume)
     try:
         counts, _ = sweep(sources, output, workers, task)
     finally:
         output.close()
-    announce(counts, sum(output.holds(source) for source in sources), path)
-    return counts
+    earlier: dict[str, int] = Counter(
+        task.outcome(output.earlier(source))
+        for source in dict.fromkeys(sources)
+        if output.holds(source)
+    )
+    announce(counts, earlier, path)
+    return {key: counts.get(key, 0) + earlier.get(key, 0) for key in {**counts, **earlier}}

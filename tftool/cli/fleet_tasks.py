@@ -85,6 +85,10 @@ class FleetTask(Protocol):
     def unreadable(self, source: str, why: str) -> Row:
         """The row of a recording that cannot be read."""
 
+    @property
+    def judged(self) -> Sequence[str]:
+        """The columns that `outcome` looks at."""
+
     def outcome(self, rows: Sequence[Row]) -> str:
         """What came of a recording, in a word of `told`."""
 
@@ -166,6 +170,11 @@ class Examination:
             "count": 1,
         }
 
+    @property
+    def judged(self) -> Sequence[str]:
+        """The columns that `outcome` looks at."""
+        return ("id", "severity", "because_of")
+
     def outcome(self, rows: Sequence[Row]) -> str:
         """The worst severity among what is no consequence."""
         if rows[0]["id"] in (UNREADABLE, NONE_FOUND):
@@ -217,6 +226,11 @@ class Inventory:
     def unreadable(self, source: str, why: str) -> Row:
         """The row of a recording that cannot be read."""
         return {"source": source, "unreadable": why}
+
+    @property
+    def judged(self) -> Sequence[str]:
+        """The columns that `outcome` looks at."""
+        return ("damage", "unreadable")
 
     def outcome(self, rows: Sequence[Row]) -> str:
         """Whether it can be read, and whole."""

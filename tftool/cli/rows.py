@@ -45,12 +45,20 @@ class RowFile:
 
     source = "source"
 
-    def __init__(self, path: Path, columns: Mapping[str, ColumnKind], *, resume: bool) -> None:
+    def __init__(
+        self,
+        path: Path,
+        columns: Mapping[str, ColumnKind],
+        judged: Sequence[str] = (),
+        *,
+        resume: bool,
+    ) -> None:
         """Open it.
 
         Args:
             path: Its suffix says what is written: .jsonl, .csv or .parquet.
             columns: The columns of a table.
+            judged: The columns that are kept of what it holds already; see `earlier`.
             resume: Whether to keep what it holds, and go on.
 
         Raises:
@@ -68,10 +76,12 @@ class RowFile:
         if self._is_parquet:
             _arrow()
         self._growing = path.with_name(f"{path.name}.part") if self._is_parquet else path
-        self._done: frozenset[str] = frozenset()
+        self._judged = (self.source, *judged)
+        self._done: dict[str, list[Row]] = {}
         try:
-            if resume:
-                self._done = frozenset(self._sources())
+            for row in self._held() if resume else ():
+                rows = self._done.setdefault(row[self.source], [])
+                rows.append({name: row.get(name) for name in self._judged})
             mode = "ab" if self._done else "wb"
             # Without a buffer: rows of one recording are in the file together or not at all.
             self._file = io.FileIO(self._growing, mode)
@@ -83,18 +93,24 @@ class RowFile:
 
     def holds(self, source: str) -> bool:
         """Whether rows of a recording were in it when it was opened."""
-        written = _cell(source) if self._suffix == ".csv" else source
-        return written in self._done or (self._is_parquet and _utf8(source) in self._done)
+        return bool(self.earlier(source))
 
-    def _sources(self) -> Iterator[str]:
-        """The recordings it has rows of; half a line at its end is taken away."""
+    def earlier(self, source: str) -> list[Row]:
+        """The rows of a recording that were in it when it was opened, in the judged columns."""
+        written = _cell(source) if self._suffix == ".csv" else source
+        return self._done.get(str(written)) or (
+            self._done.get(_utf8(source), []) if self._is_parquet else []
+        )
+
+    def _held(self) -> Iterator[Row]:
+        """The rows it has, at least in the judged columns; half a line at its end is taken away."""
         if self._is_parquet and self.path.exists() and self.path.stat().st_size:
             arrow = _arrow()
             try:
-                table = arrow.parquet.read_table(self.path, columns=[self.source])
+                table = arrow.parquet.read_table(self.path, columns=list(self._judged))
             except arrow.ArrowException as error:
                 raise ValueError from error
-            yield from table.column(self.source).to_pylist()
+            yield from table.to_pylist()
         if not self._growing.exists():
             return
         whole = self._growing.read_bytes()
@@ -104,9 +120,12 @@ class RowFile:
             self._growing.write_bytes(kept)
         lines = kept.decode("utf-8").splitlines()
         if self._suffix == ".csv":
-            yield from (row[self.source] for row in csv.DictReader(lines))
+            # A cell without anything is what was None.
+            yield from (
+                {name: cell or None for name, cell in row.items()} for row in csv.DictReader(lines)
+            )
         else:
-            yield from (json.loads(line)[self.source] for line in lines if line)
+            yield from (json.loads(line) for line in lines if line)
 
     def write(self, rows: Sequence[Row]) -> None:
         """All rows of one recording, at once.
