@@ -105,6 +105,19 @@ def test_what_could_not_be_read_before_counts_as_well(tftool, fleet, tmp_path, s
         assert tftool(command, broken, "-o", output, "--resume").status == 3
 
 
+@pytest.mark.parametrize(
+    "words", [["--junit", "report.xml"], ["--json"], ["--markdown"], ["--verbose"]]
+)
+def test_a_report_that_would_not_be_written_is_refused(tftool, fleet, tmp_path, words):
+    output = tmp_path / "found.csv"
+
+    result = tftool("doctor", fleet, "-o", output, *words)
+
+    assert (result.status, result.out) == (2, "")
+    assert f"-o writes rows, and {words[0]} another report: leave one out." in result.err
+    assert not output.exists()
+
+
 def test_rows_of_a_process_that_was_killed_become_part_of_the_table(tftool, fleet, tmp_path):
     parquet = pytest.importorskip("pyarrow.parquet", reason="the extra 'parquet'")
     some = sorted(map(str, fleet.glob("day*/run*.mcap")))[:3]

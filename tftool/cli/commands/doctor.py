@@ -139,6 +139,15 @@ def doctor(
     scope = Scope(None if urdf is None else described_by(urdf), settings.tf_topics, begin, end)
     fails = None if fail_on is FailOn.never else Severity(fail_on.value)
     if output is not None:
+        _refuse_reports(
+            {
+                "--junit": junit is not None,
+                "--json": for_programs,
+                "--markdown": markdown,
+                "--verbose": verbose,
+                "--statistics": statistics,
+            }
+        )
         chosen, left_out = tuple(_words(select or ())), tuple(_words(ignore or ()))
         refuse_unknown(settings, chosen, left_out)
         task = fleet_tasks.Examination(settings, chosen, left_out, scope)
@@ -162,6 +171,17 @@ def doctor(
     if junit is not None:
         write_file(junit, view.as_junit(rows, fails))
     return _status(rows, fails)
+
+
+def _refuse_reports(given: dict[str, bool]) -> None:
+    """Refuse reports for which there is no room beside rows in a file.
+
+    Raises:
+        UsageError: If one is asked for.
+    """
+    asked = " and ".join(name for name, is_given in given.items() if is_given)
+    if asked:
+        raise UsageError(f"-o writes rows, and {asked} another report: leave one out.")
 
 
 def _print(
