@@ -222,14 +222,16 @@ def distance(one: str, other: str, most: int) -> int:
     before: list[int] = []
     last = list(range(len(other) + 1))
     for row, letter in enumerate(one, start=1):
-        here = [row]
-        for column, wanted in enumerate(other, start=1):
+        # What lies further from the diagonal than that is more anyway.
+        here = [row, *[most + 1] * len(other)]
+        for column in range(max(1, row - most), min(len(other), row + most) + 1):
+            wanted = other[column - 1]
             cost = min(
                 last[column] + 1, here[column - 1] + 1, last[column - 1] + (letter != wanted)
             )
             if row > 1 and column > 1 and (letter, one[row - 2]) == (other[column - 2], wanted):
                 cost = min(cost, before[column - 2] + 1)
-            here.append(cost)
+            here[column] = cost
         before, last = last, here
         # A swap goes on from the row before; else no number below is less than the least here.
         if min(last) > most and min(before) >= most:
@@ -239,8 +241,10 @@ def distance(one: str, other: str, most: int) -> int:
 
 def _shared(one: str, other: str) -> int:
     """With how many letters both begin."""
-    pairs = enumerate(zip(one, other, strict=False))
-    return next((at for at, (a, b) in pairs if a != b), min(len(one), len(other)))
+    for place, (letter, its) in enumerate(zip(one, other, strict=False)):
+        if letter != its:
+            return place
+    return min(len(one), len(other))
 
 
 def namespace_twins(model: Model, limits: Limits) -> Iterator[Hit]:
