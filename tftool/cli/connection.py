@@ -6,78 +6,22 @@ Every command that may share a session takes a `Connection` as its first paramet
 
 import math
 import os
-from collections.abc import Mapping
 from dataclasses import dataclass, field
 from enum import Enum, auto
 from pathlib import Path
 from typing import TYPE_CHECKING, Self
 
 from tftool.cli.connection_options import LARGEST_DOMAIN
+from tftool.cli.files import RecordingOptions, RobotOptions, StoredFrames
 from tftool.cli.notices import notice
 from tftool.errors import InputError, UsageError
 
 if TYPE_CHECKING:
-    from tftool.cli.hosting import StoredFrames
     from tftool.link.options import Options
     from tftool.link.session import Link
     from tftool.runtime.clock import Clock
     from tftool.sources.find import Found
     from tftool.stamps import Duration, Stamp
-
-
-@dataclass(frozen=True, slots=True)
-class RobotOptions:
-    """What the command line says about the robot description that FROM names or goes with it.
-
-    Attributes:
-        joints: Positions by joint, radians or metres.
-        arguments: Values of xacro arguments.
-        urdf: A description for a recording that has none.
-    """
-
-    joints: Mapping[str, float] = field(default_factory=dict)
-    arguments: Mapping[str, str] = field(default_factory=dict)
-    urdf: Path | None = None
-
-    def refuse(self, what: str) -> None:
-        """Refuse them for a FROM that is no robot description.
-
-        Args:
-            what: What it is, as the beginning of a sentence.
-
-        Raises:
-            UsageError: If one was given.
-        """
-        given = [f"--joint {name}={value:g}" for name, value in self.joints.items()]
-        given += [f"{name}:={value}" for name, value in self.arguments.items()]
-        given += [] if self.urdf is None else [f"--urdf {self.urdf}"]
-        if given:
-            raise UsageError(f"{what}: leave out {', '.join(given)}.")
-
-
-@dataclass(frozen=True, slots=True)
-class RecordingOptions:
-    """What the command line says about how a recording is read.
-
-    Attributes:
-        no_cache: Whether its columns are read again, and not kept.
-        with_odometry: Whether odometry and poses count as transforms.
-    """
-
-    no_cache: bool = False
-    with_odometry: bool = False
-
-    def refuse(self, what: str) -> None:
-        """Refuse what changes the answer for a FROM that is no recording.
-
-        Args:
-            what: What it is, as the beginning of a sentence.
-
-        Raises:
-            UsageError: If that was given.
-        """
-        if self.with_odometry:
-            raise UsageError(f"{what}: leave out --with-odometry.")
 
 
 LOOKING = frozenset(
@@ -138,7 +82,7 @@ class Providers:
 
     def stored(
         self, found: "Found", robot: RobotOptions, recording: RecordingOptions
-    ) -> "StoredFrames":
+    ) -> StoredFrames:
         """Open a recording or a robot description.
 
         Args:
@@ -258,7 +202,7 @@ class Connection:
                 notice(sentence)
         return link
 
-    def open_stored(self, found: "Found") -> "StoredFrames":
+    def open_stored(self, found: "Found") -> StoredFrames:
         """Open a recording or a robot description, which is closed with this connection.
 
         Raises:

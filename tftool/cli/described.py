@@ -9,7 +9,7 @@ from tftool.stamps import Stamp
 from tftool.views.escaping import visible
 
 if TYPE_CHECKING:
-    from tftool.cli.connection import RobotOptions
+    from tftool.cli.files import RobotOptions
     from tftool.frames.buffer import Buffer
     from tftool.sources.find import Found
     from tftool.sources.robot import Robot
@@ -18,7 +18,7 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True, slots=True)
 class RobotAtRest:
-    """The frames of a description, which hold at all times; see `hosting.StoredFrames`."""
+    """The frames of a description, which hold at all times; see `files.StoredFrames`."""
 
     name: str
     robot: "Robot"

@@ -19,9 +19,10 @@ import asyncio
 import sys
 from collections.abc import Callable
 from dataclasses import dataclass, replace
-from typing import TYPE_CHECKING, Protocol
+from typing import TYPE_CHECKING
 
 from tftool.cli.connection import Connection, Mode
+from tftool.cli.files import StoredFrames
 from tftool.cli.naming import kind_in_words, kind_word, named, scenario_named
 from tftool.cli.notices import notice
 from tftool.cli.session import Session, lived, shared
@@ -34,7 +35,6 @@ from tftool.stamps import CACHE_TIME, Duration, Stamp, seconds
 from tftool.views.escaping import visible
 
 if TYPE_CHECKING:
-    from tftool.frames.buffer import Buffer
     from tftool.link.session import Link
     from tftool.scenario.schema import NodeEntry, Scenario
     from tftool.sources.recording import Recording
@@ -48,29 +48,6 @@ A_MOMENT = "A chosen moment is always simulated"
 
 HEAD_START = seconds(3)
 """How long a hosted world has lived when its command first looks: both turtles are there."""
-
-
-class StoredFrames(Protocol):
-    """Frames that are all there: those of a recording, or of a robot description."""
-
-    @property
-    def name(self) -> str:
-        """What it is called: "run.mcap"."""
-
-    @property
-    def start(self) -> Stamp:
-        """The moment from which `--at` counts."""
-
-    @property
-    def end(self) -> Stamp:
-        """The last moment there is data of."""
-
-    @property
-    def buffer(self) -> "Buffer":
-        """All of it."""
-
-    def close(self) -> None:
-        """Close its files."""
 
 
 @dataclass(frozen=True, slots=True)

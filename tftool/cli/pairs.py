@@ -9,7 +9,7 @@ from tftool.stamps import Duration, Stamp, seconds
 from tftool.views.escaping import visible
 
 if TYPE_CHECKING:
-    from tftool.cli.hosting import StoredFrames
+    from tftool.cli.files import StoredFrames
     from tftool.trajectories.sampling import Moments
 
 

@@ -17,8 +17,7 @@ if TYPE_CHECKING:
 
     from rich.progress import Progress, TaskID
 
-    from tftool.cli.connection import RecordingOptions, RobotOptions
-    from tftool.cli.hosting import StoredFrames
+    from tftool.cli.files import RecordingOptions, RobotOptions, StoredFrames
     from tftool.frames.sample import TransformStamped
     from tftool.sources.described import DescribedFrames
     from tftool.sources.find import Found

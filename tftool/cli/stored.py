@@ -9,7 +9,8 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
 from tftool.cli.connection import Connection
-from tftool.cli.hosting import NO_SESSION, StoredFrames, join_session, open_session, refuse_to_share
+from tftool.cli.files import StoredFrames
+from tftool.cli.hosting import NO_SESSION, join_session, open_session, refuse_to_share
 from tftool.cli.naming import named
 from tftool.cli.notices import tell_listening
 from tftool.cli.observing import LISTEN
@@ -29,7 +30,7 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True, slots=True)
 class HeardFrames:
-    """What a world broadcast while it was listened to; see `hosting.StoredFrames`."""
+    """What a world broadcast while it was listened to; see `files.StoredFrames`."""
 
     name: str
     start: Stamp

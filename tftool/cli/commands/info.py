@@ -8,7 +8,8 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 from tftool.cli.app import ExitStatus
-from tftool.cli.connection import Connection, RobotOptions
+from tftool.cli.connection import Connection
+from tftool.cli.files import RobotOptions
 from tftool.cli.options import Jobs, Json, Resume, Rows, Scheduler
 from tftool.errors import InputError, UsageError
 

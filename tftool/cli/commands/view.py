@@ -18,7 +18,7 @@ if TYPE_CHECKING:
     from collections.abc import Callable, Sequence
 
     from tftool.cli.connection import Connection
-    from tftool.cli.hosting import StoredFrames
+    from tftool.cli.files import StoredFrames
     from tftool.cli.session import Session
     from tftool.runtime.world import World
     from tftool.screens.browser.robots import ShownRobot
