@@ -11,10 +11,10 @@ from enum import Enum, auto
 from pathlib import Path
 from typing import TYPE_CHECKING, Self
 
-from tftool.cli.connection_options import LARGEST_DOMAIN
 from tftool.cli.files import RecordingOptions, RobotOptions, StoredFrames
 from tftool.cli.notices import notice
 from tftool.errors import InputError, UsageError
+from tftool.link.options import LARGEST_DOMAIN
 
 if TYPE_CHECKING:
     from tftool.link.options import Options

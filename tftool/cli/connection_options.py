@@ -10,12 +10,10 @@ from typing import TYPE_CHECKING, Annotated, Any
 import typer
 
 from tftool.cli.options import option
+from tftool.link.options import LARGEST_DOMAIN
 
 if TYPE_CHECKING:
     from tftool.cli.connection import Providers
-
-LARGEST_DOMAIN = 232
-"""ROS 2's own limit."""
 
 FLAGS = ("join", "host", "read_only", "dds", "with_odometry", "no_cache")
 

@@ -5,6 +5,9 @@ from pathlib import Path
 
 from tftool.errors import InputError
 
+LARGEST_DOMAIN = 232
+"""ROS 2's own limit."""
+
 
 @dataclass(frozen=True, slots=True)
 class Certificates:
