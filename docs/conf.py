@@ -13,7 +13,8 @@ from docutils.parsers.rst import Directive
 from sphinx.application import Sphinx
 
 import tftool
-from tftool.cli.app import COMMANDS, main
+from tftool.cli.app import main
+from tftool.cli.index import COMMANDS
 
 project = "tftool"
 author = "the tftool maintainers"

@@ -13,6 +13,7 @@ import pytest
 import tftool as package
 from tests.patience import PATIENCE
 from tftool.cli import app
+from tftool.cli.index import COMMANDS
 from tftool.errors import (
     InputError,
     LookupException,
@@ -23,7 +24,6 @@ from tftool.errors import (
 from tftool.frames.native import BUILD, IS_NATIVE
 
 ROOT = Path(__file__).parents[2]
-COMMANDS = app.COMMANDS
 
 # What would make every command slow to answer, help included.
 HEAVY = {"numpy", "textual", "zenoh", "rich", "yaml", "asyncio", "transforms3d", "websockets"}

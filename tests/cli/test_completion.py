@@ -11,7 +11,7 @@ import pytest
 import tftool as library
 from tests.terminals import Terminal
 from tftool.cli import completion
-from tftool.cli.app import COMMANDS
+from tftool.cli.index import COMMANDS
 
 
 @pytest.fixture

@@ -96,7 +96,7 @@ def offers(words: Sequence[str]) -> list[Offer]:
     Args:
         words: What stands after `tftool`; the last is the one that is being typed.
     """
-    from tftool.cli.app import COMMANDS
+    from tftool.cli.index import COMMANDS
 
     *before, current = words
     if not before:
@@ -118,12 +118,9 @@ def _is_plain(word: str, current: str) -> bool:
 
 def _of_command(name: str, before: Sequence[str], current: str) -> Iterator[Offer]:
     """What one command takes next."""
-    import typer
+    from tftool.cli.help import made
 
-    from tftool.cli.app import build
-
-    commands = build()
-    params = commands.get_command(typer.Context(commands), name).params
+    params = made(name).params
     options = {one: param for param in params for one in (*param.opts, *param.secondary_opts)}
     arguments = [param for param in params if param.param_type_name == "argument"]
     if before and (option := options.get(before[-1])) is not None and _takes_value(option):

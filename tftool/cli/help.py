@@ -4,13 +4,16 @@ import re
 from collections.abc import Callable, Sequence
 from inspect import cleandoc
 from itertools import pairwise
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import typer
 from typer.core import TyperCommand, TyperGroup
 from typer.main import get_command
 
-from tftool.cli.app import COMMANDS, GROUPS, SETTINGS, load
+from tftool.cli.index import COMMANDS, GROUPS, SETTINGS, load
+
+if TYPE_CHECKING:
+    from tftool.cli.connection import Providers
 
 _SESSION = "help_session"
 _ARGUMENT = re.compile(r"[A-Za-z_]\w*:=")
@@ -29,17 +32,7 @@ class Commands(TyperGroup):
 
     def get_command(self, ctx: Any, cmd_name: str) -> Any:
         """Make a command; None if there is none of that name."""
-        if cmd_name not in COMMANDS:
-            return None
-        command = load(cmd_name, ctx.obj)
-        app = typer.Typer(rich_markup_mode=None, add_completion=False)
-        app.command(
-            cmd_name,
-            cls=Command,
-            help=_laid_out(command),
-            context_settings=SETTINGS.get(cmd_name),
-        )(command)
-        return get_command(app)
+        return made(cmd_name, ctx.obj) if cmd_name in COMMANDS else None
 
     def format_commands(self, ctx: Any, formatter: Any) -> None:
         """Write the groups of commands."""
@@ -47,6 +40,16 @@ class Commands(TyperGroup):
         for title, group in GROUPS.items():
             with formatter.section(title):
                 formatter.write_dl([(name.ljust(width), words) for name, words in group.items()])
+
+
+def made(name: str, providers: "Providers | None" = None) -> Any:
+    """Make one of the commands, with all its options."""
+    command = load(name, providers)
+    app = typer.Typer(rich_markup_mode=None, add_completion=False)
+    app.command(name, cls=Command, help=_laid_out(command), context_settings=SETTINGS.get(name))(
+        command
+    )
+    return get_command(app)
 
 
 def _laid_out(command: Callable[..., Any]) -> str:

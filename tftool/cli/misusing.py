@@ -5,7 +5,7 @@ from collections.abc import Sequence
 from difflib import SequenceMatcher
 from typing import Any
 
-from tftool.cli.app import COMMANDS
+from tftool.cli.index import COMMANDS
 
 PLAINLY = (
     (r"is not a valid int( range)?\b", "is not a whole number"),
