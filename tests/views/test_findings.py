@@ -165,6 +165,16 @@ def test_each_check_can_be_explained_without_a_finding(check):
         assert link in text
 
 
+@pytest.mark.parametrize("check", CHECKS.values(), ids=CHECKS)
+def test_on_a_terminal_an_explanation_is_broken_between_words(check):
+    text = findings.explained(check, 60)
+
+    assert text.split() == findings.explained(check).split()
+    for line in text.splitlines():
+        # What is longer alone is an address or a command.
+        assert len(line) <= 60 or len(line.split()) <= 2
+
+
 def test_all_checks_are_listed():
     text = shown(findings.listing())
     assert [name for name in CHECKS if f"\n{name} " not in text] == []

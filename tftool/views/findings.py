@@ -1,6 +1,7 @@
 """What a diagnosis found: for a terminal, a program, an issue, a build server."""
 
 from collections.abc import Sequence
+from textwrap import TextWrapper
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -273,8 +274,13 @@ def listing() -> "Table":
     return table
 
 
-def explained(check: Check) -> str:
-    """All that is known of one check, as text."""
+def explained(check: Check, width: int | None = None) -> str:
+    """All that is known of one check, as text.
+
+    Args:
+        check: Which.
+        width: Cells a line may take: it goes on in the next one, between words. None for all.
+    """
     lines = [
         f"{check.id}: {check.summary}",
         "",
@@ -298,6 +304,12 @@ def explained(check: Check) -> str:
         lines.append(f"{'fix    ' if not number else '       '}  {_general(fix.text + command)}")
     for number, link in enumerate(check.links):
         lines.append(f"{'see    ' if not number else '       '}  {link}")
+    if width is not None:
+        # A command or an address stays whole, to be copied.
+        how = TextWrapper(
+            width, subsequent_indent=" " * 9, break_long_words=False, break_on_hyphens=False
+        )
+        lines = [one for line in lines for one in how.wrap(line) or [""]]
     return "\n".join(lines) + "\n"
 
 

@@ -115,7 +115,7 @@ def doctor(
     import json
 
     from tftool.cli import fleet, fleet_tasks
-    from tftool.cli.printing import write, write_file
+    from tftool.cli.printing import line_width, write, write_file
     from tftool.cli.workers import workers_of
     from tftool.diagnostics.findings import Severity
     from tftool.diagnostics.judge import refuse_unknown
@@ -130,7 +130,7 @@ def doctor(
             write(view.listing())
         return ExitStatus.DONE
     if explain:
-        sys.stdout.write(view.explained(_check(explain)))
+        sys.stdout.write(view.explained(_check(explain), line_width()))
         return ExitStatus.DONE
     if for_programs and markdown:
         raise UsageError("--json and --markdown are two ways to print it: leave one out.")
