@@ -93,6 +93,8 @@ def test_a_pose_is_read_however_it_is_pasted(text):
         ("0 0 0 0", "xyzw", "four zeros"),
         ("0 0 0 0", "axis-angle", "no axis"),
         ("1 2 3 4 5 6 7 8 9", None, "no rotation"),
+        ("90deg", None, "^1 number is no rotation: a quaternion has 4"),
+        ("1 2", None, "^2 numbers are no rotation: a quaternion has 4"),
         ("1 0 0 0 1 0 0 0 -1", None, "mirrors"),
         ("1 0 0 0 0 1 0 0 0 0 1 0 5 6 7 1", None, "column by column"),
         ("0 0 wat 1", "xyzw", "'wat'"),

@@ -260,9 +260,9 @@ def _ambiguous(count: int) -> UsageError:
             "Three bare numbers can be angles or a rotation vector: say which with --as rpy, "
             "--as ypr, --as rotvec, or an order of axes such as --as szyx."
         )
+    given = "1 number is" if count == 1 else f"{count} numbers are"
     return UsageError(
-        f"{count} number{'' if count == 1 else 's'} are no rotation: a quaternion has 4, "
-        "angles are 3, a matrix has 9 or 16."
+        f"{given} no rotation: a quaternion has 4, angles are 3, a matrix has 9 or 16."
     )
 
 
