@@ -101,6 +101,8 @@ def test_a_finding_of_the_doctors_ends_it_and_is_said(here, tftool):
         (["-o", "run", "--ring", "5", "--max-size", "5M"], "--ring writes one file"),
         (["-o", "run.mcap", "--on", "split-tre"], "did you mean split-tree"),
         (["-o", "there.mcap"], "exists: --force"),
+        (["-o", "run.mcap", "orbit"], "--in orbit records a scenario, /orbit a topic of that name"),
+        (["-o", "run.mcap", "there.mcap"], "'there.mcap' is a scenario or a file, and topics are"),
     ],
 )
 def test_what_contradicts_is_refused_before_anything_runs(here, tftool, words, told):

@@ -18,7 +18,7 @@ from tftool.near_names import near_names
 from tftool.stamps import Duration, seconds
 
 if TYPE_CHECKING:
-    from collections.abc import Iterator
+    from collections.abc import Iterator, Sequence
 
     from tftool.cli.connection import Connection
     from tftool.cli.recording import RecordingRun
@@ -103,6 +103,7 @@ def record(
         raise UsageError(
             "--ring writes one file in the end: leave out --max-size and --max-duration."
         )
+    _refuse_places(topics or ())
     limits = RecordLimits(_size(max_size), max_duration or 0, ring or 0)
     running: RecordingRun | None = None
     with interruptible(), _ended_by_hangup():
@@ -196,6 +197,26 @@ def _size(text: str | None) -> int:
     if found < _LEAST_SIZE:
         raise UsageError(f"--max-size {text} is less than a file needs: 100k at least.")
     return found
+
+
+def _refuse_places(topics: "Sequence[str]") -> None:
+    """See that no scenario or file stands where a topic's name is wanted.
+
+    Raises:
+        UsageError: If one does.
+    """
+    from tftool.scenario import builtin
+    from tftool.views.escaping import visible
+
+    for word in topics:
+        if word.startswith("/"):
+            continue
+        if builtin.path_of(word) is not None or Path(word).is_file():
+            shown = visible(word)
+            raise UsageError(
+                f"'{shown}' is a scenario or a file, and topics are named here: --in {shown} "
+                f"records a scenario, /{shown} a topic of that name."
+            )
 
 
 def _check_finding(name: str) -> None:
