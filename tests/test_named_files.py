@@ -9,6 +9,7 @@ import pytest
 
 from tests.patience import PATIENCE, answered
 from tftool import Transform, TransformStamped, write_recording
+from tftool.cli.printing import write_file
 from tftool.named_files import LARGEST, open_regular, read_named, read_named_text
 
 pytestmark = pytest.mark.skipif(not hasattr(os, "mkfifo"), reason="there are no pipes with a name")
@@ -66,6 +67,20 @@ def test_files_are_read_whole_folders_and_what_never_ends_are_refused(tmp_path):
     assert answered(lambda: read_named("/dev/null")) == b""
 
 
+def test_what_is_written_into_a_pipe_arrives_where_it_has_a_reader(pipe):
+    read = []
+    reader = threading.Thread(target=lambda: read.append(pipe.read_bytes()), daemon=True)
+    kept = os.open(pipe, os.O_RDWR)
+    reader.start()
+
+    sent = "ä" * 200_000
+    answered(lambda: write_file(pipe, sent) is None)
+    os.close(kept)
+    reader.join(PATIENCE)
+
+    assert b"".join(read).decode() == sent
+
+
 @pytest.mark.parametrize(
     "words",
     [
@@ -76,6 +91,9 @@ def test_files_are_read_whole_folders_and_what_never_ends_are_refused(tmp_path):
         ["launch", "pipe.launch.xml"],
         ["run", "node.py", "--ros-args", "--params-file", "pipe.yaml"],
         ["check", "pipe.yaml"],
+        ["tree", "run.mcap", "-o", "pipe.svg"],
+        ["info", "run.mcap", "-o", "pipe.jsonl"],
+        ["info", "run.mcap", "--resume", "-o", "pipe.jsonl"],
     ],
 )
 def test_no_command_hangs_where_a_file_is_a_pipe(tmp_path, words):
@@ -83,7 +101,15 @@ def test_no_command_hangs_where_a_file_is_a_pipe(tmp_path, words):
         recording.transforms([TransformStamped(1, "map", "base", Transform())], log_time=1)
     (tmp_path / "node.py").write_text("print('it ran')", "utf-8")
     (tmp_path / "folder").mkdir()
-    for name in ("pipe.urdf", "pipe.py", "pipe.launch.py", "pipe.launch.xml", "pipe.yaml"):
+    for name in (
+        "pipe.urdf",
+        "pipe.py",
+        "pipe.launch.py",
+        "pipe.launch.xml",
+        "pipe.yaml",
+        "pipe.svg",
+        "pipe.jsonl",
+    ):
         os.mkfifo(tmp_path / name)
     os.mkfifo(tmp_path / "folder" / "metadata.yaml")
 

@@ -13,7 +13,8 @@ from typing import BinaryIO, Final
 LARGEST: Final = 64 << 20
 """Bytes that are taken from a pipe or a device, which may never end."""
 
-_HOW: Final = os.O_RDONLY | getattr(os, "O_NONBLOCK", 0) | getattr(os, "O_BINARY", 0)
+_AT_ONCE: Final = getattr(os, "O_NONBLOCK", 0)
+_HOW: Final = os.O_RDONLY | _AT_ONCE | getattr(os, "O_BINARY", 0)
 
 
 def open_regular(path: Path) -> io.BufferedReader:
@@ -71,6 +72,23 @@ def read_named_text(path: Path) -> str:
     """
     with io.TextIOWrapper(open_named(path), encoding="utf-8") as file:
         return file.read()
+
+
+def reader_there(path: str, flags: int) -> int:
+    """An `opener` of files that are written: a pipe has to have its reader already.
+
+    Raises:
+        OSError: If it cannot be opened, or no process reads from it.
+    """
+    try:
+        number = os.open(path, flags | _AT_ONCE, 0o666)
+    except OSError as error:
+        if error.errno != errno.ENXIO:
+            raise
+        raise OSError(errno.EINVAL, "no process reads from it", path) from None
+    if _AT_ONCE:
+        os.set_blocking(number, True)
+    return number
 
 
 def _opened(path: Path) -> tuple[io.FileIO, int]:

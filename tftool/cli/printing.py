@@ -6,6 +6,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from tftool.errors import InputError
+from tftool.named_files import reader_there
 
 if TYPE_CHECKING:
     from rich.console import RenderableType
@@ -51,9 +52,7 @@ def write_file(path: Path, content: str | bytes) -> None:
 
     refuse_stdout(path)
     try:
-        if isinstance(content, bytes):
-            path.write_bytes(content)
-        else:
-            path.write_text(content, encoding="utf-8")
+        with open(path, "wb", opener=reader_there) as file:
+            file.write(content if isinstance(content, bytes) else content.encode())
     except OSError as error:
         raise InputError(f"'{path}' cannot be written: {error.strerror or error}.") from error

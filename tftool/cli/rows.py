@@ -10,6 +10,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any, BinaryIO
 
 from tftool.errors import InputError, UsageError
+from tftool.named_files import open_regular, reader_there
 from tftool.views.escaping import visible
 
 if TYPE_CHECKING:
@@ -84,10 +85,11 @@ class RowFile:
                 rows.append({name: row.get(name) for name in self._judged})
             mode = "ab" if self._done else "wb"
             # Without a buffer: rows of one recording are in the file together or not at all.
-            self._file = io.FileIO(self._growing, mode)
+            self._file = io.FileIO(self._growing, mode, opener=reader_there)
         except (OSError, ValueError, KeyError, TypeError) as error:
             reason = getattr(error, "strerror", None) or "it holds something else than rows"
-            raise InputError(f"'{path}' cannot be gone on with: {reason}.") from error
+            what = "gone on with" if resume else "written"
+            raise InputError(f"'{path}' cannot be {what}: {reason}.") from error
         if self._suffix == ".csv" and not self._done:
             self._file.write(self._table([self._columns]))
 
@@ -113,7 +115,8 @@ class RowFile:
             yield from table.to_pylist()
         if not self._growing.exists():
             return
-        whole = self._growing.read_bytes()
+        with open_regular(self._growing) as file:
+            whole = file.read()
         # A process that was killed may have left half a line.
         kept = whole[: whole.rfind(b"\n") + 1]
         if len(kept) < len(whole):
