@@ -10,7 +10,6 @@ from dataclasses import dataclass, replace
 from types import MappingProxyType
 from typing import TYPE_CHECKING, ClassVar
 
-from tftool.errors import TftoolError
 from tftool.frames.sample import TransformStamped
 from tftool.geometry.conversions import quaternion_from_rpy
 from tftool.geometry.rigid import Transform
@@ -32,21 +31,17 @@ from tftool.nodes.teleop import KEYS
 from tftool.nodes.turtle import PEN_COLOR, PEN_WIDTH
 from tftool.scenario import values
 from tftool.scenario.reading import reads
+from tftool.scenario.script import Script, StepFailed
 from tftool.scenario.values import RelativeMoment
 from tftool.stamps import Duration, seconds
 
 if TYPE_CHECKING:
     from tftool.scenario.schema import Scenario
-    from tftool.scenario.script import Script
 
 REFRESH: Duration = seconds(0.5)
 """How often a drive repeats its command; a turtle stops a second after the last one."""
 
 _REFUSED = "the buffer refused it; the log says why"
-
-
-class StepFailed(TftoolError):
-    """A step was refused, and why."""
 
 
 class Action(ABC):
@@ -61,7 +56,7 @@ class Action(ABC):
     key: ClassVar[str]
 
     @abstractmethod
-    async def do(self, script: "Script") -> None:
+    async def do(self, script: Script) -> None:
         """Do it, now.
 
         Raises:
@@ -78,7 +73,7 @@ class Press(Action):
     keys: tuple[str, ...] = reads(values.words(KEYS, "a key"))
     every: Duration = reads(values.period, seconds(1), beside=True)
 
-    async def do(self, script: "Script") -> None:
+    async def do(self, script: Script) -> None:
         """Do it, now."""
         start = script.clock.now()
         for count, key in enumerate(self.keys):
@@ -97,7 +92,7 @@ class Drive(Action):
     sideways: float = reads(values.speed, 0.0)
     lasting: Duration = reads(values.duration, key="for", beside=True)
 
-    async def do(self, script: "Script") -> None:
+    async def do(self, script: Script) -> None:
         """Do it, now."""
         topic = script.publisher(f"{self.turtle}/cmd_vel", Twist2D)
         at = script.clock.now()
@@ -124,7 +119,7 @@ class SpawnTurtle(Action):
     y: float = reads(values.length, CENTRE)
     theta: float = reads(values.angle, 0.0)
 
-    async def do(self, script: "Script") -> None:
+    async def do(self, script: Script) -> None:
         """Do it, now."""
         request = Spawn(self.x, self.y, self.theta, self.name)
         spawned: Spawned = await script.call("spawn", request)
@@ -140,7 +135,7 @@ class KillTurtle(Action):
     short: ClassVar[str] = "turtle"
     turtle: str = reads(values.turtle)
 
-    async def do(self, script: "Script") -> None:
+    async def do(self, script: Script) -> None:
         """Do it, now."""
         # The answer says nothing, as in ROS 2.
         is_there = script.world.has_service(f"{self.turtle}/set_pen")
@@ -159,7 +154,7 @@ class Teleport(Action):
     y: float = reads(values.length)
     theta: float = reads(values.angle, 0.0)
 
-    async def do(self, script: "Script") -> None:
+    async def do(self, script: Script) -> None:
         """Do it, now."""
         request = TeleportAbsolute(self.x, self.y, self.theta)
         await script.call(f"{self.turtle}/teleport_absolute", request)
@@ -174,7 +169,7 @@ class Hop(Action):
     linear: float = reads(values.length, 0.0)
     angular: float = reads(values.angle, 0.0)
 
-    async def do(self, script: "Script") -> None:
+    async def do(self, script: Script) -> None:
         """Do it, now."""
         request = TeleportRelative(self.linear, self.angular)
         await script.call(f"{self.turtle}/teleport_relative", request)
@@ -188,7 +183,7 @@ class Rotate(Action):
     turtle: str = reads(values.turtle, "turtle1")
     theta: float = reads(values.angle)
 
-    async def do(self, script: "Script") -> None:
+    async def do(self, script: Script) -> None:
         """Do it, now."""
         goal = RotateAbsolute(self.theta)
         await script.world.send_goal(f"{self.turtle}/rotate_absolute", goal)
@@ -209,7 +204,7 @@ class Pen(Action):
     width: int = reads(_channel, PEN_WIDTH)
     off: bool = reads(values.flag, False)
 
-    async def do(self, script: "Script") -> None:
+    async def do(self, script: Script) -> None:
         """Do it, now."""
         request = SetPen(self.r, self.g, self.b, self.width, int(self.off))
         await script.call(f"{self.turtle}/set_pen", request)
@@ -221,7 +216,7 @@ class ClearField(Action):
 
     key: ClassVar[str] = "clear"
 
-    async def do(self, script: "Script") -> None:
+    async def do(self, script: Script) -> None:
         """Do it, now."""
         await script.call("clear", Clear())
 
@@ -232,7 +227,7 @@ class ResetField(Action):
 
     key: ClassVar[str] = "reset"
 
-    async def do(self, script: "Script") -> None:
+    async def do(self, script: Script) -> None:
         """Do it, now."""
         await script.call("reset", Reset())
 
@@ -266,7 +261,7 @@ class Broadcast(FrameAction):
     every: Duration = reads(values.period, seconds(0.1), beside=True)
     lasting: Duration = reads(values.duration, 0, key="for", beside=True)
 
-    async def do(self, script: "Script") -> None:
+    async def do(self, script: Script) -> None:
         """Do it, now."""
         pose = self.transform
         at = script.clock.now()
@@ -290,7 +285,7 @@ class BroadcastStatic(FrameAction):
 
     key: ClassVar[str] = "static"
 
-    async def do(self, script: "Script") -> None:
+    async def do(self, script: Script) -> None:
         """Do it, now."""
         now = script.clock.now()
         pose = self.transform
@@ -306,7 +301,7 @@ class StopNode(Action):
     short: ClassVar[str] = "node"
     node: str = reads(values.name("a node"))
 
-    async def do(self, script: "Script") -> None:
+    async def do(self, script: Script) -> None:
         """Do it, now."""
         # It may be gone already: stopped before, or left out by what hosts this world.
         gone = [node for node in script.world.nodes if node.name == self.node]
@@ -326,7 +321,7 @@ class Say(Action):
     short: ClassVar[str] = "text"
     text: str = reads(values.text)
 
-    async def do(self, script: "Script") -> None:
+    async def do(self, script: Script) -> None:
         """Do it, now."""
         script.info(self.text)
 

@@ -7,13 +7,16 @@ from typing import Any
 from tftool.errors import TftoolError
 from tftool.runtime.node import Node
 from tftool.runtime.world import World
-from tftool.scenario.actions import StepFailed
 from tftool.scenario.schema import Step
 from tftool.scenario.verdict import Outcome
 from tftool.stamps import Duration, Stamp, as_seconds, seconds
 
 PATIENCE: Duration = seconds(1)
 """How long before the end a service must have been asked for its silence to count."""
+
+
+class StepFailed(TftoolError):
+    """A step was refused, and why."""
 
 
 class Script(Node):
