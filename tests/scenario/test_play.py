@@ -15,9 +15,8 @@ from tftool.runtime.clock import SimClock, run
 from tftool.runtime.node import Node
 from tftool.runtime.world import TransformMessage
 from tftool.scenario import builtin
-from tftool.scenario.actions import left_to_a_person
 from tftool.scenario.load import load, parse
-from tftool.scenario.play import build, run_scenario
+from tftool.scenario.play import build, left_to_a_person, run_scenario
 from tftool.stamps import seconds
 
 

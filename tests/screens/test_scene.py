@@ -223,8 +223,7 @@ def test_two_trees_that_are_joined_are_one_picture_that_agrees_with_the_lookup()
     from tftool.cli.naming import scenario_named
     from tftool.cli.onscreen import simulator_of
     from tftool.runtime.clock import SimClock
-    from tftool.scenario.actions import left_to_a_person
-    from tftool.scenario.play import build
+    from tftool.scenario.play import build, left_to_a_person
 
     play = build(left_to_a_person(scenario_named("two_trees")), SimClock())
     scene = Scene(play.world, simulator_of(play.world))

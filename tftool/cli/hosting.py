@@ -182,7 +182,7 @@ def open_session(
     try:
         scenario = _scenario_to_host(word, without, because)
         if by_hand:
-            from tftool.scenario.actions import left_to_a_person
+            from tftool.scenario.play import left_to_a_person
 
             scenario = left_to_a_person(scenario)
         if cache_time:

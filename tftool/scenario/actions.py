@@ -6,9 +6,9 @@ scenario calls it, and `do` does it. To add one: write it, and name it in `ACTIO
 
 from abc import ABC, abstractmethod
 from collections.abc import Mapping
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from types import MappingProxyType
-from typing import TYPE_CHECKING, ClassVar
+from typing import ClassVar
 
 from tftool.frames.sample import TransformStamped
 from tftool.geometry.conversions import quaternion_from_rpy
@@ -34,9 +34,6 @@ from tftool.scenario.reading import reads
 from tftool.scenario.script import Script, StepFailed
 from tftool.scenario.values import RelativeMoment
 from tftool.stamps import Duration, seconds
-
-if TYPE_CHECKING:
-    from tftool.scenario.schema import Scenario
 
 REFRESH: Duration = seconds(0.5)
 """How often a drive repeats its command; a turtle stops a second after the last one."""
@@ -348,12 +345,3 @@ ACTIONS: Mapping[str, type[Action]] = MappingProxyType(
     }
 )
 """Every action, by its key."""
-
-
-def left_to_a_person(scenario: "Scenario") -> "Scenario":
-    """The scenario without what a person at the keys does better: keys and drives.
-
-    What happens to the world still does. With a person in it, it promises nothing.
-    """
-    script = tuple(step for step in scenario.script if not isinstance(step.action, Drive | Press))
-    return replace(scenario, script=script, expect=())

@@ -2,6 +2,7 @@
 
 from collections.abc import Callable, Mapping
 from contextlib import AbstractContextManager, nullcontext, suppress
+from dataclasses import replace
 from types import MappingProxyType
 from typing import TypeAlias
 
@@ -10,7 +11,7 @@ from tftool.runtime.clock import Clock, SimClock, run
 from tftool.runtime.supervisor import live
 from tftool.runtime.world import World
 from tftool.scenario import load
-from tftool.scenario.actions import Press
+from tftool.scenario.actions import Drive, Press
 from tftool.scenario.expectations import Expectations
 from tftool.scenario.kinds import KINDS
 from tftool.scenario.load import NO_ARGUMENTS
@@ -119,6 +120,15 @@ def _not_reached(expected: Expectation) -> Outcome:
         at=None,
         ok=False,
     )
+
+
+def left_to_a_person(scenario: Scenario) -> Scenario:
+    """The scenario without what a person at the keys does better: keys and drives.
+
+    What happens to the world still does. With a person in it, it promises nothing.
+    """
+    script = tuple(step for step in scenario.script if not isinstance(step.action, Drive | Press))
+    return replace(scenario, script=script, expect=())
 
 
 def build(

@@ -195,8 +195,7 @@ class _Showing:
         from tftool.cli.onscreen import driver_of, run_app, simulator_of
         from tftool.cli.session import shared
         from tftool.scenario import builtin
-        from tftool.scenario.actions import left_to_a_person
-        from tftool.scenario.play import Watch, build
+        from tftool.scenario.play import Watch, build, left_to_a_person
         from tftool.screens.setting import Setting
 
         recording = self.recording
