@@ -84,19 +84,24 @@ def build() -> "Commands":
             sys.stdout.write(f"tftool {__version__} ({BUILD})\n")
             raise typer.Exit
         if install or show:
-            from tftool.cli import completion
-
-            shell = completion.shell_here()
-            if show:
-                sys.stdout.write(completion.SCRIPTS[shell])
-            else:
-                files = " and ".join(str(path) for path in completion.install(shell))
-                sys.stdout.write(f"Written: {files}. It works in every {shell} that starts now.\n")
+            _set_up_completion(show=show)
             raise typer.Exit
         if context.invoked_subcommand is None:
             sys.stdout.write(context.get_help() + "\n")
 
     return cast(Commands, get_command(app))
+
+
+def _set_up_completion(*, show: bool) -> None:
+    """Have this shell complete, or show the script that it runs for it."""
+    from tftool.cli import completion
+
+    shell = completion.shell_here()
+    if show:
+        sys.stdout.write(completion.SCRIPTS[shell])
+        return
+    files = " and ".join(str(path) for path in completion.install(shell))
+    sys.stdout.write(f"Written: {files}. It works in every {shell} that starts now.\n")
 
 
 def main(argv: "Sequence[str] | None" = None, providers: "Providers | None" = None) -> int:

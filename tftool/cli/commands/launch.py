@@ -1,6 +1,6 @@
 """`tftool launch`: launch files without ROS."""
 
-from typing import TYPE_CHECKING, Annotated
+from typing import Annotated
 
 import typer
 
@@ -14,9 +14,6 @@ from tftool.cli.options import (
     option,
     refuse_long_simulation,
 )
-
-if TYPE_CHECKING:
-    from tftool.runtime.log import LogRecord
 
 
 def launch(
@@ -46,14 +43,13 @@ def launch(
     tftool launch launch/turtle_following.launch.xml --show-args
     """
     import sys
-    from pathlib import Path
 
     from tftool.cli.hosting import open_empty_session, open_session, tell_where_to_look
-    from tftool.cli.notices import notice, tell_record
+    from tftool.cli.notices import notice
+    from tftool.cli.programs import tell_log, workspace_here
     from tftool.errors import NodeFailed, TftoolError, UsageError
     from tftool.ros import running
     from tftool.ros.host.importing import ros_free
-    from tftool.ros.host.workspace import Workspace
     from tftool.ros.launch import packages
     from tftool.ros.launch.engine import Launch
     from tftool.views.escaping import visible_lines
@@ -62,9 +58,7 @@ def launch(
         raise UsageError("on simulated time a launch needs an end: --for SECONDS")
     if simulated:
         refuse_long_simulation(run_for)
-    workspace = Workspace(Path.cwd())
-    for skipped in workspace.skipped if verbose else ():
-        notice(visible_lines(skipped))
+    workspace = workspace_here(verbose=verbose)
     with ros_free(force=force):
         packages.use(workspace)
         path, rest = running.find_launch_file(workspace, words)
@@ -90,13 +84,7 @@ def launch(
             session.abandon()
             raise
         tell_where_to_look(connection, session)
-
-        def tell(record: "LogRecord") -> None:
-            # What the link has to say the session tells.
-            if record.node != "link":
-                tell_record(record, label=started.label_of(record))
-
-        world.log.listen(tell, "console")
+        tell_log(world, started.label_of)
         try:
             work = running.until(world, started.ended, run_for)
             session.run(work, on_interrupt=started.interrupt)

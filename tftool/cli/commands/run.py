@@ -14,7 +14,7 @@ from tftool.cli.options import (
     option,
     refuse_long_simulation,
 )
-from tftool.views.escaping import visible, visible_lines
+from tftool.views.escaping import visible
 
 ROBOTS = ("robot_state_publisher", "joint_state_publisher")
 """Packages whose nodes publish a robot."""
@@ -26,7 +26,7 @@ SIMULATED = "Simulated time is a world's own, and shares no session"
 
 if TYPE_CHECKING:
     from tftool.cli.connection import Connection
-    from tftool.runtime.log import LogRecord
+    from tftool.cli.session import Session
 
 
 def misplaced(words: Sequence[str], own: Collection[str]) -> list[str]:
@@ -87,15 +87,13 @@ def run(
     tftool run pkg_tf turtle_following --ros-args -p source_frame:=carrot1
     tftool run --in robot --simulated --for 20 my_listener.py
     """
-    from pathlib import Path
-
     from tftool.cli.commands.teleop import teleop
-    from tftool.cli.hosting import NO_SESSION, open_empty_session, open_session, tell_where_to_look
-    from tftool.cli.notices import notice, tell_record
+    from tftool.cli.hosting import tell_where_to_look
+    from tftool.cli.notices import notice
+    from tftool.cli.programs import tell_log, workspace_here
     from tftool.errors import UsageError
     from tftool.ros import running
     from tftool.ros.host.importing import ros_free
-    from tftool.ros.host.workspace import Workspace
     from tftool.ros.launch import packages
 
     if simulated and run_for is None:
@@ -106,9 +104,7 @@ def run(
     own = {name for option in context.command.params for name in option.opts if name[0] == "-"}
     for word in misplaced(words, own):
         notice(word)
-    workspace = Workspace(Path.cwd())
-    for skipped in workspace.skipped if verbose else ():
-        notice(visible_lines(skipped))
+    workspace = workspace_here(verbose=verbose)
     if (target, *words[:1]) == KEYBOARD and target not in workspace.packages:
         if place is not None or simulated or run_for is not None:
             raise UsageError(
@@ -122,29 +118,11 @@ def run(
     with ros_free(force=force):
         packages.use(workspace)
         running.check_program(workspace, target, words)
-        if alone:
-            session = open_empty_session(connection, simulated=simulated)
-        else:
-            without = None if place else lambda node: node.kind != "turtlesim"
-            session = open_session(
-                connection,
-                place,
-                simulated=simulated,
-                head_start=0,
-                needs_messages=True,
-                without=without,
-                because=SIMULATED if simulated else NO_SESSION,
-            )
+        session = _opened(connection, place, alone=alone, simulated=simulated)
         connection.tell_read_only()
         tell_where_to_look(connection, session)
         world = session.world
-
-        def tell(record: "LogRecord") -> None:
-            # What the link has to say the session tells.
-            if record.node != "link":
-                tell_record(record)
-
-        world.log.listen(tell, "console")
+        tell_log(world)
         ending: list[running.Ending] = []
 
         async def work() -> None:
@@ -154,3 +132,22 @@ def run(
 
         session.run(work())
         return ending[0].judge()
+
+
+def _opened(
+    connection: "Connection", place: str | None, *, alone: bool, simulated: bool
+) -> "Session":
+    """The session a node runs in; `alone` brings all there is to see."""
+    from tftool.cli.hosting import NO_SESSION, open_empty_session, open_session
+
+    if alone:
+        return open_empty_session(connection, simulated=simulated)
+    return open_session(
+        connection,
+        place,
+        simulated=simulated,
+        head_start=0,
+        needs_messages=True,
+        without=None if place else lambda node: node.kind != "turtlesim",
+        because=SIMULATED if simulated else NO_SESSION,
+    )
