@@ -114,7 +114,6 @@ def echo(
     from tftool.cli.naming import named
     from tftool.cli.notices import notice
     from tftool.cli.pairs import refuse_file_as_frame
-    from tftool.cli.redrawing import can_redraw
     from tftool.cli.waiting import FramePair
     from tftool.sources.find import Kind
     from tftool.views.echo import in_words
@@ -122,8 +121,7 @@ def echo(
     place, rate = _place_or_rate(place, rate)
     _refuse_contradictions(once, count, at, offset, fixed_frame)
     refuse_file_as_frame(target, source, place)
-    for frame in (target, source, *([] if fixed_frame is None else [fixed_frame])):
-        _check_name(frame)
+    _check_names(target, source, *([] if fixed_frame is None else [fixed_frame]))
 
     # What is recorded is all there: it is read, not waited for.
     found = None if place is None else named(place)
@@ -152,25 +150,17 @@ def echo(
     stamp = 0
     if at is not None:
         stamp = session.moment(at)
-        after = f"{at} after {session.name} began" if not at.is_stamp else f"at {at}"
-        heading += f", {after}"
+        heading += f", at {at}" if at.is_stamp else f", {at} after {session.name} began"
     if timeout is None and (stamp or recorded):
         # What has not come a second after the moment asked about will not come.
         timeout = max(stamp, session.world.clock.now()) - session.world.clock.now() + seconds(1)
-    pair = FramePair(target, source, stamp, offset or 0, fixed_frame)
-    count = 1 if once or stamp or recorded else count
-    redraws = count is None and not for_programs and can_redraw()
-    if not redraws:
-        notice(f"{heading}:")
-    if target == source:
-        notice("A frame seen from itself is always the identity.")
     _print_live(
         session,
-        pair,
+        FramePair(target, source, stamp, offset or 0, fixed_frame),
         printer,
-        redraws=redraws,
+        heading,
         period=seconds(1.0 / (rate or 1.0)),
-        count=count,
+        count=1 if once or stamp or recorded else count,
         patience=timeout,
         tells=not (stamp or recorded),
     )
@@ -200,8 +190,8 @@ def _print_live(
     session: "Session",
     pair: "FramePair",
     printer: "Printer",
+    heading: str,
     *,
-    redraws: bool,
     period: Duration,
     count: int | None,
     patience: Duration | None,
@@ -209,8 +199,14 @@ def _print_live(
 ) -> None:
     """Ask a session again and again, and print each answer, or draw it in place of the last."""
     from tftool.cli.echoing import Echo, LivePrinter
-    from tftool.cli.redrawing import Redrawing
+    from tftool.cli.notices import notice
+    from tftool.cli.redrawing import Redrawing, can_redraw
 
+    redraws = count is None and not printer.for_programs and can_redraw()
+    if not redraws:
+        notice(f"{heading}:")
+    if pair.target == pair.source:
+        notice("A frame seen from itself is always the identity.")
     with contextlib.ExitStack() as stack:
         shown: Printer | LivePrinter = printer
         if redraws:
@@ -263,11 +259,12 @@ def _place_or_rate(place: str | None, rate: float | None) -> tuple[str | None, f
     return None, within(0.001, 1000)(number)
 
 
-def _check_name(frame: str) -> None:
-    if not frame:
-        raise UsageError("A frame's name cannot be empty.")
-    if frame.startswith("/"):
-        raise UsageError(
-            f"Frame \"{frame}\": in tf2 frame_ids cannot start with a '/'. "
-            f"Ask for {frame.lstrip('/') or 'its name without it'}."
-        )
+def _check_names(*frames: str) -> None:
+    for frame in frames:
+        if not frame:
+            raise UsageError("A frame's name cannot be empty.")
+        if frame.startswith("/"):
+            raise UsageError(
+                f"Frame \"{frame}\": in tf2 frame_ids cannot start with a '/'. "
+                f"Ask for {frame.lstrip('/') or 'its name without it'}."
+            )
