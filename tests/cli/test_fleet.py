@@ -7,6 +7,7 @@ import signal
 import subprocess
 import sys
 from contextlib import suppress
+from importlib.util import find_spec
 from pathlib import Path
 from threading import Thread
 
@@ -181,10 +182,26 @@ def test_recordings_are_fetched_by_url(tftool, fleet, tmp_path):
     one = f"file://{fleet}/day0/run00.mcap"
     shown = tftool("doctor", one)
     assert shown.out.startswith(f"{one}: MCAP")
-    assert tftool("info", one).status == 0
+    told = tftool("info", one)
+    assert (told.status, told.out.partition(",")[0]) == (0, f"{one}: MCAP")
+    elsewhere = tftool("tree", one)
+    assert elsewhere.status == 3
+    assert f"'{one}' is a URL, of which 'tftool info' and 'tftool doctor' read" in elsewhere.err
     for url in (f"file://{fleet}/none.mcap", "none://bucket/run.mcap", f"file://{fleet}/*.bag"):
         assert tftool("doctor", url).status == 3
         assert "Traceback" not in tftool("doctor", url).err
+
+
+def test_a_place_that_needs_another_package_is_wrong_usage(tftool):
+    pytest.importorskip("fsspec", reason="the extra 'fleet'")
+    if find_spec("s3fs") is not None:
+        pytest.skip("s3fs is installed")
+
+    result = tftool("info", "s3://bucket/run.mcap")
+
+    assert result.status == 2
+    assert "'s3://bucket/run.mcap' needs more than the extra 'fleet': " in result.err
+    assert "s3fs" in result.err
 
 
 @pytest.mark.parametrize(

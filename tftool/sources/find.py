@@ -15,6 +15,7 @@ from pathlib import Path
 
 from tftool.errors import InputError
 from tftool.named_files import open_regular
+from tftool.sources.remote import is_url
 
 MCAP_MAGIC = b"\x89MCAP0\r\n"
 SQLITE_MAGIC = b"SQLite format 3\x00"
@@ -138,6 +139,11 @@ def find(word: str) -> Found:
                 return _several(word, matches)
             if path.is_symlink():
                 raise InputError(f"'{word}' is a link to nothing: {os.readlink(path)}")
+            if is_url(word):
+                raise InputError(
+                    f"'{word}' is a URL, of which 'tftool info' and 'tftool doctor' read "
+                    "recordings: fetch it to a file for what else is asked of it."
+                )
             raise InputError(f"There is no file or folder '{word}'.{_meant(path)}")
         if path.is_dir():
             return _folder(word, path)

@@ -82,6 +82,9 @@ def _failures_told(place: str) -> Iterator[None]:
         yield
     except FileNotFoundError as error:
         raise InputError(f"There is nothing at '{place}'.") from error
+    except ImportError as error:
+        # fsspec names the packages that a kind of place needs.
+        raise UsageError(f"'{place}' needs more than the extra 'fleet': {error}") from error
     except Exception as error:
         said = " ".join(str(error).split()) or type(error).__name__
         raise InputError(f"'{place}' cannot be fetched: {said}") from error

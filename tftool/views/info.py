@@ -24,13 +24,14 @@ from tftool.views.short_numbers import short_size
 _EPOCH = datetime(1970, 1, 1, tzinfo=UTC)
 
 
-def as_text(recording: Recording, width: int | None = None) -> str:
+def as_text(recording: Recording, width: int | None = None, name: str | None = None) -> str:
     """Everything about a recording, in lines.
 
     Args:
         recording: Which.
         width: Cells a line may take: sentences go on in the next one, columns that have no room
             are left out. None for all.
+        name: What it is called, where that is not what was opened.
     """
     source = recording.source
     edges, forest = edge_facts(recording.transforms), trees(recording.transforms)
@@ -38,7 +39,7 @@ def as_text(recording: Recording, width: int | None = None) -> str:
     messages = sum(topic.count for topic in topics)
     span = source.end - source.start
     facts = [
-        f"{visible(recording.name)}: {recording.source.kind}, {short_size(source.size)}",
+        f"{visible(name or recording.name)}: {recording.source.kind}, {short_size(source.size)}",
         f"{count(messages, 'message')} on {count(len(topics), 'topic')}, "
         f"{count(len(recording.transforms), 'transform')} of {count(len(edges), 'edge')}",
     ]
@@ -134,12 +135,12 @@ def _robot(recording: Recording, robot: Robot) -> str:
     return text
 
 
-def as_object(recording: Recording) -> dict[str, Any]:
+def as_object(recording: Recording, name: str | None = None) -> dict[str, Any]:
     """The same for programs; moments and durations in nanoseconds."""
     source, publishers = recording.source, _publishers(recording)
     edges, forest = edge_facts(recording.transforms), trees(recording.transforms)
     return {
-        "name": recording.name,
+        "name": name or recording.name,
         "kind": source.kind,
         "bytes": source.size,
         "log_start_ns": source.start,

@@ -60,7 +60,7 @@ def info(
         return _compared(places, processes, for_programs=for_programs)
     (place,) = places
     with fetched(place) as path:
-        return _one(connection, path, for_programs=for_programs)
+        return _one(connection, path, place, for_programs=for_programs)
 
 
 def _compared(places: list[str], processes: int, *, for_programs: bool) -> ExitStatus:
@@ -79,8 +79,10 @@ def _compared(places: list[str], processes: int, *, for_programs: bool) -> ExitS
     return ExitStatus.UNREADABLE if fleet_tasks.UNREADABLE in counts else ExitStatus.DONE
 
 
-def _one(connection: Connection, place: str, *, for_programs: bool) -> ExitStatus:
-    """All there is to say of one recording or description."""
+def _one(connection: Connection, place: str, name: str, *, for_programs: bool) -> ExitStatus:
+    """All there is to say of one recording or description, which people know by a name."""
+    from dataclasses import replace
+
     from tftool.cli.naming import named
     from tftool.cli.notices import notice
     from tftool.cli.printing import line_width
@@ -91,10 +93,10 @@ def _one(connection: Connection, place: str, *, for_programs: bool) -> ExitStatu
 
     found = named(place)
     if found.kind is Kind.DESCRIPTION:
-        _describe(connection, found, for_programs=for_programs)
+        _describe(connection, replace(found, name=name), for_programs=for_programs)
         return ExitStatus.DONE
     if not found.kind.is_recording:
-        word = visible(place)
+        word = visible(name)
         if found.kind is Kind.SCENARIO:
             sentence = (
                 f"'{word}' is no recording and no robot description. As a scenario, 'tftool check "
@@ -110,7 +112,7 @@ def _one(connection: Connection, place: str, *, for_programs: bool) -> ExitStatu
         for sentence in told_of_odometry(recording):
             notice(visible(sentence))
         if for_programs:
-            sys.stdout.write(json.dumps(view.as_object(recording), indent=2) + "\n")
+            sys.stdout.write(json.dumps(view.as_object(recording, name), indent=2) + "\n")
         else:
             from tftool.diagnostics.judge import judge
             from tftool.diagnostics.recorded import Described
@@ -120,7 +122,7 @@ def _one(connection: Connection, place: str, *, for_programs: bool) -> ExitStatu
             given = None if connection.robot.urdf is None else Described(recording.robot)
             diagnosis = judge(Scope(given).material(recording))
             width = line_width()
-            sys.stdout.write(view.as_text(recording, width))
+            sys.stdout.write(view.as_text(recording, width, name))
             told = "\n".join(view.wrapped(brief(diagnosis), width))
             sys.stdout.write(f"\n{told}\n")
     return ExitStatus.DONE
