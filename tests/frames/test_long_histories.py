@@ -1,5 +1,6 @@
 """Histories so long that they are put into large pages of memory once they are asked about."""
 
+import gc
 import sys
 import threading
 
@@ -8,6 +9,7 @@ import pytest
 
 from tests.twins import REASON, Twins, is_native
 from tftool.frames.buffer import Buffer
+from tftool.frames.history import History
 from tftool.frames.sample import TransformStamped
 from tftool.geometry.rigid import Transform
 from tftool.stamps import seconds
@@ -124,3 +126,35 @@ def test_a_history_that_doubles_is_asked_as_well():
         found = buffer.lookup_transform("a", f"c{count}", count * PERIOD - PERIOD // 2)
         assert found.transform.translation[0] == pytest.approx((count - 0.5) * 0.001)
     assert buffer.can_transform("a", "b", seconds(1))
+
+
+@pytest.mark.parametrize("which", range(1, 16))
+def test_what_the_collector_runs_while_samples_move_may_insert(which):
+    history = History(10**18)
+    for number in range(1, 101):
+        history.insert(number * PERIOD, 0, pose(number))
+    late = [(PERIOD + 1, 0, (*pose(7).translation, *pose(7).rotation))]
+    wanted = sorted([*history.items(), *late], reverse=True)
+    held, collections = [], 0
+
+    def collected(phase, info):
+        nonlocal collections
+        # Python keeps one slice for when it wants the next: each is to be a new one, for which the
+        # collector runs.
+        held.extend([slice(None) for _ in range(5)])
+        collections += phase == "stop"
+        if phase == "stop" and collections == which:
+            history.insert(PERIOD + 1, 0, pose(7))
+
+    before = gc.get_threshold()
+    gc.callbacks.append(collected)
+    try:
+        gc.set_threshold(1)
+        history.use_large_pages()
+        while collections < which:
+            gc.collect()
+    finally:
+        gc.set_threshold(*before)
+        gc.callbacks.remove(collected)
+
+    assert history.items() == wanted

@@ -685,13 +685,15 @@ class History(Fields):
         if pages is None:
             return
         words: Any = memoryview(pages)[:size].cast("q")
+        every = slice(None)
         with memoryview(records) as view:
             if len(view) != len(words):
                 return
             # While a view of it is held, no other thread has the array grow, but one may have put
-            # another in its place. From here on nothing is called: no thread comes in between.
+            # another in its place. From here on nothing is called, nor is there an object made,
+            # for which the collector might run: no thread comes in between.
             if records is self.records:
-                words[:] = view
+                words[every] = view
                 self.records = words
 
     # Pruning
