@@ -3,13 +3,14 @@
 import gc
 import sys
 import threading
+import tracemalloc
 
 import numpy as np
 import pytest
 
 from tests.twins import REASON, Twins, is_native
 from tftool.frames.buffer import Buffer
-from tftool.frames.history import History
+from tftool.frames.history import RECORD, WORDS, History
 from tftool.frames.sample import TransformStamped
 from tftool.geometry.rigid import Transform
 from tftool.stamps import seconds
@@ -158,3 +159,51 @@ def test_what_the_collector_runs_while_samples_move_may_insert(which):
         gc.callbacks.remove(collected)
 
     assert history.items() == wanted
+
+
+def borrowed():
+    """A history whose samples are not its own, as in large pages or of a recording."""
+    records = np.zeros((MANY, WORDS), dtype=np.int64)
+    records[:, 0] = np.arange(1, MANY + 1) * PERIOD
+    records.view(np.float64)[:, 7] = 1.0
+    history = History(10**18)
+    history.borrow(records.reshape(-1).data, 0)
+    return history
+
+
+def most_memory(work):
+    """How many bytes more than before are in use at most meanwhile."""
+    tracemalloc.start()
+    try:
+        work()
+        return tracemalloc.get_traced_memory()[1]
+    finally:
+        tracemalloc.stop()
+
+
+def test_to_let_go_of_samples_takes_no_memory_for_them():
+    history = borrowed()
+
+    assert most_memory(lambda: history.keep_last(100)) < 0.1 * MANY * RECORD
+
+    assert [len(history), history.oldest_stamp] == [100, (MANY - 99) * PERIOD]
+
+
+@pytest.mark.parametrize("kept", [2, 100, MANY // 2])
+def test_samples_that_are_let_go_of_leave_no_more_room_than_the_others_take(kept):
+    history = borrowed()
+    history.insert((MANY + 1) * PERIOD, 0, pose(1))
+
+    history.keep_last(kept)
+
+    assert len(history) == kept
+    assert len(history.records) <= WORDS * (1.2 * kept + 64)
+
+
+def test_an_insert_copies_what_is_borrowed_once():
+    history = borrowed()
+
+    late = most_memory(lambda: history.insert(PERIOD + 1, 0, pose(1)))
+
+    assert late < 1.5 * MANY * RECORD
+    assert len(history) == MANY + 1

@@ -716,18 +716,23 @@ class History(Fields):
         if self.mixed and start >= self._newest_parent_start:
             self.mixed = False
         if start >= self._compact_at:
-            self._splice(0, start, array("q"))
+            if isinstance(self.records, array):
+                self._splice(0, start, array("q"))
+            else:
+                # What is let go of is not to be copied first.
+                self.records = _copied(self.records, start, self.count)
             self.count -= start
             if self.origins is not None:
                 del self.origins[:start]
                 if self.origins.count(self.origin) == len(self.origins):
                     self.origins = None
+            self._compact_at = max(_LEAST_SLACK, self.count >> _SLACK)
             if IS_NATIVE:
-                # What is pruned makes room for as many.
-                self._splice(self.count, self.count, array("q", bytes(RECORD * start)))
+                # What is pruned makes room for as many, until as many are pruned again.
+                room = array("q", bytes(RECORD * min(start, self._compact_at)))
+                self._splice(self.count, len(self.records) // WORDS, room)
             self._newest_parent_start -= start
             start = 0
-            self._compact_at = max(_LEAST_SLACK, self.count >> _SLACK)
         self._begin(start)
 
     def _begin(self, start: int) -> None:
@@ -739,7 +744,11 @@ class History(Fields):
 def _copied(records: Words, start: int, stop: int) -> "array[int]":
     """Some of the records, in an array of their own."""
     words = records[WORDS * start : WORDS * stop]
-    return words if isinstance(words, array) else array("q", words.tobytes())
+    if isinstance(words, array):
+        return words
+    copy = array("q")
+    copy.frombytes(words.cast("B"))
+    return copy
 
 
 Link: TypeAlias = StaticLink | History
