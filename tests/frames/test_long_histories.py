@@ -161,6 +161,18 @@ def test_what_the_collector_runs_while_samples_move_may_insert(which):
     assert history.items() == wanted
 
 
+def test_a_history_that_was_cleared_is_asked_about_as_a_new_one():
+    history = History(10**18)
+    for number in range(1, 101):
+        history.insert(number * PERIOD, 0, pose(number))
+    history.use_large_pages()
+    assert history.settled == 200
+
+    history.clear()
+
+    assert history.settled == History(10**18).settled
+
+
 def borrowed():
     """A history whose samples are not its own, as in large pages or of a recording."""
     records = np.zeros((MANY, WORDS), dtype=np.int64)

@@ -205,7 +205,6 @@ class History(Fields):
         # More than any two stamps can be apart.
         self.limit: Duration = min(limit, LAST_STAMP)
         self.period: Duration = 1
-        self.settled: int = _MANY
         self.clear()
 
     def clear(self) -> None:
@@ -227,6 +226,7 @@ class History(Fields):
         self._compact_at: int = _LEAST_SLACK
         # Where the newest samples that share a parent begin; of use while mixed.
         self._newest_parent_start: int = 0
+        self.settled: int = _MANY
 
     def __len__(self) -> int:
         return self.count - self.start
