@@ -11,7 +11,7 @@ pytest.importorskip("zstandard", reason="the extra 'recordings' is not installed
 pytest.importorskip("lz4", reason="the extra 'recordings' is not installed")
 
 from tests.sources.editing.outcomes import NEW_POSE, SENT, messages
-from tests.sources.writers import CONTAINERS
+from tests.sources.writers import CONTAINERS, write_mcap
 from tftool.errors import InputError, UsageError
 from tftool.sources.editing.changes import Edits
 from tftool.sources.editing.rewriting import edit
@@ -66,6 +66,14 @@ def test_what_is_not_in_the_recording_is_refused_with_what_is(tmp_path, mcap, ed
         edit([str(mcap)], tmp_path / "out.mcap", edits)
 
     assert sorted(os.listdir(tmp_path)) == ["a.mcap"]
+
+
+def test_of_a_recording_without_transforms_it_is_said_that_there_are_none(tmp_path):
+    plain = write_mcap(tmp_path / "a.mcap", [one for one in SENT if "/tf" not in one.topic])
+
+    for edits in (Edits(rename={"laser": "x"}), Edits(drop=(("a", "b"),))):
+        with pytest.raises(UsageError, match=r"was recorded; there are no transforms in it\.$"):
+            edit([str(plain)], tmp_path / "out.mcap", edits)
 
 
 @pytest.mark.parametrize("name", ["mcap none", "db3", "ros 1 none"])

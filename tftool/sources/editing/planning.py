@@ -219,5 +219,7 @@ def _near(name: str, names: "set[str]") -> str:
     near = near_names(name, sorted(names), 3)
     if near:
         return f"did you mean {' or '.join(near)}?"
+    if not names:
+        return "there are no transforms in it."
     shown = ", ".join(sorted(names)[:8])
     return f"there are {shown}{' ...' if len(names) > 8 else '.'}"

@@ -80,19 +80,37 @@ def edit(
         progress: Is told how far it has come.
 
     Raises:
-        UsageError: If the changes cannot be made to these recordings, or the output is one of
-            them, or there already.
+        UsageError: If the changes cannot be made to these recordings, one is named twice, or the
+            output is one of them, or there already.
         InputError: If a recording cannot be read, or the output not be written.
     """
     container = container_of(output)
     with contextlib.ExitStack() as stack:
         inputs = [stack.enter_context(open_input(name)) for name in names]
+        _refuse_twice(inputs)
         _refuse_the_input(inputs, output)
         recordings = [stack.enter_context(open_recording(name)) for name in names]
         job = _Job(inputs, recordings, output, container, edits, progress)
         if dry_run:
             return job.tried()
         return job.done(force=force)
+
+
+def _refuse_twice(inputs: Sequence[EditedInput]) -> None:
+    """Refuse to join a recording to itself: every message of it would be there twice.
+
+    Raises:
+        UsageError: If a file is named twice, under whatever names.
+    """
+    seen: dict[Path, str] = {}
+    for one in inputs:
+        for path in {path.resolve() for path in one.paths}:
+            if path in seen:
+                raise UsageError(
+                    f"'{one.name}' was named before, in '{seen[path]}': a recording is not joined "
+                    "to itself."
+                )
+            seen[path] = one.name
 
 
 def _refuse_the_input(inputs: Sequence[EditedInput], output: Path) -> None:
