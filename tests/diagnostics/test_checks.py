@@ -302,6 +302,15 @@ def test_a_threshold_can_be_changed_and_is_then_told():
     assert found(made, "gap", narrow).evidence[-1] == "with seconds = 0.7"
 
 
+def test_a_threshold_may_be_nothing_where_there_is_nothing_to_judge():
+    made = robot()
+    for at in (1.0, 2.0):
+        made.sent("base_link", "arm", at, stamp=0)
+    for check in CHECKS.values():
+        none = Settings(limits={check.id: dict.fromkeys(check.limits, 0.0)})
+        assert "zero-stamp" in [one.id for one in made.judged(none).findings]
+
+
 def test_every_check_of_the_catalogue_is_tripped_here():
     here = Path(__file__).parent
     source = "".join(one.read_text(encoding="utf-8") for one in here.glob("test_*checks.py"))

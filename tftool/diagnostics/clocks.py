@@ -269,7 +269,7 @@ def _frozen(track: Track, limits: Limits) -> tuple[int, int, int] | None:
     if track.is_orderly and limits["times"] > 1:
         return None
     stamped = track.stamps != 0
-    if np.count_nonzero(stamped) < limits["times"]:
+    if np.count_nonzero(stamped) < max(limits["times"], 1):
         return None
     values, counts = np.unique(track.stamps[stamped], return_counts=True)
     most = int(np.argmax(counts))

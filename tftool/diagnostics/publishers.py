@@ -115,7 +115,7 @@ def _named_conflict(model: Model, track: Track, limits: Limits) -> Hit | None:
 def _unnamed_conflict(track: Track, limits: Limits) -> Hit | None:
     """Two opinions seen from the values: each continues itself, and they alternate."""
     places = track.by_stamp[:MOST_FOLLOWED]
-    if len(places) < 2 * limits["samples"]:
+    if len(places) < max(2 * limits["samples"], 2):
         return None
     apart = track.strides[: len(places) - 1]
     # Nor does one leave its own track that moves and turns so little, whatever the time it takes.
