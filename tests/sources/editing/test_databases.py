@@ -58,6 +58,19 @@ def test_a_database_is_copied_and_only_rows_that_change_are_written(database, tm
     assert sorted(one.name for one in tmp_path.iterdir() if "out" in one.name) == ["out.db3"]
 
 
+def test_a_database_with_other_files_beside_it_is_copied_as_well(database, tmp_path):
+    folder, out = tmp_path / "folder", tmp_path / "out.db3"
+    folder.mkdir()
+    database.rename(folder / "run.db3")
+    (folder / "notes.txt").write_text("wheels changed", "utf-8")
+
+    report = edit([str(folder)], out, Edits(poses={("base_link", "laser"): NEW_POSE}))
+
+    assert report.notes == ["Passed over, as no recordings: 'notes.txt'."]
+    with closing(sqlite3.connect(out)) as base:
+        assert base.execute("select text from notes").fetchall() == [("wheels changed",)]
+
+
 def test_what_is_dropped_from_a_database_is_not_in_its_file_any_more(database, tmp_path):
     out = tmp_path / "out.db3"
 

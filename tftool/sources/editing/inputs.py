@@ -28,6 +28,7 @@ class EditedInput:
         metadata: What its metadata.yaml says.
         mode: "file" or "message" where rosbag2 compressed it beyond its storage.
         damage: What is wrong with the folder.
+        notes: What else is worth saying of it.
     """
 
     name: str
@@ -37,6 +38,7 @@ class EditedInput:
     metadata: Mapping[str, Any] | None = None
     mode: str = ""
     damage: list[str] = field(default_factory=list)
+    notes: list[str] = field(default_factory=list)
     _unpacked: "list[tempfile.TemporaryDirectory[str]]" = field(default_factory=list)
 
     def __enter__(self) -> "EditedInput":
@@ -89,7 +91,7 @@ def open_input(name: str) -> EditedInput:
     if not found.kind.is_recording:
         raise UsageError(f"'{name}' is a {found.kind.value}: a recording is needed here.")
     opened = EditedInput(name)
-    opened.damage += found.told()
+    opened.notes += found.told()
     try:
         if found.kind is Kind.ROSBAG2:
             folder = found.paths[0]

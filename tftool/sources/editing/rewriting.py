@@ -491,7 +491,7 @@ class _Job:
         report = self.report
         report.counts = self._changer.counts
         for one in self._inputs:
-            report.notes += one.damage
+            report.notes += [*one.notes, *one.damage]
             for tape in one.tapes:
                 report.notes += tape.damage
         for output in self._outputs.values():
