@@ -106,6 +106,25 @@ def test_what_could_not_be_read_before_counts_as_well(tftool, fleet, tmp_path, s
         assert tftool(command, broken, "-o", output, "--resume").status == 3
 
 
+@pytest.mark.parametrize("suffix", ["jsonl", "csv", "parquet"])
+@pytest.mark.parametrize(("first", "then"), [("info", "doctor"), ("doctor", "info")])
+def test_rows_of_another_command_are_not_gone_on_with(tftool, fleet, tmp_path, first, then, suffix):
+    """They say nothing of what is asked now: a build would be green without a look."""
+    if suffix == "parquet":
+        pytest.importorskip("pyarrow.parquet", reason="the extra 'parquet'")
+    output = tmp_path / f"found.{suffix}"
+    for recording in ("day0/run00.mcap", "day1/cut.mcap"):
+        tftool(first, fleet / recording, "-o", output, "--resume")
+        before = output.read_bytes()
+
+        result = tftool(then, fleet / recording, "-o", output, "--resume")
+
+        assert (result.status, result.out) == (3, "")
+        assert "it holds something else than such rows" in " ".join(result.err.split())
+        assert output.read_bytes() == before
+        output.unlink()
+
+
 @pytest.mark.parametrize(
     "words", [["--junit", "report.xml"], ["--json"], ["--markdown"], ["--verbose"]]
 )
@@ -150,7 +169,7 @@ def test_an_output_that_holds_something_else_is_left_alone(tftool, fleet, tmp_pa
         output = tmp_path / f"found.{suffix}"
         output.write_text("what,ever\n1,2\n", encoding="utf-8")
         result = tftool("doctor", run, "-o", output, "--resume")
-        assert (result.status, "something else than rows" in result.err) == (3, True)
+        assert (result.status, "something else than such rows" in result.err) == (3, True)
         assert output.read_text(encoding="utf-8") == "what,ever\n1,2\n"
 
 

@@ -81,13 +81,15 @@ class RowFile:
         self._done: dict[str, list[Row]] = {}
         try:
             for row in self._held() if resume else ():
+                if not set(row) <= columns.keys():
+                    raise ValueError  # as of another command, which say nothing here
                 rows = self._done.setdefault(row[self.source], [])
                 rows.append({name: row.get(name) for name in self._judged})
             mode = "ab" if self._done else "wb"
             # Without a buffer: rows of one recording are in the file together or not at all.
             self._file = io.FileIO(self._growing, mode, opener=reader_there)
         except (OSError, ValueError, KeyError, TypeError) as error:
-            reason = getattr(error, "strerror", None) or "it holds something else than rows"
+            reason = getattr(error, "strerror", None) or "it holds something else than such rows"
             what = "gone on with" if resume else "written"
             raise InputError(f"'{path}' cannot be {what}: {reason}.") from error
         if self._suffix == ".csv" and not self._done:
