@@ -63,6 +63,18 @@ def test_an_unknown_frame_is_answered_with_those_there_are(tftool, run, words, m
     assert meant == "Did you mean laser?"
 
 
+@pytest.mark.parametrize("words", [["plot"], ["export", "-o", "laser.csv"]])
+def test_the_frames_there_are_are_named_once_for_all_pairs(tftool, run, words, monkeypatch):
+    monkeypatch.chdir(run.parent)
+    pairs = ["--pair", "odom:laser", "--pair", "odom:lazer", "--pair", "mapp:odom"]
+
+    result = tftool(words[0], *pairs, run, *words[1:])
+
+    assert result.status == 4
+    (hint,) = (line for line in result.err.splitlines() if line.startswith("Frames there are: "))
+    assert hint.endswith("Did you mean laser?")
+
+
 @pytest.mark.parametrize(
     ("words", "status", "told"),
     [

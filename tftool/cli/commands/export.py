@@ -134,8 +134,7 @@ def export(
         with interruptible():
             if chosen.is_trajectory:
                 moments = moments_of(stored, span(stored, first, last), every, rate, stamps_of)
-                for pair in asked:
-                    name_frames(stored.buffer.frames(), pair)
+                name_frames(stored.buffer.frames(), (frame for pair in asked for frame in pair))
                 found = [sample(stored.buffer, *pair, moments) for pair in asked]
                 done = write_trajectories(found, output, chosen, style, force=force, progress=bar)
             else:

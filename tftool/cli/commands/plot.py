@@ -117,8 +117,7 @@ def plot(
 
     stored = stored_frames(connection, place, lasting)
     moments = moments_of(stored, span(stored, first, last), every, rate, stamps_of)
-    for pair in asked:
-        name_frames(stored.buffer.frames(), pair)
+    name_frames(stored.buffer.frames(), (frame for pair in asked for frame in pair))
     found = [sample(stored.buffer, *pair, moments) for pair in asked]
     start = stored.start or min(int(one.path.stamps[0]) for one in found)
     if output is not None and form is not None:
