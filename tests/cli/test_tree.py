@@ -73,6 +73,7 @@ def test_a_file_gets_what_its_suffix_or_the_format_says(
     result = tftool("tree", "turtles", *words)
 
     assert (result.status, result.out) == (0, "")
+    assert result.err.endswith(f"Wrote 3 frames to {file}.\n")
     content = file.read_bytes()
     assert content.startswith(opening)
     assert b"turtle1" in content or form == "pdf"

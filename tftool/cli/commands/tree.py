@@ -152,9 +152,13 @@ def _write(
         else:
             sys.stdout.write(content)
         return
+    from tftool.cli.notices import notice
     from tftool.cli.printing import write_file
+    from tftool.views.counts import count
+    from tftool.views.escaping import visible
 
     write_file(output, content)
+    notice(visible(f"Wrote {count(len(snapshot.frames), 'frame')} to {output}."))
 
 
 def _content(
