@@ -4,6 +4,8 @@ from io import StringIO
 
 import pytest
 import yaml
+from hypothesis import given
+from hypothesis import strategies as st
 from rich.console import Console
 
 from tftool.frames.sample import FrameInfo, Snapshot
@@ -182,6 +184,26 @@ def test_yaml_has_tf2s_facts_and_gives_every_name_back(name):
     assert links["c"]["static"] is True
     assert links["c"]["rate"] == 10000.0
     assert links["c"]["broadcaster"] == "no recorded authority"
+
+
+NAMES = st.one_of(
+    st.text("abyYnoONeEſK_/01 9.-:#~=<", min_size=1, max_size=6),
+    st.sampled_from(["yes", "No", "NULL", "true", "nan", "a" * 100, "a" * 101, "a" * 130, "a b"]),
+)
+
+
+@given(NAMES, NAMES, st.floats(0, 1e20))
+def test_yaml_is_as_pyyaml_writes_it(frame, sender, rate):
+    info = moving(frame, sender, authority=sender)._replace(rate=rate)
+
+    written = frame_tree.as_yaml(snapshot(info))
+
+    assert written == yaml.safe_dump(
+        yaml.safe_load(written), sort_keys=False, allow_unicode=True, width=4096
+    )
+    link = yaml.safe_load(written)[frame]
+    assert (link["parent"], link["broadcaster"]) == (sender, sender)
+    assert link["rate"] == round(rate, 3)
 
 
 def test_yaml_of_nothing_is_an_empty_mapping():
