@@ -13,6 +13,7 @@ pytest.importorskip("zstandard", reason="the extra 'recordings' is not installed
 from mcap.writer import CompressionType
 
 from tests.sources.writers import SECOND, content, write_mcap
+from tftool import Transform, TransformStamped, seconds, write_recording
 from tftool.cli.app import main
 from tftool.sources.recording import open_recording
 
@@ -133,6 +134,36 @@ def test_what_cannot_be_done_is_said_in_a_sentence_and_leaves_nothing(
     assert told in capsys.readouterr().err
     assert os.listdir() == ["a.mcap"]
     assert (run / "a.mcap").read_bytes() == before
+
+
+@pytest.mark.parametrize("others", [[], ["none.mcap"]])
+@pytest.mark.parametrize(
+    ("words", "told"),
+    [
+        (["--from", "100"], "Nothing was recorded after --from: it ends 48.000 s after its start"),
+        (
+            ["--to", "1600000000"],
+            "Nothing was recorded before --to: it begins at 1700000000.000000.",
+        ),
+    ],
+)
+def test_an_unset_stamp_is_no_beginning_of_what_is_cut(tmp_path, tftool, others, words, told):
+    with write_recording(tmp_path / "none.mcap"):
+        pass
+    with write_recording(tmp_path / "run.mcap") as recording:
+        for second in range(49):
+            stamp = seconds(1_700_000_000 + second)
+            moved = [TransformStamped(stamp, "map", "odom", Transform())]
+            unset = [TransformStamped(0, "odom", "base", Transform())] if second == 5 else []
+            recording.transforms(moved + unset, log_time=stamp)
+
+    result = tftool(
+        "edit", tmp_path / "run.mcap", *(tmp_path / one for one in others),
+        "-o", tmp_path / "cut.mcap", *words,
+    )  # fmt: skip
+
+    assert result.status == 2
+    assert told in result.err
 
 
 @pytest.mark.parametrize(

@@ -99,34 +99,43 @@ def _window(edits: Edits, recordings: Sequence[Recording]) -> Window | None:
         if len(kept):
             logs.append(int(kept.min()))
         offsets.append(log_times - edge.stamps)
-    received = [moment for one in recordings for moment in (one.source.start, one.source.end)]
+    # Of an empty recording both are 0.
+    received = [
+        moment for one in recordings for moment in (one.source.start, one.source.end) if moment
+    ]
     if edits.by_record_time or not offsets:
-        _refuse_outside(edits, min(received), received)
+        _refuse_outside(edits, recordings, received)
         return Window(low, high, None, spans if edits.by_record_time else {})
     offset = int(np.median(np.concatenate(offsets)))
     # Messages of other topics may go on after the last transform.
-    stamped = [
-        int(moment) for _, edge in moving for moment in (edge.stamps.min(), edge.stamps.max())
-    ]
-    _refuse_outside(edits, min(stamped), [*stamped, *(moment - offset for moment in received)])
+    dated = [edge.stamps[edge.stamps > 0] for _, edge in moving]
+    stamped = [int(moment) for one in dated if len(one) for moment in (one.min(), one.max())]
+    _refuse_outside(edits, recordings, [*stamped, *(moment - offset for moment in received)])
     end = high if high == LAST_STAMP else high + offset
     start = 0 if edits.start is None else low + offset
     return Window(start, end, (low, high), spans)
 
 
-def _refuse_outside(edits: Edits, start: Stamp, moments: Sequence[Stamp]) -> None:
+def _refuse_outside(
+    edits: Edits, recordings: Sequence[Recording], moments: Sequence[Stamp]
+) -> None:
     """Refuse a cut of which nothing is left: one end of it lies beyond all of these moments.
 
     Args:
         edits: Whose cut.
-        start: From when on people count the recording's seconds.
+        recordings: What is cut.
         moments: When there is something, in no order.
 
     Raises:
         UsageError: If it does.
     """
+    if not moments:
+        return
     first, last = min(moments), max(moments)
     if edits.start is not None and edits.start > last:
+        # As people count its seconds: from the first stamp, which unset ones are not.
+        begins = [one.source.start if edits.by_record_time else one.start for one in recordings]
+        start = min(filter(None, begins), default=0)
         raise UsageError(
             f"Nothing was recorded after --from: it ends {as_seconds(last - start):.3f} s after "
             f"its start, at {display(last)}."
