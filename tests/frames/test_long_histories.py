@@ -4,6 +4,7 @@ import gc
 import sys
 import threading
 import tracemalloc
+import weakref
 
 import numpy as np
 import pytest
@@ -173,13 +174,19 @@ def test_a_history_that_was_cleared_is_asked_about_as_a_new_one():
     assert history.settled == History(10**18).settled
 
 
-def borrowed():
-    """A history whose samples are not its own, as in large pages or of a recording."""
+def borrowed(let_go=None):
+    """A history whose samples are not its own, as in large pages or of a recording.
+
+    Args:
+        let_go: Called with it once it has let go of them.
+    """
     records = np.zeros((MANY, WORDS), dtype=np.int64)
     records[:, 0] = np.arange(1, MANY + 1) * PERIOD
     records.view(np.float64)[:, 7] = 1.0
     history = History(10**18)
     history.borrow(records.reshape(-1).data, 0)
+    if let_go is not None:
+        weakref.finalize(records, let_go, history)
     return history
 
 
@@ -218,4 +225,21 @@ def test_an_insert_copies_what_is_borrowed_once():
     late = most_memory(lambda: history.insert(PERIOD + 1, 0, pose(1)))
 
     assert late < 1.5 * MANY * RECORD
+    assert len(history) == MANY + 1
+
+
+@pytest.mark.parametrize("stamp", [PERIOD - 1, PERIOD + 1, NEWEST, NEWEST + 1])
+def test_samples_may_move_while_those_that_were_borrowed_are_let_go_of(stamp):
+    moved = []
+
+    def move(history):
+        moved.append(stamp)
+        history.use_large_pages()
+
+    history = borrowed(move)
+
+    history.insert(stamp, 0, pose(1))
+
+    assert moved == [stamp]
+    assert [found for found, _, _ in history.items()].count(stamp) == 1 + (stamp == NEWEST)
     assert len(history) == MANY + 1

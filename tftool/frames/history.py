@@ -568,9 +568,11 @@ class History(Fields):
         try:
             self.records[where] = words
         except (BufferError, TypeError, ValueError):
-            # A batch reads them, which keeps the array as it is; or they are borrowed.
-            self.records = _copied(self.records, 0, len(self.records) // WORDS)
-            self.records[where] = words
+            # A batch reads them, which keeps the array as it is; or they are borrowed. To let go
+            # of those may let another thread in, which has the new ones in large pages.
+            copy = _copied(self.records, 0, len(self.records) // WORDS)
+            copy[where] = words
+            self.records = copy
 
     def _is_read(self) -> bool:
         """Whether the array must stay as it is: a batch reads it, or it is borrowed."""
