@@ -89,6 +89,17 @@ def test_a_glob_and_a_folder_stand_for_the_scenarios_in_them(tftool, scenarios, 
     assert result.out.splitlines()[-1] == "3 scenarios, 1 failed (b): 3 of 4 expectations held"
 
 
+def test_a_folder_without_scenarios_is_said_to_have_none_and_the_rest_is_judged(tftool, scenarios):
+    (scenarios / "more").mkdir()
+    (scenarios / "more" / "notes.txt").write_text("no scenario")
+
+    result = tftool("check", "more", "good.yaml")
+
+    assert result.status == 3
+    assert result.err == "tftool: No scenario (.yaml, .yml) is in the folder 'more'.\n"
+    assert result.out.endswith("\n2 scenarios, 1 failed (more): 1 of 1 expectation held\n")
+
+
 def test_a_folder_does_not_hide_a_built_in_scenario(tftool, scenarios):
     (scenarios / "static").mkdir()
     (scenarios / "static" / "bad.yaml").write_text(BAD)

@@ -221,8 +221,11 @@ def _judge(
     try:
         scenario = scenario_named(word)
     except InputError as error:
-        complain("tftool", str(error))
-        return Report(Path(word).stem or word, word, (), failure=str(error)), False
+        why = str(error)
+        if Path(word).is_dir():  # in which recordings were looked for as well
+            why = f"No scenario ({', '.join(SUFFIXES)}) is in the folder '{word}'."
+        complain("tftool", why)
+        return Report(Path(word).stem or word, word, (), failure=why), False
     for mistake in scenario.not_a_tree if own_nodes else ():
         notice(visible_lines(str(mistake)))
     if kept is None:
