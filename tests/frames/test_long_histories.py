@@ -243,3 +243,24 @@ def test_samples_may_move_while_those_that_were_borrowed_are_let_go_of(stamp):
     assert moved == [stamp]
     assert [found for found, _, _ in history.items()].count(stamp) == 1 + (stamp == NEWEST)
     assert len(history) == MANY + 1
+
+
+def test_who_asks_while_samples_are_let_go_of_finds_those_before_or_after():
+    found = []
+
+    def ask(history):
+        asking = threading.Thread(target=lambda: found.append(len(history.columns()[0]) // WORDS))
+        asking.start()
+        # It may have to wait for what is under way here.
+        asking.join(0.2)
+        waited.append(asking)
+
+    waited = []
+    history = borrowed(ask)
+    history.keep_last(MANY - 500)
+
+    history.keep_last(100)
+
+    for asking in waited:
+        asking.join()
+    assert found in ([MANY - 500], [100])

@@ -319,7 +319,8 @@ class History(Fields):
             if origins is not None:
                 origins = origins[start:]
             if (
-                (origins is None or len(origins) == count - start)
+                len(view) == WORDS * (count - start)
+                and (origins is None or len(origins) == count - start)
                 and records is self.records
                 and (start, count, newest, origin)
                 == (self.start, self.count, self.newest_stamp, self.origin)
