@@ -1,7 +1,7 @@
 /* What a lookup reckons: to find samples, to go between them, and to chain links.
 
    Numbers in, numbers out: nothing here knows of Python. Each function has a twin there (`history`,
-   `geometry.poses`, `path`, `batch/`) that does the same operations in the same order. */
+   `geometry.poses`, `path`, `batch/`): the same operations in order, but short arcs by a series. */
 
 #ifndef TFTOOL_WAY_H
 #define TFTOOL_WAY_H
