@@ -372,7 +372,7 @@ static int put(Link *link, int64_t stamp, int64_t origin, double *pose) {
             && count < view.len / (Py_ssize_t)sizeof(Record);
     PyObject *pair = NULL, *before = NULL;
     if (fits) {
-        settle(pose + 3, 1, 1);
+        canonical(pose + 3, 1);
         if (place < start) {
             oldest = stamp;
             start = place;

@@ -215,6 +215,13 @@ INLINE void between(const double *first, double *second, int n, int width) {
     }
 }
 
+/* The sign that tf2 gives: `quaternions.canonical`. */
+INLINE void canonical(double *q, int width) {
+    const double sign = leading(q[0], q[width], q[2 * width], q[3 * width]) < 0.0 ? -1.0 : 1.0;
+    for (int k = 0; k < 4; k++)
+        q[k * width] *= sign;
+}
+
 /* Of length one, as samples are, and of tf2's sign: `quaternions.unit`, then `canonical`, of what
    unit quaternions were chained to. */
 INLINE void settle(double *turn, int n, int width) {
@@ -224,10 +231,7 @@ INLINE void settle(double *turn, int n, int width) {
         const double scale = fabs(square - 1.0) < ROUNDING ? 1.0 : 1.0 / sqrt(square);
         for (int k = 0; k < 4; k++)
             q[k * width] *= scale;
-        const double sign =
-            leading(q[0], q[width], q[2 * width], q[3 * width]) < 0.0 ? -1.0 : 1.0;
-        for (int k = 0; k < 4; k++)
-            q[k * width] *= sign;
+        canonical(q, width);
     }
 }
 
