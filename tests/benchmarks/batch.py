@@ -163,7 +163,7 @@ def threads() -> list[str]:
             of=min,
         )
         one, two = taken["one"] / MANY * 1e9, taken["two"] / MANY * 1e9
-        lines.append(row(f"  one thread of ours against two, depth 5, {order}", two, one, 1.5))
+        lines.append(row(f"  one thread of ours against two, depth 5, {order}", two, one, 1.8))
     return lines
 
 
