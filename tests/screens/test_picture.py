@@ -14,8 +14,7 @@ from tftool.cli.onscreen import simulator_of
 from tftool.nodes.idle_drawing import IdleDrawing
 from tftool.runtime.clock import Phase, SimClock, run
 from tftool.runtime.node import Node
-from tftool.scenario.actions import left_to_a_person
-from tftool.scenario.play import build
+from tftool.scenario.play import build, left_to_a_person
 from tftool.screens.scene import Scene
 from tftool.screens.setting import Setting
 from tftool.screens.terminal import TurtleApp
