@@ -414,7 +414,8 @@ def test_a_page_cannot_claim_to_have_drawn_what_it_never_got():
             (known,) = page.clients
             while known.skipped < 5:
                 await world.clock.sleep(seconds(0.002))
-            assert known.sent <= 3
+            # At most two that had left before its word came, and two more.
+            assert known.sent <= 4
 
     serve(test)
 
