@@ -167,11 +167,11 @@ def test_a_history_that_was_cleared_is_asked_about_as_a_new_one():
     for number in range(1, 101):
         history.insert(number * PERIOD, 0, pose(number))
     history.use_large_pages()
-    assert history.settled == 200
+    assert history.large_from == 200
 
     history.clear()
 
-    assert history.settled == History(10**18).settled
+    assert history.large_from == History(10**18).large_from
 
 
 def borrowed(let_go=None):

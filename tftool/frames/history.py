@@ -194,10 +194,10 @@ class History(Fields):
         count: How many records there are, pruned ones included.
         period: Nanoseconds from sample to sample, as last measured; where to look is guessed
             from it.
-        settled: With fewer records than this `use_large_pages` would do no good.
+        large_from: So many records are worth a call of `use_large_pages`.
     """
 
-    __slots__ = ("_compact_at", "_newest_parent_start", "parent", "period", "settled")
+    __slots__ = ("_compact_at", "_newest_parent_start", "large_from", "parent", "period")
 
     is_static: Literal[False] = False
 
@@ -226,7 +226,7 @@ class History(Fields):
         self._compact_at: int = _LEAST_SLACK
         # Where the newest samples that share a parent begin; of use while mixed.
         self._newest_parent_start: int = 0
-        self.settled: int = _MANY
+        self.large_from: int = _MANY
 
     def __len__(self) -> int:
         return self.count - self.start
@@ -679,7 +679,7 @@ class History(Fields):
         behind the room there is has an array grow again; not before the history is twice as
         long is it done again.
         """
-        self.settled = 2 * self.count
+        self.large_from = 2 * self.count
         records = self.records
         if not IS_NATIVE or not isinstance(records, array):
             return
